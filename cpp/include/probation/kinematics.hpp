@@ -1,0 +1,28 @@
+#pragma once
+// Kinematics of uniaxial, isochoric tension: stretch, true strain, Haward-Thackray strain.
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace probation {
+
+using Samples = Eigen::Ref<const Eigen::ArrayXd>;
+
+/// Haward-Thackray strain, e_HT = L^2 - 1/L with stretch L = exp(e).   Source: below eq. (3).
+inline double haward_thackray_strain(double true_strain) noexcept {
+  // expm1 keeps the digits near zero strain.
+  return std::expm1(2.0 * true_strain) - std::expm1(-true_strain);
+}
+
+/// d e_HT / d e = 2 L^2 + 1/L.
+inline double haward_thackray_slope(double true_strain) noexcept {
+  return 2.0 * std::exp(2.0 * true_strain) + std::exp(-true_strain);
+}
+
+/// Haward-Thackray strain, sample by sample.
+/// @param true_strain  e [-], uniaxial, isochoric; shape (n_times)
+/// @return             e_HT [-]; shape (n_times)
+/// @throws InputError  if a sample is not finite
+Eigen::ArrayXd haward_thackray_strain(const Samples& true_strain);
+
+}  // namespace probation
