@@ -9,4 +9,12 @@
 namespace py = pybind11;
 using namespace pybind11::literals;
 
+void bind_companion(py::module_& m);
 void bind_errors(py::module_& m);
+void bind_feedback(py::module_& m);
+void bind_history(py::module_& m);
+void bind_kinematics(py::module_& m);
+void bind_law(py::module_& m);
+void bind_ramp(py::module_& m);
+void bind_solver(py::module_& m);
+void bind_spectrum(py::module_& m);

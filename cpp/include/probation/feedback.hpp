@@ -1,0 +1,66 @@
+#pragma once
+// Feedbacks: the relaxation times or the hardening depend on what the specimen has become. Forms live in feedback/.
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "probation/dual.hpp"
+#include "probation/errors.hpp"
+
+namespace probation {
+
+/// What a feedback does at one instant: tau_max times e^log_relaxation_time, sigma^r times e^log_hardening.
+template <class Real>
+struct FeedbackShift {
+  Real log_relaxation_time{};
+  Real log_hardening{};
+};
+
+/// A law coefficient that follows the current stress and one memory, the plastic work w per volume:
+///
+///   w' = sigma (e' - sigma' / E_u) - loss_rate w.
+///
+/// With loss_rate 0 it is the plastic work [MPa]; with a positive one, the heat that is left of it.
+class Feedback {
+ public:
+  virtual ~Feedback() = default;
+
+  virtual std::size_t parameters() const noexcept = 0;
+  /// Shift at a stress [MPa] and memory [MPa]; `parameter` (if below parameters()) carries a slope of one.
+  virtual FeedbackShift<Dual> shift(Dual stress, Dual memory, std::size_t parameter) const = 0;
+  /// Loss rate of the memory [1/s].
+  virtual Dual loss_rate(std::size_t parameter) const = 0;
+
+  static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
+};
+
+/// A feedback from one formula. `Form` states, for Real = double or Dual,
+///   static constexpr std::size_t parameters;
+///   template <class Real> static FeedbackShift<Real> shift(const std::array<Real, parameters>&, Real stress, Real memory);
+///   template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
+template <class Form>
+class FormulaFeedback : public Feedback {
+ public:
+  using Values = std::array<double, Form::parameters>;
+
+  explicit FormulaFeedback(const Values& values) : values_(values) {}
+
+  std::size_t parameters() const noexcept override { return Form::parameters; }
+  FeedbackShift<Dual> shift(Dual stress, Dual memory, std::size_t parameter) const override {
+    return Form::shift(seeded(parameter), stress, memory);
+  }
+  Dual loss_rate(std::size_t parameter) const override { return Form::loss_rate(seeded(parameter)); }
+  const Values& values() const noexcept { return values_; }
+
+ private:
+  std::array<Dual, Form::parameters> seeded(std::size_t parameter) const {
+    std::array<Dual, Form::parameters> seeds;
+    for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = {values_[i], i == parameter ? 1.0 : 0.0};
+    return seeds;
+  }
+
+  Values values_;
+};
+
+}  // namespace probation

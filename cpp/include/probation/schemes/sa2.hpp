@@ -1,0 +1,17 @@
+#pragma once
+// SA2: exact exponential recursion under a forcing that is straight in (reduced) time. Order 2.
+
+#include "probation/schemes/forcing.hpp"
+
+namespace probation {
+
+/// Exact for piecewise-linear strain at constant tau_max but for the bend of e_HT within a step.
+template <class Real>
+PROBATION_INLINE StepForcing<Real> sa2_step(const StepData<Real>& s) {
+  const Real rise = s.true_strain.next - s.true_strain.here;
+  const Real stiff = s.constant_modulus ? s.unrelaxed_modulus.next * rise
+                                        : 0.5 * (s.unrelaxed_modulus.here + s.unrelaxed_modulus.next) * rise;
+  return {StepRule::exponential, trapezoid_reduced_time(s), stiff - (s.relaxed_stress.next - s.relaxed_stress.here), Real{}};
+}
+
+}  // namespace probation

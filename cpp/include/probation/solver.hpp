@@ -1,0 +1,62 @@
+#pragma once
+// The stress along a record, and its sensitivities, by any scheme.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "probation/history.hpp"
+#include "probation/law.hpp"
+#include "probation/schemes/cvode.hpp"
+#include "probation/schemes/forcing.hpp"
+
+namespace probation {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+enum class Scheme { be2, sa2, sa3, exact, cvode };
+
+struct SolverOptions {
+  Scheme scheme = Scheme::be2;
+  Start start = Start::exponential;  ///< bE2's first step, and the one after a jump
+  CvodeOptions cvode;
+};
+
+/// Solves the law along one history, again and again: its arrays are kept between calls. Not for two threads at once.
+class Solver {
+ public:
+  Solver(History history, SolverOptions options);
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  const History& history() const noexcept;
+
+  /// True stress [MPa] at the instants of the history; `stress` has shape (n_times).
+  /// @throws InputError        for a law or a change that is not possible
+  /// @throws ConvergenceError  if CVODE or a feedback's iteration fails, with the time
+  void stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress);
+
+  /// Stress and its derivatives [MPa per unit of the direction] along each direction; `derivatives` has shape
+  /// (n_times, directions). Only for be2, sa2 and sa3.
+  void tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
+               Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives);
+
+  /// What CVODE did in the last call.
+  const CvodeStatistics& cvode_statistics() const noexcept;
+
+ private:
+  struct Workspace;
+  History history_;
+  SolverOptions options_;
+  std::unique_ptr<Workspace> work_;
+};
+
+/// The directions of the law's parameters: E_u [MPa], tau_max [s] (or alpha), G [MPa].
+std::vector<Direction> parameter_directions(const Law& law, const LawChange& change, const History& history);
+
+/// d stress / d true_strain, lower triangular, [MPa]; shape (n_times, n_times). Rates that follow the strain (and
+/// tau_max with them) are included.
+RowMajorMatrix strain_sensitivity(Solver& solver, const Law& law, const LawChange& change);
+
+}  // namespace probation

@@ -1,0 +1,151 @@
+#include "probation/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "probation/errors.hpp"
+
+namespace probation {
+namespace {
+
+using Index = Eigen::Index;
+
+void require(bool good, const char* argument, Index sample, double found, const char* expected) {
+  if (good) return;
+  std::ostringstream message;
+  message << argument << "[" << sample << "] is " << found << "; " << expected;
+  throw InputError(message.str());
+}
+
+void require_finite(const Eigen::ArrayXd& values, const char* argument) {
+  for (Index i = 0; i < values.size(); ++i) require(std::isfinite(values[i]), argument, i, values[i], "a finite number is needed");
+}
+
+void require_length(Index found, Index expected, const char* argument) {
+  if (found == expected) return;
+  throw InputError(std::string(argument) + " has " + std::to_string(found) + " entries; " + std::to_string(expected) +
+                   " are needed to match time");
+}
+
+}  // namespace
+
+History::History(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
+                 const Eigen::ArrayXi& direction)
+    : time_(time), true_strain_(true_strain), strain_rate_(strain_rate), jumps_(std::move(jumps)), direction_(direction) {
+  const Index n = time_.size();
+  if (n < 2) throw InputError("time has " + std::to_string(n) + " samples; at least 2 are needed");
+  require_length(true_strain_.size(), n, "true_strain");
+  if (strain_rate_.size() > 0) require_length(strain_rate_.size(), n, "strain_rate");
+  if (direction_.size() > 0) require_length(direction_.size() + 1, n, "direction (plus one)");
+  require_finite(time_, "time");
+  require_finite(true_strain_, "true_strain");
+  require_finite(strain_rate_, "strain_rate");
+
+  step_ = time_.tail(n - 1) - time_.head(n - 1);
+  for (Index m = 0; m < steps(); ++m) require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
+  haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
+
+  fresh_.assign(static_cast<std::size_t>(steps()), 0);
+  fresh_[0] = 1;
+  std::sort(jumps_.begin(), jumps_.end());
+  for (const Index jump : jumps_) {
+    if (jump < 0 || jump >= n) throw InputError("jumps holds " + std::to_string(jump) + "; an index of time is needed");
+    if (jump < steps()) fresh_[static_cast<std::size_t>(jump)] = 1;
+  }
+
+  // Times read from a file or made by linspace are even to rounding only: relative to the largest time.
+  const double tolerance = 4e-16 * std::max(std::abs(time_[0]), std::abs(time_[n - 1]));
+  uniform_until_.resize(static_cast<std::size_t>(steps()));
+  for (Index m = 0; m < steps();) {
+    Index end = m + 1;
+    while (end < steps() && !fresh(end) && std::abs(step_[end] - step_[m]) <= 1e-10 * step_[m] + tolerance) ++end;
+    for (; m < end; ++m) uniform_until_[static_cast<std::size_t>(m)] = end;
+  }
+}
+
+History::Indices History::find_rate_jumps(const Samples& time, const Samples& true_strain) {
+  constexpr double least_change = 0.1, outstanding = 30.0;
+  constexpr Index nearest = 2, farthest = 5;
+  const Index n = time.size();
+  Indices jumps;
+  if (n < 3) return jumps;
+  const Eigen::ArrayXd secant =
+      (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
+  const auto change = [&](Index i) { return std::abs(secant[i] - secant[i - 1]); };
+  for (Index i = 1; i + 1 < n; ++i) {
+    if (!(change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1])))) continue;
+    // The third largest change around: one neighbouring jump (which may take two samples) must not hide this one.
+    std::vector<double> around;
+    for (Index distance = nearest; distance <= farthest; ++distance) {
+      if (i - distance >= 1) around.push_back(change(i - distance));
+      if (i + distance + 1 < n) around.push_back(change(i + distance));
+    }
+    std::sort(around.begin(), around.end(), std::greater<>());
+    const double usual = around.size() > 2 ? around[2] : 0.0;
+    if (change(i) > outstanding * usual) jumps.push_back(i);
+  }
+  return jumps;
+}
+
+StepRates History::differentiate(const Samples& values, Differentiator differentiator) const {
+  const Index steps = this->steps();
+  const Eigen::ArrayXd secant = (values.tail(steps) - values.head(steps)) / step_;
+  StepRates rates{secant, secant};
+  const auto starts = [&](Index m) { return m >= steps || fresh(m); };  // a segment ends where the next starts
+  // Slope of the parabola over steps m - 1 and m, at their common instant; and beyond it by half the bend.
+  const auto middle = [&](Index m) {
+    return (secant[m - 1] * step_[m] + secant[m] * step_[m - 1]) / (step_[m - 1] + step_[m]);
+  };
+  const auto at_end = [&](Index m) { return secant[m] + (secant[m] - secant[m - 1]) * step_[m] / (step_[m - 1] + step_[m]); };
+  const auto at_start = [&](Index m) { return secant[m] - (secant[m + 1] - secant[m]) * step_[m] / (step_[m] + step_[m + 1]); };
+
+  switch (differentiator) {
+    case Differentiator::secant:
+      break;
+    case Differentiator::backward:
+      for (Index m = 1; m < steps; ++m)
+        if (!fresh(m)) {
+          rates.end[m] = at_end(m);
+          rates.begin[m] = rates.end[m - 1];
+        }
+      break;
+    case Differentiator::three_point:
+      for (Index m = 0; m < steps; ++m) {
+        if (!fresh(m)) rates.begin[m] = middle(m);
+        else if (!starts(m + 1)) rates.begin[m] = at_start(m);
+        if (!starts(m + 1)) rates.end[m] = middle(m + 1);
+        else if (!fresh(m)) rates.end[m] = at_end(m);
+      }
+      break;
+  }
+  return rates;
+}
+
+StepRates History::rates(Differentiator differentiator) const {
+  if (!rate_given()) return differentiate(true_strain_, differentiator);
+  const Index steps = this->steps();
+  StepRates rates{strain_rate_.head(steps), strain_rate_.tail(steps)};
+  for (const Index jump : jumps_) {
+    if (jump == 0 || jump >= steps) continue;
+    // One sample cannot hold both sides of a jump: it stays with the nearer secant, the other side takes its own.
+    const double before = (true_strain_[jump] - true_strain_[jump - 1]) / step_[jump - 1];
+    const double after = (true_strain_[jump + 1] - true_strain_[jump]) / step_[jump];
+    const double given = strain_rate_[jump];
+    if (std::abs(given - before) <= std::abs(given - after)) rates.begin[jump] = after;
+    else rates.end[jump - 1] = before;
+  }
+  return rates;
+}
+
+double History::companion_rate(Index m, double rate, double floor) const {
+  const int direction = direction_.size() > 0 ? direction_[m] : 0;
+  return std::max(direction == 0 ? std::abs(rate) : direction * rate, floor);
+}
+
+double History::companion_rate_slope(Index m, double rate, double floor) const {
+  if (companion_rate(m, rate, floor) <= floor) return 0.0;
+  return rate < 0.0 ? -1.0 : 1.0;
+}
+
+}  // namespace probation

@@ -1,0 +1,235 @@
+// The modal recursion: blocks of modes in registers, time innermost. Compiled once per instruction set.
+
+#include "kernels.hpp"
+#include "vector.hpp"
+
+namespace probation::kernels::PROBATION_ISA {
+namespace {
+
+constexpr int largest_block = 7;  // vectors of four modes whose states fit the registers
+
+/// K vectors of modes, their coefficients fixed over the run.
+template <int K>
+struct Block {
+  Vector state[K], before[K];
+  Vector previous[K], earlier[K], forcing[K], curvature[K];
+};
+
+template <class Step>
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, int at, double scale, double ratio) {
+  StepCoefficients<Vector> c = Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
+  const Vector weight = load(modes.weight + at);
+  c.forcing *= weight;
+  c.curvature *= weight;
+  return c;
+}
+
+template <class Step, bool two_step, bool curved, int K>
+PROBATION_INLINE Vector advance(Block<K>& b, double forcing, double curvature) {
+  Vector total{};
+#pragma GCC unroll 8
+  for (int k = 0; k < K; ++k) {
+    Vector drive = b.forcing[k] * forcing;
+    if constexpr (curved) drive = b.curvature[k] * curvature + drive;
+    if constexpr (two_step) drive = b.earlier[k] * b.before[k] + drive;
+    const Vector next = b.previous[k] * b.state[k] + drive;
+    if constexpr (two_step) b.before[k] = b.state[k];
+    b.state[k] = next;
+    total += next;
+  }
+  return total;
+}
+
+template <class Step, bool two_step, bool curved, int K>
+void uniform_block(const Modes& modes, const Steps& steps, int at, double* stress) {
+  Block<K> b;
+  for (int k = 0; k < K; ++k) {
+    const int j = at + k * lanes;
+    const StepCoefficients<Vector> c = weighted<Step>(modes, j, steps.scale[0], steps.ratio[0]);
+    b.previous[k] = c.previous;
+    b.earlier[k] = c.before;
+    b.forcing[k] = c.forcing;
+    b.curvature[k] = c.curvature;
+    b.state[k] = load(modes.state + j);
+    b.before[k] = load(modes.before + j);
+  }
+  const double* u = steps.forcing;
+  const double* v = steps.curvature;
+  int n = 0;
+  Vector four[lanes];
+  for (; n + lanes <= steps.count; n += lanes) {
+#pragma GCC unroll 4
+    for (int i = 0; i < lanes; ++i) four[i] = advance<Step, two_step, curved>(b, u[n + i], curved ? v[n + i] : 0.0);
+    store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
+  }
+  for (; n < steps.count; ++n) stress[n] += sum(advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0));
+  for (int k = 0; k < K; ++k) {
+    store(modes.state + at + k * lanes, b.state[k]);
+    if constexpr (two_step) store(modes.before + at + k * lanes, b.before[k]);
+  }
+}
+
+template <class Step, bool two_step, bool curved>
+void uniform_run(const Modes& modes, const Steps& steps, double* stress) {
+  int at = 0;
+  for (int left = modes.padded / lanes; left > 0;) {
+    switch (left >= largest_block ? largest_block : left) {
+      case 7: uniform_block<Step, two_step, curved, 7>(modes, steps, at, stress); at += 7 * lanes; left -= 7; break;
+      case 6: uniform_block<Step, two_step, curved, 6>(modes, steps, at, stress); at += 6 * lanes; left -= 6; break;
+      case 5: uniform_block<Step, two_step, curved, 5>(modes, steps, at, stress); at += 5 * lanes; left -= 5; break;
+      case 4: uniform_block<Step, two_step, curved, 4>(modes, steps, at, stress); at += 4 * lanes; left -= 4; break;
+      case 3: uniform_block<Step, two_step, curved, 3>(modes, steps, at, stress); at += 3 * lanes; left -= 3; break;
+      case 2: uniform_block<Step, two_step, curved, 2>(modes, steps, at, stress); at += 2 * lanes; left -= 2; break;
+      default: uniform_block<Step, two_step, curved, 1>(modes, steps, at, stress); at += lanes; left -= 1; break;
+    }
+  }
+}
+
+/// One step of one vector of modes; the states z+ are returned, nothing is stored.
+template <class Step, bool two_step>
+PROBATION_INLINE Vector next_state(const Modes& modes, const Steps& steps, int n, int at) {
+  const StepCoefficients<Vector> c = weighted<Step>(modes, at, steps.scale[n], steps.ratio[n]);
+  Vector next = c.previous * load(modes.state + at) + c.forcing * steps.forcing[n];
+  if constexpr (two_step) next += c.before * load(modes.before + at);
+  if (steps.curvature) next += c.curvature * steps.curvature[n];
+  return next;
+}
+
+template <class Step, bool two_step>
+void variable_run(const Modes& modes, const Steps& steps, double* stress) {
+  for (int n = 0; n < steps.count; ++n) {
+    Vector total{};
+    for (int at = 0; at < modes.padded; at += lanes) {
+      const Vector next = next_state<Step, two_step>(modes, steps, n, at);
+      store(modes.before + at, load(modes.state + at));
+      store(modes.state + at, next);
+      total += next;
+    }
+    stress[n] += sum(total);
+  }
+}
+
+/// A one-step rule leaves `before` one instant behind `state` too, so that bE2 can go on from it.
+template <class Step, bool two_step>
+void run(const Modes& modes, const Steps& steps, double* stress) {
+  const int last = steps.count - 1;
+  if (!steps.uniform || last < 1) return variable_run<Step, two_step>(modes, steps, stress);
+  Steps most = steps;
+  most.count = two_step ? steps.count : last;
+  if (steps.curvature)
+    uniform_run<Step, two_step, true>(modes, most, stress);
+  else
+    uniform_run<Step, two_step, false>(modes, most, stress);
+  if constexpr (!two_step) {
+    const Steps one{steps.rule, 1, true, steps.scale, steps.ratio, steps.forcing + last,
+                    steps.curvature ? steps.curvature + last : nullptr};
+    variable_run<Step, two_step>(modes, one, stress + last);
+  }
+}
+
+void sweep(const Modes& modes, const Steps& steps, double* stress) {
+  switch (steps.rule) {
+    case StepRule::backward_euler: return run<BackwardEulerStep, false>(modes, steps, stress);
+    case StepRule::bdf2: return run<Bdf2Step, true>(modes, steps, stress);
+    case StepRule::exponential: return run<ExponentialStep, false>(modes, steps, stress);
+  }
+}
+
+/// Coefficients and their slopes for every mode, in scratch: previous, before, forcing, curvature, then the slopes.
+template <class Step>
+void tabulate(const Modes& modes, double scale, double ratio, double* scratch) {
+  const int m = modes.padded;
+  for (int at = 0; at < m; at += lanes) {
+    const Vector x = load(modes.inverse_ratio + at) * scale;
+    const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, ratio);
+    const StepCoefficients<Vector> d = Step::template log_slopes<Vector>(x, ratio);
+    const Vector rows[8] = {c.previous, c.before, c.forcing, c.curvature, d.previous, d.before, d.forcing, d.curvature};
+    for (int row = 0; row < 8; ++row) store(scratch + row * m + at, rows[row]);
+  }
+}
+
+PROBATION_INLINE Vector combine(const double* rows, int m, int at, Vector y, Vector before, double u, double v) {
+  return load(rows + at) * y + load(rows + m + at) * before + load(rows + 2 * m + at) * u + load(rows + 3 * m + at) * v;
+}
+
+template <class Step>
+void tangent_run(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions, int count,
+                 double* scratch) {
+  const int m = modes.padded;
+  const double* slopes = scratch + 4 * m;
+  double* by_log_scale = scratch + 8 * m;
+  for (int n = 0; n < steps.count; ++n) {
+    if (n == 0 || !steps.uniform) tabulate<Step>(modes, steps.scale[n], steps.ratio[n], scratch);
+    const double u = steps.forcing[n], v = steps.curvature ? steps.curvature[n] : 0.0;
+    Vector total{};
+    for (int at = 0; at < m; at += lanes) {
+      const Vector y = load(modes.state + at), before = load(modes.before + at);
+      const Vector next = combine(scratch, m, at, y, before, u, v);
+      store(by_log_scale + at, combine(slopes, m, at, y, before, u, v));
+      store(modes.before + at, y);
+      store(modes.state + at, next);
+      total += load(modes.weight + at) * next;
+    }
+    stress[n] += sum(total);
+
+    for (int k = 0; k < count; ++k) {
+      const TangentDirection& d = directions[k];
+      const double du = d.forcing ? d.forcing[n] : 0.0, dv = d.curvature ? d.curvature[n] : 0.0;
+      const double dx = d.log_scale ? d.log_scale[n] : 0.0;
+      Vector change{};
+      for (int at = 0; at < m; at += lanes) {
+        const Vector y = load(d.state + at);
+        const Vector dlnx = d.log_inverse ? load(d.log_inverse + at) + dx : Vector{} + dx;
+        const Vector next = combine(scratch, m, at, y, load(d.before + at), du, dv) + load(by_log_scale + at) * dlnx;
+        store(d.before + at, y);
+        store(d.state + at, next);
+        change += load(modes.weight + at) * next;
+        if (d.weight) change += load(d.weight + at) * load(modes.state + at);
+      }
+      d.stress[n] += sum(change);
+    }
+  }
+}
+
+void tangent(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions, int count,
+             double* scratch) {
+  switch (steps.rule) {
+    case StepRule::backward_euler: return tangent_run<BackwardEulerStep>(modes, steps, stress, directions, count, scratch);
+    case StepRule::bdf2: return tangent_run<Bdf2Step>(modes, steps, stress, directions, count, scratch);
+    case StepRule::exponential: return tangent_run<ExponentialStep>(modes, steps, stress, directions, count, scratch);
+  }
+}
+
+template <class Step>
+Trial try_step(const Modes& modes, const Steps& steps) {
+  const double u = steps.forcing[0], v = steps.curvature ? steps.curvature[0] : 0.0;
+  Vector stress{}, by_log_scale{}, by_forcing{}, by_curvature{};
+  for (int at = 0; at < modes.padded; at += lanes) {
+    const Vector x = load(modes.inverse_ratio + at) * steps.scale[0];
+    const Vector weight = load(modes.weight + at), z = load(modes.state + at), before = load(modes.before + at);
+    const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, steps.ratio[0]);
+    const StepCoefficients<Vector> d = Step::template log_slopes<Vector>(x, steps.ratio[0]);
+    stress += c.previous * z + c.before * before + weight * (c.forcing * u + c.curvature * v);
+    by_log_scale += d.previous * z + d.before * before + weight * (d.forcing * u + d.curvature * v);
+    by_forcing += weight * c.forcing;
+    by_curvature += weight * c.curvature;
+  }
+  return {sum(stress), sum(by_log_scale), sum(by_forcing), sum(by_curvature)};
+}
+
+Trial trial(const Modes& modes, const Steps& steps) {
+  switch (steps.rule) {
+    case StepRule::backward_euler: return try_step<BackwardEulerStep>(modes, steps);
+    case StepRule::bdf2: return try_step<Bdf2Step>(modes, steps);
+    case StepRule::exponential: return try_step<ExponentialStep>(modes, steps);
+  }
+  return {};
+}
+
+}  // namespace
+
+#define PROBATION_TEXT_OF(name) #name
+#define PROBATION_TEXT(name) PROBATION_TEXT_OF(name)
+const Kernels table{PROBATION_TEXT(PROBATION_ISA), sweep, tangent, trial};
+
+}  // namespace probation::kernels::PROBATION_ISA

@@ -1,0 +1,60 @@
+#include "probation/law.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "probation/errors.hpp"
+
+namespace probation {
+namespace {
+
+void require(double found, bool good, const char* parameter, const char* expected) {
+  if (good && std::isfinite(found)) return;
+  std::ostringstream message;
+  message << parameter << " is " << found << "; " << expected;
+  throw InputError(message.str());
+}
+
+void require_samples(const Eigen::ArrayXd& samples, Eigen::Index n_times, const char* name, bool positive) {
+  if (samples.size() > 1 && samples.size() != n_times)
+    throw InputError(std::string(name) + " has " + std::to_string(samples.size()) + " samples; 1 or " +
+                     std::to_string(n_times) + " are needed to match time");
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    if (std::isfinite(samples[i]) && (!positive || samples[i] > 0.0)) continue;
+    std::ostringstream message;
+    message << name << "[" << i << "] is " << samples[i] << "; " << (positive ? "a positive number" : "a finite number")
+            << " is needed";
+    throw InputError(message.str());
+  }
+}
+
+}  // namespace
+
+void Law::validate() const {
+  require(unrelaxed_modulus, unrelaxed_modulus >= 0.0, "unrelaxed_modulus", "a modulus in MPa, not negative, is needed");
+  require(hardening_modulus, hardening_modulus >= 0.0, "hardening_modulus", "a modulus in MPa, not negative, is needed");
+  if (companion) require(alpha, alpha > 0.0, "alpha", "a positive number is needed");
+  else require(tau_max, tau_max > 0.0, "tau_max", "a positive time in s is needed");
+  spectrum.validate();
+}
+
+void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {
+  require_samples(relaxation_time_factor, n_times, "relaxation_time_factor", true);
+  require_samples(unrelaxed_modulus_factor, n_times, "unrelaxed_modulus_factor", false);
+  require_samples(hardening_factor, n_times, "hardening_factor", false);
+  require_samples(added_relaxed_stress, n_times, "added_relaxed_stress", false);
+  require_samples(load_bearing_area, n_times, "load_bearing_area", true);
+  if (initial_modal_stress.size() != 0 && initial_modal_stress.size() != modes)
+    throw InputError("initial_modal_stress has " + std::to_string(initial_modal_stress.size()) + " entries; the spectrum has " +
+                     std::to_string(modes) + " modes");
+  if (!initial_modal_stress.allFinite()) throw InputError("initial_modal_stress has an entry that is not finite");
+  if (extra_modes.modulus.size() != extra_modes.relaxation_time.size())
+    throw InputError("extra_modes has " + std::to_string(extra_modes.modulus.size()) + " moduli and " +
+                     std::to_string(extra_modes.relaxation_time.size()) + " relaxation times; they must match");
+  require_samples(extra_modes.relaxation_time, extra_modes.relaxation_time.size(), "extra_modes.relaxation_time", true);
+  require_samples(extra_modes.modulus, extra_modes.modulus.size(), "extra_modes.modulus", false);
+  for (const auto& feedback : feedbacks)
+    if (!feedback) throw InputError("feedbacks holds an empty entry");
+}
+
+}  // namespace probation

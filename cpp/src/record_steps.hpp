@@ -1,0 +1,119 @@
+#pragma once
+// From the law and a history to the steps that a kernel takes: everything that is O(n_times), with or without a slope.
+
+#include <vector>
+
+#include "probation/history.hpp"
+#include "probation/law.hpp"
+#include "probation/schemes/be2.hpp"
+#include "probation/schemes/sa3.hpp"
+#include "probation/solver.hpp"
+#include "sampled.hpp"
+
+namespace probation {
+
+/// The inputs of eq. (6) along a record; vectors have n_times entries, or one that holds throughout.
+/// `fluidity_*` and `end_rate` belong to steps.
+template <class Real>
+struct RecordInputs {
+  std::vector<Real> true_strain, unrelaxed_modulus, relaxed_stress;
+  std::vector<Real> fluidity_begin, fluidity_end;  // 1 / tau_max at both ends of a step
+  std::vector<Real> end_rate;                      // empty: the scheme's own difference of the strain
+};
+
+/// Steps ready for a kernel, one entry each per step.
+template <class Real>
+struct RecordSteps {
+  std::vector<StepRule> rule;
+  std::vector<double> ratio;
+  std::vector<Real> scale, forcing, curvature;
+
+  void resize(std::size_t steps) {
+    rule.resize(steps);
+    ratio.resize(steps);
+    scale.resize(steps);
+    forcing.resize(steps);
+    curvature.resize(steps);
+  }
+};
+
+template <class Real>
+Real at(const std::vector<Real>& samples, Eigen::Index i) {
+  return samples[samples.size() == 1 ? 0 : static_cast<std::size_t>(i)];
+}
+
+/// What step m looks like to a scheme. `previous_*` are those of step m - 1.
+template <class Real>
+StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, Eigen::Index m, Real previous_scale,
+                         Real previous_forcing) {
+  StepData<Real> s{};
+  s.fresh = history.fresh(m);
+  s.h = history.step()[m];
+  s.ratio = history.ratio(m);
+  const Eigen::Index earlier = m > 0 ? m - 1 : 0;
+  s.true_strain = {at(in.true_strain, m + 1), at(in.true_strain, m), at(in.true_strain, earlier)};
+  s.unrelaxed_modulus = {at(in.unrelaxed_modulus, m + 1), at(in.unrelaxed_modulus, m), at(in.unrelaxed_modulus, earlier)};
+  s.relaxed_stress = {at(in.relaxed_stress, m + 1), at(in.relaxed_stress, m), at(in.relaxed_stress, earlier)};
+  s.fluidity = {at(in.fluidity_end, m), at(in.fluidity_begin, m), at(in.fluidity_begin, earlier)};
+  s.constant_modulus = in.unrelaxed_modulus.size() == 1;
+  s.constant_fluidity = in.fluidity_end.size() == 1;
+  if (!in.end_rate.empty()) {
+    s.end_rate = at(in.end_rate, m);
+  } else {
+    const Real rise = s.true_strain.next - s.true_strain.here;
+    s.end_rate = rise / s.h;
+    if (!s.fresh) {
+      const Bdf2Difference difference(s.ratio);
+      s.end_rate = (difference.next * s.true_strain.next + difference.here * s.true_strain.here +
+                    difference.before * s.true_strain.before) / s.h;
+    }
+  }
+  s.previous_scale = previous_scale;
+  s.previous_forcing = previous_forcing;
+  return s;
+}
+
+template <class Real>
+StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>& s) {
+  switch (scheme) {
+    case Scheme::sa2: return sa2_step(s);
+    case Scheme::sa3: return sa3_step(s);
+    default: return be2_step(s, start);
+  }
+}
+
+template <class Real>
+void form_steps(Scheme scheme, Start start, const History& history, const RecordInputs<Real>& in, RecordSteps<Real>& out) {
+  const Eigen::Index steps = history.steps();
+  out.resize(static_cast<std::size_t>(steps));
+  StepForcing<Real> previous{};
+  for (Eigen::Index m = 0; m < steps; ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    previous = step_forcing(scheme, start, step_data(history, in, m, previous.scale, previous.forcing));
+    out.rule[i] = previous.rule;
+    out.ratio[i] = history.ratio(m);
+    out.scale[i] = previous.scale;
+    out.forcing[i] = previous.forcing;
+    out.curvature[i] = previous.curvature;
+  }
+}
+
+/// The inputs that the law, changed by an effect, gives along a history.
+void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme, RecordInputs<double>& out);
+
+/// The same with their slopes along a direction.
+void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
+                 const RecordInputs<double>& base, const Direction& direction, RecordInputs<Dual>& out);
+
+/// Inputs of the extra modes: unit modulus, no relaxed stress, unit fluidity (their times are their own).
+template <class Real>
+void extra_inputs(const RecordInputs<Real>& base, RecordInputs<Real>& out) {
+  out.true_strain = base.true_strain;
+  out.end_rate = base.end_rate;
+  out.unrelaxed_modulus.assign(1, Real(1.0));
+  out.relaxed_stress.assign(1, Real(0.0));
+  out.fluidity_begin.assign(1, Real(1.0));
+  out.fluidity_end.assign(1, Real(1.0));
+}
+
+}  // namespace probation

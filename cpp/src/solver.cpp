@@ -1,0 +1,290 @@
+#include "probation/solver.hpp"
+
+#include <algorithm>
+
+#include "coupled.hpp"
+#include "kernels/kernels.hpp"
+#include "modal_group.hpp"
+#include "probation/errors.hpp"
+#include "probation/schemes/exact.hpp"
+#include "record_steps.hpp"
+
+namespace probation {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
+template <class Take>
+void for_each_run(const History& history, const std::vector<StepRule>& rule, bool constant_scale, Take take) {
+  constexpr Index shortest_uniform = 8;
+  const Index steps = history.steps();
+  const auto rule_of = [&](Index m) { return rule[static_cast<std::size_t>(m)]; };
+  const auto uniform_from = [&](Index m) {
+    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9)) return Index{0};
+    const Index end = m + history.uniform_run(m);
+    Index last = m + 1;
+    while (last < end && rule_of(last) == rule_of(m)) ++last;
+    return last - m;
+  };
+  for (Index m = 0; m < steps;) {
+    const Index uniform = uniform_from(m);
+    if (uniform >= shortest_uniform) {
+      take(m, uniform, true);
+      m += uniform;
+      continue;
+    }
+    Index end = m + 1;
+    while (end < steps && rule_of(end) == rule_of(m) && uniform_from(end) < shortest_uniform) ++end;
+    take(m, end - m, false);
+    m = end;
+  }
+}
+
+kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index count, bool uniform) {
+  const auto i = static_cast<std::size_t>(first);
+  const bool curved = steps.rule[i] == StepRule::exponential;
+  return {steps.rule[i], static_cast<int>(count), uniform, &steps.scale[i], &steps.ratio[i], &steps.forcing[i],
+          curved ? &steps.curvature[i] : nullptr};
+}
+
+}  // namespace
+
+struct Solver::Workspace {
+  RecordInputs<double> inputs, extra_in;
+  RecordSteps<double> steps, extra_steps;
+  RecordInputs<Dual> dual_inputs, dual_extra;
+  RecordSteps<Dual> dual_steps;
+  ModalGroup main, extra;
+  CvodeStatistics cvode;
+
+  void prepare(const Law& law, const LawChange& change, const History& history, const SolverOptions& options) {
+    law.validate();
+    change.validate(history.size(), law.spectrum.modes());
+    form_inputs(law, change, history, options.scheme, inputs);
+    main.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
+    if (change.initial_modal_stress.size() > 0)
+      main.state.head(law.spectrum.modes()) =
+          change.initial_modal_stress - law.spectrum.modal_weight * inputs.relaxed_stress[0];
+    extra.set(change.extra_modes.relaxation_time, change.extra_modes.modulus);
+  }
+};
+
+Solver::Solver(History history, SolverOptions options)
+    : history_(std::move(history)), options_(options), work_(std::make_unique<Workspace>()) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+const History& Solver::history() const noexcept { return history_; }
+const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_->cvode; }
+
+void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
+  if (stress.size() != history_.size())
+    throw InputError("out has " + std::to_string(stress.size()) + " entries; " + std::to_string(history_.size()) + " are needed");
+  if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
+  if (options_.scheme == Scheme::cvode) {
+    work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
+    return;
+  }
+  Workspace& w = *work_;
+  w.prepare(law, change, history_, options_);
+  if (!change.feedbacks.empty()) {
+    CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
+    coupled.solve(w.inputs, {}, stress, nullptr);
+    return;
+  }
+
+  const kernels::Kernels& kernel = kernels::best();
+  stress.setZero();
+  stress[0] = w.main.state.sum();
+  const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
+    form_steps(options_.scheme, options_.start, history_, inputs, steps);
+    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
+      kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
+    });
+  };
+  sweep(w.main, w.inputs, w.steps);
+  if (!w.extra.empty()) {
+    extra_inputs(w.inputs, w.extra_in);
+    sweep(w.extra, w.extra_in, w.extra_steps);
+  }
+  const Sampled area(change.load_bearing_area, 1.0);
+  const double total_weight = law.spectrum.modal_weight.sum();
+  for (Index i = 0; i < history_.size(); ++i)
+    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+}
+
+namespace {
+
+/// One direction's states and outputs while a tangent is swept.
+struct TangentState {
+  Eigen::ArrayXd state, before, log_inverse, weight, stress;
+  std::vector<double> forcing, curvature, log_scale;
+
+  void take(const RecordSteps<Dual>& steps) {
+    const std::size_t n = steps.scale.size();
+    forcing.resize(n);
+    curvature.resize(n);
+    log_scale.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      forcing[i] = steps.forcing[i].slope;
+      curvature[i] = steps.curvature[i].slope;
+      log_scale[i] = steps.scale[i].slope / steps.scale[i].value;
+    }
+  }
+  kernels::TangentDirection view(Index first) {
+    const auto i = static_cast<std::size_t>(first);
+    return {&forcing[i], &curvature[i], &log_scale[i], log_inverse.size() ? log_inverse.data() : nullptr,
+            weight.size() ? weight.data() : nullptr, state.data(), before.data(), stress.data() + first + 1};
+  }
+};
+
+/// `samples` (one per mode, or none) padded for the kernels.
+Eigen::ArrayXd padded(const Eigen::ArrayXd& samples, Index modes, Index length, const char* name) {
+  if (samples.size() == 0) return {};
+  if (samples.size() != modes)
+    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " entries; there are " +
+                     std::to_string(modes) + " modes");
+  Eigen::ArrayXd full = Eigen::ArrayXd::Zero(length);
+  full.head(modes) = samples;
+  return full;
+}
+
+/// From z_j = p_j y_j to the unit-weight state y_j of the tangent kernel.
+void to_unit_weight(ModalGroup& group) {
+  for (Index j = 0; j < group.padded(); ++j) {
+    if (group.weight[j] != 0.0) group.state[j] /= group.weight[j];
+    else if (group.state[j] != 0.0)
+      throw InputError("initial_modal_stress[" + std::to_string(j) + "] is not relaxed in a mode of weight 0; no tangent there");
+  }
+}
+
+}  // namespace
+
+void Solver::tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
+                     Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives) {
+  const Index n = history_.size(), count = static_cast<Index>(directions.size());
+  if (stress.size() != n || derivatives.rows() != n || derivatives.cols() != count)
+    throw InputError("out does not have the shape (n_times) and (n_times, directions)");
+  if (options_.scheme == Scheme::exact || options_.scheme == Scheme::cvode)
+    throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
+  Workspace& w = *work_;
+  w.prepare(law, change, history_, options_);
+  if (!change.feedbacks.empty()) {
+    CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
+    coupled.solve(w.inputs, directions, stress, &derivatives);
+    return;
+  }
+
+  const kernels::Kernels& kernel = kernels::best();
+  const Index modes = law.spectrum.modes();
+  const double relaxed_start = w.inputs.relaxed_stress[0];
+  stress.setZero();
+  derivatives.setZero();
+  stress[0] = w.main.state.sum();
+  to_unit_weight(w.main);
+
+  std::vector<TangentState> tangents(directions.size());
+  const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
+    form_steps(options_.scheme, options_.start, history_, inputs, steps);
+    Eigen::ArrayXd scratch(9 * group.padded());
+    std::vector<kernels::TangentDirection> views(directions.size());
+    bool constant = inputs.fluidity_end.size() == 1;
+    for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+      for (std::size_t k = 0; k < views.size(); ++k) views[k] = tangents[k].view(first);
+      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1, views.data(),
+                     static_cast<int>(count), scratch.data());
+    });
+  };
+
+  std::vector<Eigen::ArrayXd> relaxed_slope(directions.size());
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Direction& direction = directions[k];
+    TangentState& t = tangents[k];
+    form_inputs(law, change, history_, options_.scheme, w.inputs, direction, w.dual_inputs);
+    form_steps(options_.scheme, options_.start, history_, w.dual_inputs, w.dual_steps);
+    t.take(w.dual_steps);
+    relaxed_slope[k].resize(n);
+    for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+    t.state.setZero(w.main.padded());
+    t.before.setZero(w.main.padded());
+    t.stress.setZero(n);
+    t.weight = padded(direction.modal_weight, modes, w.main.padded(), "modal_weight");
+    t.log_inverse = -padded(direction.log_relaxation_ratio, modes, w.main.padded(), "log_relaxation_ratio");
+    const Eigen::ArrayXd start = padded(direction.initial_modal_stress, modes, w.main.padded(), "initial_modal_stress");
+    if (change.initial_modal_stress.size() > 0 || start.size() > 0) {
+      // y_j(0) = sigma_j(0) / p_j - sigma^r(0)
+      for (Index j = 0; j < modes; ++j) {
+        const double p = w.main.weight[j], dp = t.weight.size() ? t.weight[j] : 0.0;
+        if (p == 0.0) continue;
+        t.state[j] = ((start.size() ? start[j] : 0.0) - (w.main.state[j] + relaxed_start) * dp) / p - relaxed_slope[k][0];
+      }
+      t.stress[0] = (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
+    }
+  }
+  sweep(w.main, w.inputs, w.steps);
+
+  if (!w.extra.empty()) {
+    extra_inputs(w.inputs, w.extra_in);
+    const Index extras = change.extra_modes.modulus.size();
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      TangentState& t = tangents[k];
+      form_inputs(law, change, history_, options_.scheme, w.inputs, directions[k], w.dual_inputs);
+      extra_inputs(w.dual_inputs, w.dual_extra);
+      form_steps(options_.scheme, options_.start, history_, w.dual_extra, w.dual_steps);
+      t.take(w.dual_steps);
+      t.state.setZero(w.extra.padded());
+      t.before.setZero(w.extra.padded());
+      t.weight = padded(directions[k].extra_modulus, extras, w.extra.padded(), "extra_modulus");
+      t.log_inverse = -padded(directions[k].log_extra_time, extras, w.extra.padded(), "log_extra_time");
+    }
+    sweep(w.extra, w.extra_in, w.extra_steps);
+  }
+
+  const Sampled area(change.load_bearing_area, 1.0);
+  const double total_weight = law.spectrum.modal_weight.sum();
+  for (Index i = 0; i < n; ++i)
+    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Sampled log_area(directions[k].log_load_bearing_area, 0.0);
+    const double d_weight = directions[k].modal_weight.sum();
+    for (Index i = 0; i < n; ++i) {
+      const double relaxed = w.inputs.relaxed_stress[static_cast<std::size_t>(i)];
+      derivatives(i, static_cast<Index>(k)) =
+          area[i] * (tangents[k].stress[i] + total_weight * relaxed_slope[k][i] + d_weight * relaxed) + stress[i] * log_area[i];
+    }
+  }
+}
+
+std::vector<Direction> parameter_directions(const Law& law, const LawChange& change, const History& history) {
+  std::vector<Direction> directions(3);
+  directions[0].unrelaxed_modulus =
+      change.unrelaxed_modulus_factor.size() > 0 ? change.unrelaxed_modulus_factor : Eigen::ArrayXd::Ones(1);
+  directions[1].log_relaxation_time = Eigen::ArrayXd::Constant(1, 1.0 / (law.companion ? law.alpha : law.tau_max));
+  const Sampled factor(change.hardening_factor, 1.0);
+  directions[2].relaxed_stress = history.haward_thackray_strain();
+  for (Index i = 0; i < history.size(); ++i) directions[2].relaxed_stress[i] *= factor[i];
+  return directions;
+}
+
+RowMajorMatrix strain_sensitivity(Solver& solver, const Law& law, const LawChange& change) {
+  constexpr Index block = 16;
+  const Index n = solver.history().size();
+  RowMajorMatrix matrix = RowMajorMatrix::Zero(n, n);
+  Eigen::ArrayXd stress(n);
+  for (Index first = 0; first < n; first += block) {
+    const Index count = std::min(block, n - first);
+    std::vector<Direction> directions(static_cast<std::size_t>(count));
+    for (Index k = 0; k < count; ++k) {
+      directions[static_cast<std::size_t>(k)].true_strain = Eigen::ArrayXd::Zero(n);
+      directions[static_cast<std::size_t>(k)].true_strain[first + k] = 1.0;
+    }
+    RowMajorMatrix columns(n, count);
+    solver.tangent(law, change, directions, stress, columns);
+    matrix.middleCols(first, count) = columns;
+  }
+  return matrix;
+}
+
+}  // namespace probation

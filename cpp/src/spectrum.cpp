@@ -1,0 +1,36 @@
+#include "probation/spectrum.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "probation/errors.hpp"
+
+namespace probation {
+
+Spectrum Spectrum::log_spaced(int modes, double decades) {
+  if (modes < 1) throw InputError("modes is " + std::to_string(modes) + "; at least 1 is needed");
+  if (!(decades > 0.0) || !std::isfinite(decades))
+    throw InputError("decades is " + std::to_string(decades) + "; a positive number is needed");
+
+  Spectrum spectrum{Eigen::ArrayXd(modes), Eigen::ArrayXd(modes)};
+  for (int j = 1; j <= modes; ++j) {
+    const double distance = modes == 1 ? 0.0 : static_cast<double>(modes - j) / (modes - 1);
+    spectrum.relaxation_ratio[j - 1] = std::pow(10.0, -distance * decades);  // eq. (4)
+  }
+  spectrum.modal_weight = spectrum.relaxation_ratio.sqrt();  // eq. (5)
+  spectrum.modal_weight /= spectrum.modal_weight.sum();
+  return spectrum;
+}
+
+void Spectrum::validate() const {
+  if (modes() == 0) throw InputError("the spectrum has no modes");
+  if (modal_weight.size() != modes())
+    throw InputError("modal_weight has " + std::to_string(modal_weight.size()) + " entries, relaxation_ratio " +
+                     std::to_string(modes()) + "; they must match");
+  if (!relaxation_ratio.allFinite() || !(relaxation_ratio > 0.0).all())
+    throw InputError("relaxation_ratio has an entry that is not a positive number");
+  if (!modal_weight.allFinite() || !(modal_weight >= 0.0).all())
+    throw InputError("modal_weight has an entry that is negative or not finite");
+}
+
+}  // namespace probation

@@ -1,0 +1,31 @@
+#include "bindings.hpp"
+#include "probation/history.hpp"
+
+using probation::Differentiator;
+using probation::History;
+
+void bind_history(py::module_& m) {
+  py::enum_<Differentiator>(m, "Differentiator")
+      .value("secant", Differentiator::secant)
+      .value("backward", Differentiator::backward)
+      .value("three_point", Differentiator::three_point);
+  py::class_<History>(m, "History")
+      .def(py::init<const probation::Samples&, const probation::Samples&, const probation::Samples&, History::Indices,
+                    const Eigen::ArrayXi&>(),
+           "time"_a, "true_strain"_a, "strain_rate"_a = Eigen::ArrayXd(), "jumps"_a = History::Indices(),
+           "direction"_a = Eigen::ArrayXi())
+      .def_static("find_rate_jumps", &History::find_rate_jumps, "time"_a, "true_strain"_a)
+      .def_property_readonly("time", &History::time)
+      .def_property_readonly("true_strain", &History::true_strain)
+      .def_property_readonly("strain_rate", &History::strain_rate)
+      .def_property_readonly("haward_thackray_strain", &History::haward_thackray_strain)
+      .def_property_readonly("jumps", &History::jumps)
+      .def(
+          "rates",
+          [](const History& history, Differentiator differentiator) {
+            const probation::StepRates rates = history.rates(differentiator);
+            return py::make_tuple(rates.begin, rates.end);
+          },
+          "differentiator"_a)
+      .def("__len__", &History::size);
+}
