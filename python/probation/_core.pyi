@@ -1,5 +1,13 @@
 """Types of the compiled module; a test keeps them true."""
 
+from typing import ClassVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+_Signs = NDArray[np.int32]
+
 __version__: str
 
 class InputError(ValueError): ...
@@ -7,3 +15,193 @@ class InputError(ValueError): ...
 class ConvergenceError(RuntimeError):
     time: float
     residual_norm: float
+
+def haward_thackray_strain(true_strain: _Array) -> _Array: ...
+def ramp_stress(law: Law, strain_rate: float, time: _Array) -> _Array: ...
+def parameter_directions(law: Law, change: LawChange, history: History) -> list[Direction]: ...
+
+class Spectrum:
+    def __init__(self, relaxation_ratio: _Array, modal_weight: _Array) -> None: ...
+    @staticmethod
+    def log_spaced(modes: int = 50, decades: float = 6.0) -> Spectrum: ...
+    @property
+    def relaxation_ratio(self) -> _Array: ...
+    @property
+    def modal_weight(self) -> _Array: ...
+    @property
+    def modes(self) -> int: ...
+
+class CompanionRelation:
+    @overload
+    def relaxation_time(self, rate: float) -> float: ...
+    @overload
+    def relaxation_time(self, rate: _Array) -> _Array: ...
+    @overload
+    def log_slope(self, rate: float) -> float: ...
+    @overload
+    def log_slope(self, rate: _Array) -> _Array: ...
+    @property
+    def rate_floor(self) -> float: ...
+
+class Weissenberg(CompanionRelation):
+    def __init__(self, slope: float, intercept: float, rate_floor: float = 1e-7) -> None: ...
+    @property
+    def slope(self) -> float: ...
+    @property
+    def intercept(self) -> float: ...
+
+class Exponential(CompanionRelation):
+    def __init__(self, coefficient: float, exponent: float, rate_floor: float = 1e-7) -> None: ...
+    @property
+    def coefficient(self) -> float: ...
+    @property
+    def exponent(self) -> float: ...
+
+class PowerLaw(CompanionRelation):
+    def __init__(self, coefficient: float, exponent: float, rate_floor: float = 1e-7) -> None: ...
+    @property
+    def coefficient(self) -> float: ...
+    @property
+    def exponent(self) -> float: ...
+
+class Table(CompanionRelation):
+    def __init__(self, rates: list[float], tau_max: list[float], rate_floor: float = 1e-7) -> None: ...
+    @property
+    def rates(self) -> list[float]: ...
+    @property
+    def tau_max(self) -> list[float]: ...
+
+class Feedback:
+    @property
+    def parameters(self) -> int: ...
+
+class StressActivation(Feedback):
+    def __init__(self, activation_stress: float) -> None: ...
+
+class SelfHeating(Feedback):
+    def __init__(self, heating: float, cooling_rate: float, softening: float, hardening_loss: float) -> None: ...
+
+class Differentiator:
+    secant: ClassVar[Differentiator]
+    backward: ClassVar[Differentiator]
+    three_point: ClassVar[Differentiator]
+
+class History:
+    def __init__(
+        self,
+        time: _Array,
+        true_strain: _Array,
+        strain_rate: _Array = ...,
+        jumps: list[int] = ...,
+        direction: _Signs = ...,
+    ) -> None: ...
+    @staticmethod
+    def find_rate_jumps(time: _Array, true_strain: _Array) -> list[int]: ...
+    @property
+    def time(self) -> _Array: ...
+    @property
+    def true_strain(self) -> _Array: ...
+    @property
+    def strain_rate(self) -> _Array: ...
+    @property
+    def haward_thackray_strain(self) -> _Array: ...
+    @property
+    def jumps(self) -> list[int]: ...
+    def rates(self, differentiator: Differentiator) -> tuple[_Array, _Array]: ...
+    def __len__(self) -> int: ...
+
+class Law:
+    def __init__(
+        self,
+        unrelaxed_modulus: float,
+        hardening_modulus: float,
+        tau_max: float,
+        alpha: float,
+        companion: CompanionRelation | None,
+        spectrum: Spectrum,
+    ) -> None: ...
+    @property
+    def unrelaxed_modulus(self) -> float: ...
+    @property
+    def hardening_modulus(self) -> float: ...
+    @property
+    def tau_max(self) -> float: ...
+    @property
+    def alpha(self) -> float: ...
+    @property
+    def spectrum(self) -> Spectrum: ...
+
+class LawChange:
+    def __init__(self) -> None: ...
+    relaxation_time_factor: _Array
+    unrelaxed_modulus_factor: _Array
+    hardening_factor: _Array
+    added_relaxed_stress: _Array
+    load_bearing_area: _Array
+    initial_modal_stress: _Array
+    extra_modulus: _Array
+    extra_relaxation_time: _Array
+    feedbacks: list[Feedback]
+
+class Direction:
+    def __init__(self) -> None: ...
+    unrelaxed_modulus: _Array
+    log_relaxation_time: _Array
+    relaxed_stress: _Array
+    log_load_bearing_area: _Array
+    true_strain: _Array
+    strain_rate: _Array
+    modal_weight: _Array
+    log_relaxation_ratio: _Array
+    initial_modal_stress: _Array
+    extra_modulus: _Array
+    log_extra_time: _Array
+    feedback: int
+    feedback_parameter: int
+
+class Scheme:
+    be2: ClassVar[Scheme]
+    sa2: ClassVar[Scheme]
+    sa3: ClassVar[Scheme]
+    exact: ClassVar[Scheme]
+    cvode: ClassVar[Scheme]
+
+class Start:
+    exponential: ClassVar[Start]
+    backward_euler: ClassVar[Start]
+
+class CvodeStatistics:
+    @property
+    def steps(self) -> int: ...
+    @property
+    def rate_evaluations(self) -> int: ...
+    @property
+    def error_test_failures(self) -> int: ...
+    @property
+    def nonlinear_iterations(self) -> int: ...
+    @property
+    def nonlinear_failures(self) -> int: ...
+    @property
+    def restarts(self) -> int: ...
+    @property
+    def last_order(self) -> int: ...
+
+class Solver:
+    def __init__(
+        self,
+        history: History,
+        scheme: Scheme = ...,
+        start: Start = ...,
+        relative_tolerance: float = 1e-10,
+        absolute_tolerance: float = 1e-10,
+        max_steps: int = 200000,
+    ) -> None: ...
+    @property
+    def history(self) -> History: ...
+    def stress(self, law: Law, change: LawChange, out: _Array) -> None: ...
+    def tangent(
+        self, law: Law, change: LawChange, directions: list[Direction], stress: _Array, derivatives: _Array
+    ) -> None: ...
+    def strain_sensitivity(self, law: Law, change: LawChange) -> _Array: ...
+    @property
+    def cvode_statistics(self) -> CvodeStatistics: ...

@@ -1,0 +1,79 @@
+"""The only place where shapes and dtypes are checked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+
+def as_samples(values: ArrayLike, name: str, length: int | None = None) -> FloatArray:
+    """`values` as a contiguous, finite, one-dimensional array of float64.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what was found and what was expected.
+    """
+    try:
+        samples = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} is not an array of numbers: {error}") from None
+    if samples.ndim != 1 or np.ndim(values) == 0:
+        raise InputError(f"{name} has the shape {np.shape(values)}; expected (n_times,)")
+    if length is not None and len(samples) != length:
+        raise InputError(f"{name} has {len(samples)} samples; expected {length}, as in time")
+    if not np.isfinite(samples).all():
+        first = int(np.flatnonzero(~np.isfinite(samples))[0])
+        raise InputError(f"{name}[{first}] is {samples[first]}; a finite number is needed")
+    return samples
+
+
+def as_number(value: object, name: str) -> float:
+    """`value` as a float.
+
+    Raises
+    ------
+    InputError
+        If it is not a real number.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        raise InputError(f"{name} is {value!r}; a number is needed")
+    return float(value)
+
+
+def one_of(value: str, name: str, choices: Sequence[str]) -> str:
+    """`value` if it is among the `choices`.
+
+    Raises
+    ------
+    InputError
+        Listing the choices.
+    """
+    if value not in choices:
+        raise InputError(f"{name} is {value!r}; expected one of {', '.join(choices)}")
+    return value
+
+
+def as_output(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
+    """`out` if the engine can write to it as it is, a new array if it is None.
+
+    Raises
+    ------
+    InputError
+        If it has another shape or dtype, is not contiguous, or not writeable.
+    """
+    if out is None:
+        return np.empty(shape)
+    fits = isinstance(out, np.ndarray) and out.shape == shape and out.dtype == np.float64
+    if not (fits and out.flags.c_contiguous and out.flags.writeable):
+        raise InputError(f"out must be a writeable, contiguous float64 array of shape {shape}")
+    return out
