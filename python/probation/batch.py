@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +34,7 @@ class Observed:
 
     history: _core.History
     true_stress: ArrayLike
-    change: Change = Change()
+    change: Change = field(default_factory=Change)
 
     def _engine(self) -> _core.BatchRecord:
         stress = as_samples(self.true_stress, "true_stress", len(self.history))
