@@ -44,10 +44,9 @@ lint: $(VENV)/.engine-tests $(VENV)/.lint  ## ruff, mypy, clang-format, clang-ti
 	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/mypy
 	@$(BIN)/clang-format --dry-run -Werror $(CPP_FILES)
-	@$(BIN)/run-clang-tidy.py -quiet -p build/editable -clang-tidy-binary $(BIN)/clang-tidy \
-	    -extra-arg=-Wno-ignored-optimization-argument -extra-arg=-Wno-unknown-warning-option \
-	    '^$(CURDIR)/(cpp|python/bindings|tests/cpp|bench/cpp)/' >build/clang-tidy.log 2>&1 || \
-	    { grep -E -A4 '(warning|error):' build/clang-tidy.log || tail build/clang-tidy.log; exit 1; }
+	@printf '%s\n' $(filter-out bench/%,$(filter %.cpp,$(CPP_FILES))) | xargs -P "$$(nproc)" -n 1 \
+	    $(BIN)/clang-tidy -p build/editable --quiet --extra-arg=-Wno-ignored-optimization-argument \
+	    >build/clang-tidy.log 2>&1 || { grep -E -A4 '(warning|error):' build/clang-tidy.log; exit 1; }
 	@echo "lint: clean"
 
 format: $(VENV)/.lint  ## rewrite the sources as lint wants them
@@ -74,7 +73,7 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the addre
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel
 	@$(PIP) wheel --no-deps --wheel-dir build/wheel .
-	@$(BIN)/auditwheel show build/wheel/*.whl | tee build/wheel/auditwheel.txt
+	@$(BIN)/auditwheel -v show build/wheel/*.whl 2>/dev/null | tee build/wheel/auditwheel.txt
 	@grep -q 'manylinux_[0-9_]*' build/wheel/auditwheel.txt || { echo "wheel: not a manylinux wheel" >&2; exit 1; }
 	@tr '\n' ' ' <build/wheel/auditwheel.txt | grep -q 'requires no external shared libraries' || \
 	    { echo "wheel: needs a library that does not come with it" >&2; exit 1; }

@@ -1,8 +1,8 @@
 #pragma once
 // SUNDIALS 6.4 to 7.x seen as one: what differs between them, owners for its handles, and silence.
 //
-// The same in both and therefore not here: sunrealtype, sunindextype, int as the type of every return flag (7.x calls
-// it SUNErrCode), CVode..., CVDiag..., N_V..., SUNLinSol... and SUNMat... functions.
+// The same in both and therefore not here: sunrealtype, sunindextype, int as the type of every return flag
+// (7.x calls it SUNErrCode), CVode..., CVDiag..., N_V..., SUNLinSol... and SUNMat... functions.
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>

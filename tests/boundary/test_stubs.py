@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import os
 import re
 import subprocess
 import sys
@@ -81,12 +82,14 @@ def public_members(module: object) -> list[tuple[str, object]]:
 
 
 def test_every_public_name_is_in_the_stub_and_back():
-    nodes = ast.parse(STUB.read_text(encoding="utf-8")).body
-    stubbed = {node.name for node in nodes if isinstance(node, ast.ClassDef | ast.FunctionDef)}
-    stubbed |= {
-        node.target.id for node in nodes if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)
-    }
-    assert {name for name in stubbed if not name.startswith("_")} == {name for name, _ in public_members(_core)}
+    stubbed = set()
+    for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ClassDef | ast.FunctionDef):
+            stubbed.add(node.name)
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            stubbed.add(node.target.id)
+    compiled = {name for name, _ in public_members(_core)}
+    assert {name for name in stubbed if not name.startswith("_")} == compiled
 
 
 def test_arguments_have_the_names_that_the_stub_gives_them():
@@ -103,12 +106,15 @@ def test_mypy_finds_the_stub_true():
     run = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "probation._core", "--concise", "--ignore-disjoint-bases"],
         cwd=ROOT,
-        env={"MYPYPATH": str(ROOT / "python"), **__import__("os").environ},
+        env={**os.environ, "MYPYPATH": str(ROOT / "python")},
         capture_output=True,
         text=True,
         check=False,
     )
-    assert run.returncode == 0, run.stdout + run.stderr
+    said = (run.stdout + run.stderr).splitlines()
+    # Every class of pybind11 has a metaclass that no stub can name.
+    said = [line for line in said if line.strip() and not line.endswith("is inconsistent, metaclass differs")]
+    assert not said, "\n".join(said)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,8 @@ TEST_CASE("the slope is the derivative") {
   // 2 L^2 + 1/L at L = 2: 8.5.
   CHECK(haward_thackray_slope(std::log(2.0)) == doctest::Approx(8.5).epsilon(1e-15));
   const double step = 1e-6;
-  const double difference = (haward_thackray_strain(0.7 + step) - haward_thackray_strain(0.7 - step)) / (2 * step);
+  const double difference =
+      (haward_thackray_strain(0.7 + step) - haward_thackray_strain(0.7 - step)) / (2 * step);
   CHECK(haward_thackray_slope(0.7) == doctest::Approx(difference).epsilon(1e-9));
 }
 
@@ -38,7 +39,8 @@ TEST_CASE("samples are taken one by one") {
 }
 
 TEST_CASE("a sample that is not finite is the caller's mistake") {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Eigen::ArrayXd strain = Eigen::Array2d(0.1, bad);
     CHECK_THROWS_AS(haward_thackray_strain(strain), probation::InputError);
   }

@@ -14,7 +14,9 @@ int decay(sunrealtype /*time*/, N_Vector state, N_Vector rate, void* /*user_data
   return 0;
 }
 
-int refuse(sunrealtype /*time*/, N_Vector /*state*/, N_Vector /*rate*/, void* /*user_data*/) noexcept { return -1; }
+int refuse(sunrealtype /*time*/, N_Vector /*state*/, N_Vector /*rate*/, void* /*user_data*/) noexcept {
+  return -1;
+}
 
 struct Solver {
   explicit Solver(CVRhsFn rate) {
