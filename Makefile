@@ -77,7 +77,7 @@ wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it need
 	@grep -q 'manylinux_[0-9_]*' build/wheel/auditwheel.txt || { echo "wheel: not a manylinux wheel" >&2; exit 1; }
 	@tr '\n' ' ' <build/wheel/auditwheel.txt | grep -q 'requires no external shared libraries' || \
 	    { echo "wheel: needs a library that does not come with it" >&2; exit 1; }
-	@$(BIN)/auditwheel repair --wheel-dir dist build/wheel/*.whl >build/wheel/repair.txt 2>&1 || \
+	@PATH="$(BIN):$$PATH" $(BIN)/auditwheel repair --wheel-dir dist build/wheel/*.whl >build/wheel/repair.txt 2>&1 || \
 	    { cat build/wheel/repair.txt; exit 1; }
 	@$(BIN)/python -m venv build/wheel/venv
 	@build/wheel/venv/bin/python -m pip --disable-pip-version-check --quiet install dist/*.whl
