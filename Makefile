@@ -20,8 +20,8 @@ requirements = $(BIN)/python -c 'import sys, tomllib; \
     extras = project["project"]["optional-dependencies"] | {"build": project["build-system"]["requires"]}; \
     print(*extras["$(1)"], sep="\n")' | $(PIP) install -r /dev/stdin
 # $(call engine,CPP_TESTS,EXTRAS): build the extension and install the package, which stays editable.
-engine = $(PIP) install --no-build-isolation -C cmake.define.PROBATION_CPP_TESTS=$(1) \
-    -C cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
+engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROBATION_CPP_TESTS=$(1) \
+    --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test bench lint format sanitize wheel clean
