@@ -1,0 +1,1 @@
+"""Records: what laboratories measured, read into MPa, seconds and true strain."""
