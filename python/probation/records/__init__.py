@@ -1,1 +1,16 @@
 """Records: what laboratories measured, read into MPa, seconds and true strain."""
+
+from probation.records.profiles import PROFILES
+from probation.records.reading import read_record, read_records
+from probation.records.record import Noise, Record
+from probation.records.strain_history import StrainHistory, read_strain_history
+
+__all__ = [
+    "PROFILES",
+    "Noise",
+    "Record",
+    "StrainHistory",
+    "read_record",
+    "read_records",
+    "read_strain_history",
+]
