@@ -1,6 +1,7 @@
 """Records: what laboratories measured, read into MPa, seconds and true strain."""
 
 from probation.records.campaign import Campaign
+from probation.records.preview import Preview, preview
 from probation.records.profiles import PROFILES
 from probation.records.reading import read_record, read_records
 from probation.records.record import Noise, Record
@@ -13,8 +14,10 @@ __all__ = [
     "CompanionSettings",
     "LawSettings",
     "Noise",
+    "Preview",
     "Record",
     "StrainHistory",
+    "preview",
     "read_record",
     "read_records",
     "read_strain_history",
