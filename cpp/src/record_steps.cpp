@@ -1,5 +1,8 @@
 #include "record_steps.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "probation/errors.hpp"
 
 namespace probation {
@@ -40,6 +43,58 @@ class CompanionTimes {
 };
 
 }  // namespace
+
+void form_constant_steps(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
+                         RecordSteps<double>& out) {
+  const Index n = history.size(), steps = history.steps();
+  out.resize(static_cast<std::size_t>(steps));
+  Eigen::ArrayXd integral = in.unrelaxed_modulus[0] * history.true_strain();
+  if (in.relaxed_stress.size() > 1) integral -= Eigen::Map<const Eigen::ArrayXd>(in.relaxed_stress.data(), n);
+  const double* f = integral.data();
+  const double fluidity = in.fluidity_end[0];
+  for (Index m = 0; m < steps;) {
+    const auto i = static_cast<std::size_t>(m);
+    const double h = history.step()[m], ratio = history.ratio(m);
+    const bool fresh = history.fresh(m), bdf2 = scheme == Scheme::be2 && !fresh && ratio < bdf2_largest_step_ratio;
+    const bool euler = scheme == Scheme::be2 && !bdf2 && start == Start::backward_euler;
+    out.rule[i] = bdf2 ? StepRule::bdf2 : euler ? StepRule::backward_euler : StepRule::exponential;
+    out.ratio[i] = ratio;
+    out.scale[i] = h * fluidity;
+    out.curvature[i] = 0.0;
+    if (bdf2) {
+      out.forcing[i] = Bdf2Difference(ratio)(f[m + 1], f[m], f[m - 1]);
+    } else {
+      out.forcing[i] = f[m + 1] - f[m];
+      if (euler && !fresh) {
+        // The rate is the three-point difference even where a long step restarts the scheme.
+        const Eigen::ArrayXd& e = history.true_strain();
+        const double rise = e[m + 1] - e[m];
+        out.forcing[i] += in.unrelaxed_modulus[0] * (Bdf2Difference(ratio)(e[m + 1], e[m], e[m - 1]) - rise);
+      }
+      if (scheme == Scheme::sa3 && !fresh)
+        out.curvature[i] = ratio / (1.0 + ratio) * (out.forcing[i] - ratio * out.forcing[i - 1]);
+    }
+    // The rest of an even stretch, in loops that vectorise.
+    const Index end = m + history.uniform_run(m);
+    ++m;
+    if (m >= end || std::abs(history.ratio(m) - 1.0) > 1e-9) continue;
+    const auto first = static_cast<std::size_t>(m), last = static_cast<std::size_t>(end);
+    std::fill(out.rule.begin() + first, out.rule.begin() + last, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
+    std::fill(out.ratio.begin() + first, out.ratio.begin() + last, 1.0);
+    std::fill(out.scale.begin() + first, out.scale.begin() + last, h * fluidity);
+    double* forcing = out.forcing.data();
+    double* curvature = out.curvature.data();
+    if (scheme == Scheme::be2) {
+      for (Index k = m; k < end; ++k) forcing[k] = 1.5 * f[k + 1] - 2.0 * f[k] + 0.5 * f[k - 1];
+    } else {
+      for (Index k = m; k < end; ++k) forcing[k] = f[k + 1] - f[k];
+      if (scheme == Scheme::sa3)
+        for (Index k = m; k < end; ++k) curvature[k] = 0.5 * (f[k + 1] - 2.0 * f[k] + f[k - 1]);
+    }
+    if (scheme != Scheme::sa3) std::fill(out.curvature.begin() + first, out.curvature.begin() + last, 0.0);
+    m = end;
+  }
+}
 
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme, RecordInputs<double>& out) {
   const Index n = history.size(), steps = history.steps();

@@ -51,8 +51,8 @@ kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index
 }  // namespace
 
 struct Solver::Workspace {
-  RecordInputs<double> inputs, extra_in;
-  RecordSteps<double> steps, extra_steps;
+  RecordInputs<double> inputs, extra_in, slope_inputs;
+  RecordSteps<double> steps, extra_steps, slope_steps;
   RecordInputs<Dual> dual_inputs, dual_extra;
   RecordSteps<Dual> dual_steps;
   ModalGroup main, extra;
@@ -133,9 +133,24 @@ struct TangentState {
       log_scale[i] = steps.scale[i].slope / steps.scale[i].value;
     }
   }
+  /// A direction in which the steps are linear: their forcing for the inputs' own slopes.
+  void take_linear(const RecordSteps<double>& steps) {
+    forcing = steps.forcing;
+    curvature = steps.curvature;
+    log_scale.clear();
+  }
+  /// Whether the direction is a solve of its own: nothing of it multiplies the state of the base solve.
+  bool linear() const { return log_scale.empty() && log_inverse.size() == 0 && weight.size() == 0; }
+  /// All times change by one factor: no forcing does, for any scheme.
+  void take_time_shift(std::size_t steps, double log_time) {
+    forcing.clear();
+    curvature.clear();
+    log_scale.assign(steps, -log_time);
+  }
   kernels::TangentDirection view(Index first) {
     const auto i = static_cast<std::size_t>(first);
-    return {&forcing[i], &curvature[i], &log_scale[i], log_inverse.size() ? log_inverse.data() : nullptr,
+    const auto from = [i](const std::vector<double>& samples) { return samples.empty() ? nullptr : &samples[i]; };
+    return {from(forcing), from(curvature), from(log_scale), log_inverse.size() ? log_inverse.data() : nullptr,
             weight.size() ? weight.data() : nullptr, state.data(), before.data(), stress.data() + first + 1};
   }
 };
@@ -149,6 +164,15 @@ Eigen::ArrayXd padded(const Eigen::ArrayXd& samples, Index modes, Index length, 
   Eigen::ArrayXd full = Eigen::ArrayXd::Zero(length);
   full.head(modes) = samples;
   return full;
+}
+
+/// `samples` (n, 1 or none) as inputs of a record; none is zero.
+void assign(const Eigen::ArrayXd& samples, Index n, const char* name, std::vector<double>& to) {
+  if (samples.size() > 1 && samples.size() != n)
+    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " samples; 1 or " +
+                     std::to_string(n) + " are needed");
+  if (samples.size() == 0) to.assign(1, 0.0);
+  else to.assign(samples.data(), samples.data() + samples.size());
 }
 
 /// From z_j = p_j y_j to the unit-weight state y_j of the tangent kernel.
@@ -188,25 +212,52 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   std::vector<TangentState> tangents(directions.size());
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
+    const bool constant = inputs.fluidity_end.size() == 1;
     Eigen::ArrayXd scratch(9 * group.padded());
-    std::vector<kernels::TangentDirection> views(directions.size());
-    bool constant = inputs.fluidity_end.size() == 1;
+    std::vector<kernels::TangentDirection> views;
     for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
-      for (std::size_t k = 0; k < views.size(); ++k) views[k] = tangents[k].view(first);
+      views.clear();
+      for (TangentState& t : tangents)
+        if (!t.linear()) views.push_back(t.view(first));
       kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1, views.data(),
-                     static_cast<int>(count), scratch.data());
+                     static_cast<int>(views.size()), scratch.data());
     });
+    for (TangentState& t : tangents) {
+      if (!t.linear()) continue;
+      ModalGroup alone = group;
+      alone.state = t.state * group.weight;
+      alone.before.setZero();
+      for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+        kernels::Steps linear = kernel_steps(steps, first, run, uniform);
+        linear.forcing = &t.forcing[static_cast<std::size_t>(first)];
+        if (linear.curvature) linear.curvature = &t.curvature[static_cast<std::size_t>(first)];
+        kernel.sweep(alone.view(), linear, t.stress.data() + first + 1);
+      });
+    }
   };
 
   std::vector<Eigen::ArrayXd> relaxed_slope(directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Direction& direction = directions[k];
     TangentState& t = tangents[k];
-    form_inputs(law, change, history_, options_.scheme, w.inputs, direction, w.dual_inputs);
-    form_steps(options_.scheme, options_.start, history_, w.dual_inputs, w.dual_steps);
-    t.take(w.dual_steps);
-    relaxed_slope[k].resize(n);
-    for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+    relaxed_slope[k].setZero(n);
+    const bool strained = direction.true_strain.size() > 0 || direction.strain_rate.size() > 0;
+    if (!strained && direction.log_relaxation_time.size() == 0) {
+      w.slope_inputs = w.inputs;
+      assign(direction.unrelaxed_modulus, n, "unrelaxed_modulus", w.slope_inputs.unrelaxed_modulus);
+      assign(direction.relaxed_stress, n, "relaxed_stress", w.slope_inputs.relaxed_stress);
+      for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = at(w.slope_inputs.relaxed_stress, i);
+      form_steps(options_.scheme, options_.start, history_, w.slope_inputs, w.slope_steps);
+      t.take_linear(w.slope_steps);
+    } else if (!strained && direction.log_relaxation_time.size() == 1 && direction.unrelaxed_modulus.size() == 0 &&
+               direction.relaxed_stress.size() == 0) {
+      t.take_time_shift(static_cast<std::size_t>(history_.steps()), direction.log_relaxation_time[0]);
+    } else {
+      form_inputs(law, change, history_, options_.scheme, w.inputs, direction, w.dual_inputs);
+      form_steps(options_.scheme, options_.start, history_, w.dual_inputs, w.dual_steps);
+      t.take(w.dual_steps);
+      for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+    }
     t.state.setZero(w.main.padded());
     t.before.setZero(w.main.padded());
     t.stress.setZero(n);

@@ -1,4 +1,5 @@
-// errors.hpp -> InputError (also a ValueError), ConvergenceError (also a RuntimeError) with .time, .residual_norm.
+// errors.hpp -> InputError (also a ValueError), ConvergenceError (also a RuntimeError) with .time,
+// .residual_norm.
 
 #include "bindings.hpp"
 #include "probation/errors.hpp"

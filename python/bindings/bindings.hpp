@@ -9,7 +9,9 @@
 namespace py = pybind11;
 using namespace pybind11::literals;
 
+void bind_batch(py::module_& m);
 void bind_companion(py::module_& m);
+void bind_creep(py::module_& m);
 void bind_errors(py::module_& m);
 void bind_feedback(py::module_& m);
 void bind_history(py::module_& m);

@@ -12,4 +12,6 @@ PYBIND11_MODULE(_core, m) {
   bind_law(m);
   bind_ramp(m);
   bind_solver(m);
+  bind_creep(m);
+  bind_batch(m);
 }

@@ -19,6 +19,29 @@ class ConvergenceError(RuntimeError):
 def haward_thackray_strain(true_strain: _Array) -> _Array: ...
 def ramp_stress(law: Law, strain_rate: float, time: _Array) -> _Array: ...
 def parameter_directions(law: Law, change: LawChange, history: History) -> list[Direction]: ...
+def creep_strain(
+    law: Law, change: LawChange, time: _Array, true_stress: _Array, jumps: list[int], start: Start
+) -> _Array: ...
+def batch_stress(
+    law: Law,
+    parameters: _Array,
+    history: History,
+    change: LawChange,
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
+def batch_sum_of_squares(
+    law: Law,
+    parameters: _Array,
+    records: list[BatchRecord],
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
+def normal_equations(
+    solver: Solver, law: Law, change: LawChange, true_stress: _Array
+) -> tuple[_Array, _Array, float]: ...
 
 class Spectrum:
     def __init__(self, relaxation_ratio: _Array, modal_weight: _Array) -> None: ...
@@ -205,3 +228,9 @@ class Solver:
     def strain_sensitivity(self, law: Law, change: LawChange) -> _Array: ...
     @property
     def cvode_statistics(self) -> CvodeStatistics: ...
+
+class SolverOptions:
+    def __init__(self, scheme: Scheme = ..., start: Start = ...) -> None: ...
+
+class BatchRecord:
+    def __init__(self, history: History, true_stress: _Array, change: LawChange) -> None: ...

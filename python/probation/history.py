@@ -52,16 +52,17 @@ def make_history(
         signs = np.sign(as_samples(direction, "direction")).astype(np.int32)
         if len(signs) != len(times) - 1:
             raise InputError(f"direction has {len(signs)} entries; expected one per step, {len(times) - 1}")
-    return _core.History(times, strains, rates, _jump_indices(jumps, times, strains), signs)
+    return _core.History(times, strains, rates, jump_indices(jumps, times, strains), signs)
 
 
-def _jump_indices(jumps: ArrayLike | Jumps | None, time: FloatArray, true_strain: FloatArray) -> list[int]:
+def jump_indices(jumps: ArrayLike | Jumps | None, time: FloatArray, samples: FloatArray) -> list[int]:
+    """Indices of the instants at which the rate of the samples jumps; `jumps` as in `make_history`."""
     if jumps is None:
         return []
     if isinstance(jumps, str):
         if jumps != "auto":
             raise InputError(f"jumps is {jumps!r}; expected 'auto', None or times in s")
-        return _core.History.find_rate_jumps(time, true_strain)
+        return _core.History.find_rate_jumps(time, samples)
     instants = as_samples(jumps, "jumps")
     if instants.size and (instants.min() < time[0] or instants.max() > time[-1]):
         raise InputError(f"jumps holds a time outside the record, {time[0]} to {time[-1]} s")

@@ -1,0 +1,141 @@
+"""Many solves at once: over parameter sets and over records, on several threads, with small outputs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+from probation._arrays import FloatArray, as_output, as_samples, one_of
+from probation.change import Change
+from probation.errors import InputError
+from probation.law import SCHEMES, Law, Scheme, Start, make_solver
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Observed:
+    """A measured record, ready to be held against many laws.
+
+    Parameters
+    ----------
+    history : History
+        From `probation.history.make_history`.
+    true_stress : array_like, shape (n_times,) [MPa]
+    change : Change
+        What an effect changes in the law along this record.
+    """
+
+    history: _core.History
+    true_stress: ArrayLike
+    change: Change = field(default_factory=Change)
+
+    def _engine(self) -> _core.BatchRecord:
+        stress = as_samples(self.true_stress, "true_stress", len(self.history))
+        return _core.BatchRecord(self.history, stress, self.change._engine())
+
+
+def stresses(
+    law: Law,
+    parameters: ArrayLike,
+    history: _core.History,
+    scheme: Scheme = "be2",
+    *,
+    change: Change | None = None,
+    start: Start = "exponential",
+    threads: int = 0,
+    out: FloatArray | None = None,
+) -> FloatArray:
+    """True stress of many parameter sets along one history.
+
+    Parameters
+    ----------
+    law : Law
+        Gives the spectrum and the companion relation.
+    parameters : array_like, shape (sets, 3)
+        E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
+    history : History
+        From `probation.history.make_history`.
+    threads : int
+        0: all cores.
+    out : ndarray, shape (sets, n_times), optional
+        Where to write the stresses.
+
+    Returns
+    -------
+    ndarray, shape (sets, n_times) [MPa]
+    """
+    sets = _as_parameters(parameters)
+    found = as_output(out, (len(sets), len(history)))
+    engine_change = (change or Change())._engine()
+    _core.batch_stress(law.engine, sets, history, engine_change, _options(scheme, start), threads, found)
+    return found
+
+
+def sums_of_squares(
+    law: Law,
+    parameters: ArrayLike,
+    records: Sequence[Observed],
+    scheme: Scheme = "be2",
+    *,
+    start: Start = "exponential",
+    threads: int = 0,
+    out: FloatArray | None = None,
+) -> FloatArray:
+    """Sum of squared fit residuals of many parameter sets on many records; no stress is kept.
+
+    Parameters
+    ----------
+    law, parameters, scheme, start, threads
+        As in `stresses`.
+    records : sequence of Observed
+    out : ndarray, shape (sets, records), optional
+
+    Returns
+    -------
+    ndarray, shape (sets, records) [MPa^2]
+    """
+    sets = _as_parameters(parameters)
+    found = as_output(out, (len(sets), len(records)))
+    engine_records = [record._engine() for record in records]
+    _core.batch_sum_of_squares(law.engine, sets, engine_records, _options(scheme, start), threads, found)
+    return found
+
+
+def normal_equations(
+    law: Law, record: Observed, scheme: Scheme = "be2", *, start: Start = "exponential"
+) -> tuple[FloatArray, FloatArray, float]:
+    """J^T J, J^T r and r^T r of the fit residual (model - data) along the law's parameters.
+
+    Returns
+    -------
+    matrix : ndarray, shape (3, 3)
+    gradient : ndarray, shape (3,)
+    sum_of_squares : float [MPa^2]
+    """
+    solver = make_solver(record.history, scheme, start)
+    stress = as_samples(record.true_stress, "true_stress", len(record.history))
+    return _core.normal_equations(solver, law.engine, record.change._engine(), stress)
+
+
+def _as_parameters(parameters: ArrayLike) -> FloatArray:
+    sets = np.ascontiguousarray(parameters, dtype=np.float64)
+    if sets.ndim != 2 or sets.shape[1] != 3:
+        raise InputError(f"parameters has the shape {sets.shape}; expected (sets, 3)")
+    if not np.isfinite(sets).all():
+        row = int(np.flatnonzero(~np.isfinite(sets).all(axis=1))[0])
+        raise InputError(f"parameters[{row}] has an entry that is not finite")
+    return sets
+
+
+def _options(scheme: Scheme, start: Start) -> _core.SolverOptions:
+    return _core.SolverOptions(
+        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
+        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+    )

@@ -1,0 +1,73 @@
+"""A specimen's table to a record."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation.records.conversions import true_stress_from
+from probation.records.extraction import dimension, dimension_warning, extract
+from probation.records.options import ReadOptions
+from probation.records.profiles import Reading
+from probation.records.record import Noise, Record
+from probation.records.roles import OPTIONAL_ROLES, STRESS_ROLES
+from probation.records.source import Source
+from probation.records.table import Table
+
+FloatArray = NDArray[np.float64]
+
+_RELAXED_START = 0.02  # share of the largest strain that the first sample may already have
+
+
+def assemble(
+    source: Source,
+    profile: str,
+    reading: Reading,
+    table: Table,
+    options: ReadOptions,
+    *,
+    record_id: str,
+    control: str = "other",
+    role: str = "identify",
+    noise: Noise | None = None,
+) -> Record:
+    """Turn the columns of one specimen into a record.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong, by file, row and column.
+    """
+    found = extract(table, reading, options)
+    measure = next(name for name in STRESS_ROLES if name in found.samples)
+    area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
+    return Record(
+        id=record_id,
+        time=found.samples["time"],
+        true_strain=found.true_strain,
+        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area),
+        **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
+        control=control,
+        role=role,
+        noise=noise or Noise(),
+        file=source.path,
+        sha256=source.sha256,
+        warnings=(
+            *found.warnings,
+            *dimension_warning(reading, options, "area_mm2", area),
+            *_volume_warning(measure),
+            *_start_warning(found.true_strain),
+        ),
+        profile=profile,
+    )
+
+
+def _volume_warning(measure: str) -> tuple[str, ...]:
+    if measure == "true_stress":
+        return ()
+    return (f"true stress made from {measure.replace('_', ' ')} by constant volume",)
+
+
+def _start_warning(true_strain: FloatArray) -> tuple[str, ...]:
+    first, largest = float(true_strain[0]), float(np.abs(true_strain).max())
+    if abs(first) <= _RELAXED_START * largest:
+        return ()
+    return (f"the record starts at true strain {first:.4g}: the law takes that state as relaxed",)

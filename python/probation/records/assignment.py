@@ -1,0 +1,134 @@
+"""Which column plays which role: what the user said, else what the profile knows, else the headings."""
+
+from collections.abc import Mapping
+
+from probation.errors import InputError
+from probation.records.complaint import bad_input, likely, listed, quoted
+from probation.records.options import ReadOptions
+from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, normalised, role_of
+from probation.records.table import Column, Table
+
+
+def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = True) -> dict[str, Column]:
+    """Give each role its column: time, one strain, one stress, and the optional ones there are.
+
+    Where a file offers several strains (or stresses), the truest is taken. Without stress, only time and
+    a strain are asked for.
+
+    Raises
+    ------
+    InputError
+        If a column named does not exist or exists twice, or a quantity has no column.
+    """
+    named = {role: _find(table, label) for role, label in options.columns.items()}
+    implied = _from_labels(table, table.roles) if table.roles else _from_headings(table)
+    assigned: dict[str, Column] = {}
+    for group in (("time",), STRAIN_ROLES, STRESS_ROLES)[: 3 if with_stress else 2]:
+        role = next((r for r in group if r in named), None) or next((r for r in group if r in implied), None)
+        if role is None:
+            raise _nothing_for(table, group)
+        assigned[role] = named.get(role) or implied[role]
+    for role in OPTIONAL_ROLES:
+        if column := named.get(role) or implied.get(role):
+            assigned[role] = column
+    for role in options.units:
+        if role not in assigned:
+            raise InputError(
+                f"{table.path}: units: found a unit for {quoted(role)}, expected one of {listed(assigned)}, "
+                "which are read from this file"
+            )
+    return assigned
+
+
+def _from_labels(table: Table, roles: Mapping[str, str]) -> dict[str, Column]:
+    return {role: _find(table, label) for role, label in roles.items()}
+
+
+def _from_headings(table: Table) -> dict[str, Column]:
+    implied: dict[str, Column] = {}
+    for column in table.columns:
+        role = role_of(column.name)
+        if role in implied:
+            raise bad_input(
+                table.path,
+                f"a second column for {role}, beside {quoted(implied[role].label)}",
+                "one",
+                row=table.header_row,
+                column=column.label,
+                remedy=f"choose by position: columns = {{ {role} = {column.position + 1} }}",
+            )
+        if role is not None:
+            implied[role] = column
+    return implied
+
+
+def _find(table: Table, label: str | int) -> Column:
+    """Find the column of that heading (with or without its unit, in any case) or position."""
+    if isinstance(label, int):
+        for column in table.columns:
+            if column.position == label - 1:
+                return column
+        positions = f"{table.columns[0].position + 1} to {table.columns[-1].position + 1}"
+        raise bad_input(
+            table.path, f"column position {label}", f"a position from {positions}", row=table.header_row
+        )
+    wanted = " ".join(label.split())
+    for matches in (
+        [column for column in table.columns if column.label == wanted],
+        [column for column in table.columns if column.name == wanted],
+        [column for column in table.columns if normalised(column.label) == normalised(wanted)],
+    ):
+        if len(matches) == 1:
+            return matches[0]
+        if matches:
+            positions = " and ".join(str(column.position + 1) for column in matches)
+            raise bad_input(
+                table.path,
+                f"{len(matches)} columns headed {quoted(label)} (positions {positions})",
+                "one",
+                row=table.header_row,
+                remedy="choose by position instead of heading",
+            )
+    raise bad_input(
+        table.path,
+        f"no column {quoted(label)}",
+        f"one of {listed(column.label for column in table.columns)}",
+        row=table.header_row,
+        remedy=likely(label, [column.label for column in table.columns]),
+    )
+
+
+def _nothing_for(table: Table, group: tuple[str, ...]) -> InputError:
+    """Complain that a quantity has no column, and point at the likeliest slip."""
+    quantity = {"time": "time", "true_strain": "strain", "true_stress": "stress"}[group[0]]
+    if table.header_row is None:
+        return bad_input(
+            table.path,
+            f"{len(table.columns)} columns without headings",
+            "headings such as time_s,true_strain,true_stress_MPa",
+            row=table.row_numbers[0],
+            remedy="add them, or name columns by position: columns = { time = 1, true_strain = 2, … }",
+        )
+    labels = [column.label for column in table.columns]
+    vague = [column.label for column in table.columns if normalised(column.name) == quantity]
+    remedy = (
+        f"{quoted(vague[0])} may be true or engineering: say which, columns = {{ true_{quantity} = … }}"
+        if vague
+        else _likeliest_slip(labels, group)
+    )
+    return bad_input(
+        table.path,
+        f"no {quantity} column among {listed(labels, 'and')}",
+        listed(group),
+        row=table.header_row,
+        remedy=remedy,
+    )
+
+
+def _likeliest_slip(labels: list[str], group: tuple[str, ...]) -> str:
+    headings = {heading for role in group for heading in ROLES[role].headings if len(heading) > 1}
+    for label in labels:
+        hint = likely(normalised(label), sorted(headings))
+        if hint and role_of(label) is None:
+            return f"{hint[:-1]} where it says {quoted(label)}? Or name it: columns = {{ {group[0]} = … }}"
+    return f"name it: columns = {{ {group[0]} = … }}"

@@ -1,0 +1,186 @@
+"""campaign.toml to settings and records; everything wrong in it is named by its row."""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from probation.errors import InputError
+from probation.records.complaint import bad_input, quoted, suggestion
+from probation.records.encoding import decode
+from probation.records.options import SPECIMEN_KEYS
+from probation.records.profiles import PROFILES
+from probation.records.reading import read_record
+from probation.records.record import CONTROLS, RECORD_ROLES, Noise, Record
+from probation.records.roles import ROLES
+from probation.records.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
+from probation.records.temperatures import with_temperature
+from probation.records.toml_table import TomlTable
+
+FILE_NAME = "campaign.toml"
+_RECORD_KEYS = (
+    "id",
+    "file",
+    "control",
+    "role",
+    "columns",
+    "units",
+    "profile",
+    "specimen",
+    "specimen_index",
+    "sheet",
+    "noise",
+    "temperature_file",
+)
+
+
+@dataclass(frozen=True)
+class CampaignFile:
+    """What a campaign.toml says, its records read."""
+
+    name: str
+    path: Path
+    sha256: str
+    law: LawSettings
+    records: tuple[Record, ...]
+
+
+def load_campaign_file(path: Path) -> CampaignFile:
+    """Read a campaign.toml and every record that it names.
+
+    Parameters
+    ----------
+    path : Path
+        The file, or the folder it stands in.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong in the campaign or in one of its files.
+    """
+    path = _campaign_path(path)
+    try:
+        data = path.read_bytes()
+    except OSError as failure:
+        raise InputError(f"{path}: cannot be read: {failure.strerror}") from None
+    top = TomlTable.load(path, decode(path, data)[0])
+    top.only(("name", "law", "record"))
+    law = _law(top.table("law"))
+    entries = list(top.tables("record"))
+    if not entries:
+        raise bad_input(path, "no records", "at least one", remedy="add a [[record]] with id and file")
+    _check_ids(entries)
+    records = tuple(_record(path.parent, entry) for entry in entries)
+    if not any(record.role == "identify" for record in records):
+        raise bad_input(path, "held-out records only", 'at least one record with role = "identify"')
+    return CampaignFile(
+        name=top.text("name", default=path.resolve().parent.name or "campaign"),
+        path=path,
+        sha256=hashlib.sha256(data).hexdigest(),
+        law=law,
+        records=records,
+    )
+
+
+def _campaign_path(path: Path) -> Path:
+    if path.is_dir():
+        if not (path / FILE_NAME).is_file():
+            raise bad_input(path, f"no {FILE_NAME}", "a campaign folder", remedy=f"write {FILE_NAME} into it")
+        return path / FILE_NAME
+    if not path.is_file():
+        raise InputError(
+            f"{path}: found no such file or folder; expected a campaign folder or its {FILE_NAME}"
+        )
+    return path
+
+
+def _law(table: TomlTable) -> LawSettings:
+    table.only(("modes", "decades", "companion", "fixed"))
+    fixed = table.table("fixed")
+    fixed.only(FIXABLE)
+    try:
+        return LawSettings(
+            modes=table.whole_number("modes", 50),
+            decades=table.number("decades", 6.0),
+            companion=_companion(table.table("companion")) if "companion" in table.values else None,
+            fixed={name: fixed.number(name) for name in fixed.values},
+        )
+    except InputError as failure:
+        raise _at_path(table.path, failure) from None
+
+
+def _companion(table: TomlTable) -> CompanionSettings:
+    form = table.text("form", known=COMPANION_FORMS)
+    names = COMPANION_FORMS[form]
+    table.only(("form", *names))
+    read = table.numbers if form == "table" else table.number
+    return CompanionSettings(form=form, parameters={name: read(name) for name in names})
+
+
+def _check_ids(entries: list[TomlTable]) -> None:
+    seen: dict[str, str] = {}
+    for entry in entries:
+        record_id = entry.text("id")
+        if record_id in seen:
+            raise entry.complain(
+                "id",
+                f"the id {quoted(record_id)} again",
+                "unique ids",
+                f"{seen[record_id]} has it; rename one",
+            )
+        seen[record_id] = entry.name
+
+
+def _record(folder: Path, entry: TomlTable) -> Record:
+    entry.only(_RECORD_KEYS)
+    columns, units = entry.table("columns"), entry.table("units")
+    specimen, noise = entry.table("specimen"), entry.table("noise")
+    columns.only(ROLES)
+    units.only(ROLES)
+    specimen.only(SPECIMEN_KEYS)
+    noise.only(("stress_MPa", "strain"))
+    levels = {name: noise.number(name) for name in noise.values}
+    for name, level in levels.items():
+        if level < 0:
+            raise noise.complain(name, f"{name} = {level}", "a number of at least 0")
+    profiles = [profile.name for profile in PROFILES]
+    index = entry.whole_number("specimen_index") if "specimen_index" in entry.values else None
+    record = read_record(
+        _existing(folder, entry, "file"),
+        profile=entry.text("profile", known=profiles) if "profile" in entry.values else None,
+        columns={role: _label(columns, role) for role in columns.values},
+        units={role: units.text(role) for role in units.values},
+        specimen={key: specimen.number(key) for key in specimen.values},
+        specimen_index=index,
+        sheet=entry.text("sheet") if "sheet" in entry.values else None,
+        record_id=entry.text("id"),
+        control=entry.text("control", default="other", known=CONTROLS),
+        role=entry.text("role", default="identify", known=RECORD_ROLES),
+        noise=Noise(stress_MPa=levels.get("stress_MPa"), strain=levels.get("strain")),
+    )
+    if "temperature_file" in entry.values:
+        return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
+    return record
+
+
+def _label(columns: TomlTable, role: str) -> str | int:
+    """Read a heading, or a position counted from 1."""
+    if isinstance(columns.values[role], int):
+        return columns.whole_number(role)
+    return columns.text(role)
+
+
+def _existing(folder: Path, entry: TomlTable, key: str) -> Path:
+    name = entry.text(key)
+    path = folder / name
+    if not path.exists():
+        beside = sorted(p.name for p in path.parent.iterdir() if p.is_file()) if path.parent.is_dir() else []
+        beside = [other for other in beside if other != FILE_NAME]
+        remedy = suggestion(name, beside) if beside else f"{path.parent} holds no file"
+        raise entry.complain(key, f"{key} = {quoted(name)}", "a file that exists", remedy)
+    return path
+
+
+def _at_path(path: Path, failure: InputError) -> InputError:
+    """Put the file's name before a complaint that does not know it."""
+    message = str(failure)
+    return failure if message.startswith(str(path)) else InputError(f"{path}: {message}")

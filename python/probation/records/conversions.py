@@ -1,0 +1,89 @@
+r"""What machines measure to true strain and true stress.
+
+The cross-section is taken to shrink at constant volume, :math:`A = A_0/\lambda`, even where a transverse
+strain was measured; volume growth is an effect for the diagnosis to find, not for an importer to hide.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def stretch_from(role: str, values: FloatArray, gauge_length: float | None = None) -> FloatArray:
+    r"""Compute the stretch from whichever measure of elongation a file holds.
+
+    .. math:: \lambda = e^{\varepsilon} = 1 + e = 1 + u/L_0
+
+    Parameters
+    ----------
+    role : {"true_strain", "engineering_strain", "stretch", "displacement"}
+    values : ndarray, shape (n,) [-, or mm for a displacement]
+    gauge_length : float, optional [mm]
+        :math:`L_0`, for a displacement only.
+
+    Returns
+    -------
+    ndarray, shape (n,) [-]
+        Not checked to be positive: the caller knows the row to complain about.
+    """
+    match role:
+        case "true_strain":
+            with np.errstate(over="ignore"):  # strain in percent may overflow; a warning is on its way
+                return np.exp(values)
+        case "engineering_strain":
+            return 1.0 + values
+        case "stretch":
+            return values
+        case "displacement" if gauge_length is not None:
+            return 1.0 + values / gauge_length
+    raise RuntimeError(f"no stretch from {role} with gauge length {gauge_length}")
+
+
+def true_strain_from(role: str, values: FloatArray, gauge_length: float | None = None) -> FloatArray:
+    r"""Compute true strain, :math:`\varepsilon = \ln\lambda`, keeping the digits near zero strain.
+
+    Parameters and shapes as in `stretch_from`; the stretch must be positive.
+
+    >>> true_strain_from("displacement", np.array([0.0, 80.0]), gauge_length=80.0).round(6)
+    array([0.      , 0.693147])
+    """
+    match role:
+        case "true_strain":
+            return values
+        case "engineering_strain":
+            return np.log1p(values)
+        case "stretch":
+            return np.log(values)
+        case "displacement" if gauge_length is not None:
+            return np.log1p(values / gauge_length)
+    raise RuntimeError(f"no true strain from {role} with gauge length {gauge_length}")
+
+
+def true_stress_from(
+    role: str, values: FloatArray, stretch: FloatArray, area: float | None = None
+) -> FloatArray:
+    r"""Compute true stress by constant volume.
+
+    .. math:: \sigma = s\,\lambda = \frac{F}{A_0}\,\lambda
+
+    Parameters
+    ----------
+    role : {"true_stress", "engineering_stress", "force"}
+    values : ndarray, shape (n,) [MPa, or N for a force]
+    stretch : ndarray, shape (n,) [-]
+    area : float, optional [mm²]
+        Initial cross-section :math:`A_0`, for a force only.
+
+    Returns
+    -------
+    ndarray, shape (n,) [MPa]
+    """
+    match role:
+        case "true_stress":
+            return values
+        case "engineering_stress":
+            return values * stretch
+        case "force" if area is not None:
+            return values / area * stretch
+    raise RuntimeError(f"no true stress from {role} with area {area}")

@@ -1,0 +1,221 @@
+"""A table's columns to checked samples in MPa, s, mm and true strain; the padding cut, every doubt noted."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation.errors import InputError
+from probation.records.assignment import assign_columns
+from probation.records.checks import MINIMUM_SAMPLES, find_fault
+from probation.records.complaint import bad_input, quoted
+from probation.records.conversions import stretch_from, true_strain_from
+from probation.records.options import ReadOptions
+from probation.records.profiles import Reading
+from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES
+from probation.records.table import Column, Table
+from probation.records.units import convert
+
+FloatArray = NDArray[np.float64]
+
+_LARGEST_LIKELY_STRAIN = 5.0
+
+
+@dataclass(frozen=True)
+class Extraction:
+    """The samples of one specimen, in internal units.
+
+    Attributes
+    ----------
+    samples : dict of str to ndarray, shape (n,)
+        By role, in the role's internal unit.
+    true_strain : ndarray, shape (n,) [-]
+    stretch : ndarray, shape (n,) [-]
+    warnings : tuple of str
+    """
+
+    samples: dict[str, FloatArray]
+    true_strain: FloatArray
+    stretch: FloatArray
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Raw:
+    """Samples in the file's units, the file's row of each, and what was left out."""
+
+    samples: dict[str, FloatArray]
+    rows: list[int]
+    notes: tuple[str, ...]
+
+
+def extract(
+    table: Table,
+    reading: Reading,
+    options: ReadOptions,
+    *,
+    with_stress: bool = True,
+    minimum: int = MINIMUM_SAMPLES,
+) -> Extraction:
+    """Read, check and convert the columns of one specimen.
+
+    Parameters
+    ----------
+    table : Table
+    reading : Reading
+        What the profile says besides.
+    options : ReadOptions
+    with_stress : bool
+        False for a strain history, which needs no stress column.
+    minimum : int
+        Fewest samples.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong, by file, row and column.
+    """
+    columns = assign_columns(table, options, with_stress=with_stress)
+    raw = _raw_samples(table, columns, minimum)
+    samples = {
+        role: _in_internal_units(table, role, columns[role], values, options)
+        for role, values in raw.samples.items()
+    }
+    role = next(role for role in STRAIN_ROLES if role in columns)
+    length = dimension(table, reading, options, "gauge_length_mm", role) if role == "displacement" else None
+    stretch = stretch_from(role, samples[role], length)
+    _check_stretch(table, columns[role], raw.samples[role], stretch, raw.rows)
+    true_strain = true_strain_from(role, samples[role], length)
+    warnings = (
+        *reading.warnings,
+        *raw.notes,
+        *_unit_warnings(columns, options),
+        *dimension_warning(reading, options, "gauge_length_mm", length),
+        *_percent_warning(role, columns[role], samples[role], true_strain, options),
+    )
+    return Extraction(samples=samples, true_strain=true_strain, stretch=stretch, warnings=warnings)
+
+
+def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, role: str) -> float:
+    """Look up a dimension of the specimen that a role needs.
+
+    Raises
+    ------
+    InputError
+        If neither the user nor the profile gives it.
+    """
+    value = options.specimen.get(key, reading.specimen.get(key))
+    if value is None:
+        raise InputError(
+            f"{table.path}: found a {role} but no {key}, expected specimen = {{ {key} = … }}; "
+            f"a {role} becomes true strain or stress through it"
+        )
+    return float(value)
+
+
+def dimension_warning(
+    reading: Reading, options: ReadOptions, key: str, value: float | None
+) -> tuple[str, ...]:
+    """Say so where a dimension in use is the profile's and not the user's."""
+    if value is None or key in options.specimen or key not in reading.specimen:
+        return ()
+    return (f"{key} = {value:g} is assumed by the profile; specimen = … replaces it",)
+
+
+def _raw_samples(table: Table, columns: dict[str, Column], minimum: int) -> _Raw:
+    """Read the columns, cut padding and repeated last rows, and check what remains."""
+    samples = {role: table.numbers(column) for role, column in columns.items()}
+    blank = [role for role in OPTIONAL_ROLES if role in samples and np.isnan(samples[role]).all()]
+    notes = [f"left out {role}: its column {quoted(columns[role].label)} is empty" for role in blank]
+    samples = {role: values for role, values in samples.items() if role not in blank}
+    stacked = np.stack(list(samples.values()))
+    filled = np.flatnonzero(~np.isnan(stacked).all(axis=0))
+    if not filled.size:
+        raise bad_input(table.path, "no numbers", "at least ten rows of them", column=columns["time"].label)
+    end = last = int(filled[-1]) + 1
+    while last > 1 and np.array_equal(stacked[:, last - 1], stacked[:, last - 2]):
+        last -= 1
+    if last < end:
+        plural = "row" if end - last == 1 else "rows"
+        repeated = table.row_numbers[last - 1]
+        notes.append(f"dropped {end - last} {plural} at the end that repeat row {repeated} exactly")
+    samples = {role: values[:last] for role, values in samples.items()}
+    _check_samples(table, columns, samples, minimum)
+    return _Raw(samples=samples, rows=table.row_numbers[:last], notes=tuple(notes))
+
+
+def _check_samples(
+    table: Table, columns: dict[str, Column], samples: dict[str, FloatArray], minimum: int
+) -> None:
+    fault = find_fault(samples, minimum)
+    if fault is None:
+        return
+    found = fault.found
+    if not np.isfinite(samples[fault.quantity][fault.sample]):
+        cell = table.cells(columns[fault.quantity])[fault.sample].strip()
+        found = quoted(cell) if cell else "an empty cell"
+    raise bad_input(
+        table.path,
+        found,
+        fault.expected,
+        row=table.row_numbers[fault.sample],
+        column=columns[fault.quantity].label,
+        remedy=fault.remedy,
+    )
+
+
+def _in_internal_units(
+    table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions
+) -> FloatArray:
+    unit = options.units.get(role) or column.unit
+    if unit is None:
+        return values
+    try:
+        return convert(values, unit, ROLES[role].unit)
+    except ValueError as failure:
+        raise bad_input(
+            table.path,
+            str(failure),
+            f"{ROLES[role].kind} for {role}",
+            row=table.header_row,
+            column=column.label,
+            remedy=f"correct the heading, or say units = {{ {role} = … }}",
+        ) from None
+
+
+def _check_stretch(
+    table: Table, column: Column, raw: FloatArray, stretch: FloatArray, rows: list[int]
+) -> None:
+    bad = np.flatnonzero(stretch <= 0)
+    if bad.size:
+        raise bad_input(
+            table.path,
+            f"{raw[bad[0]]:.10g}, a stretch of {stretch[bad[0]]:.6g}",
+            "a positive stretch",
+            row=rows[bad[0]],
+            column=column.label,
+            remedy="check which strain measure, unit and gauge length this column has",
+        )
+
+
+def _unit_warnings(columns: dict[str, Column], options: ReadOptions) -> list[str]:
+    return [
+        f"{role} is read in {unit!r} as told, although the file says {columns[role].unit!r}"
+        for role, unit in options.units.items()
+        if columns[role].unit not in (None, unit)
+    ]
+
+
+def _percent_warning(
+    role: str, column: Column, values: FloatArray, true_strain: FloatArray, options: ReadOptions
+) -> tuple[str, ...]:
+    """Doubt strains above 5: always true ones, engineering ones where no unit was given."""
+    unit_is_given = role in options.units or column.unit is not None
+    doubted = values if role == "engineering_strain" and not unit_is_given else true_strain
+    largest = float(np.abs(doubted).max())
+    if largest <= _LARGEST_LIKELY_STRAIN:
+        return ()
+    return (
+        f"strain in percent? column {quoted(column.label)} reaches {largest:.4g}; "
+        f'if so, say units = {{ {role} = "%" }}',
+    )

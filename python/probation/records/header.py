@@ -1,0 +1,134 @@
+"""Where a table's headings stand, what units they give, and where its numbers begin."""
+
+import re
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+from probation.records.grid import Grid, is_number
+from probation.records.roles import normalised, role_of, split_suffix
+from probation.records.table import Column
+from probation.records.units import is_unit
+
+_SEARCHED_ROWS = 400
+_BRACKETED = re.compile(r"(.*?)\s*[(\[]([^()\[\]]*)[)\]]\s*")
+_BRACKETED_ALONE = re.compile(r"[(\[](.*)[)\]]")
+_SLASHED = re.compile(r"([^/]*[^/\s])\s*/\s*(\S{1,12})")
+_TRAILING = re.compile(r"(.*?[^\s,%])(?:,\s*|\s+in\s+|\s+|(?=%))(\S{1,12})")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The headings of a grid.
+
+    Attributes
+    ----------
+    columns : tuple of Column
+    row : int or None
+        Index into the grid's rows of the headings; None when the file has none.
+    first : int
+        Index into the grid's rows of the first data row.
+    """
+
+    columns: tuple[Column, ...]
+    row: int | None
+    first: int
+
+
+def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
+    """Find the headings, whatever metadata stands above and units stand below them.
+
+    The heading row is the one that names the wanted columns or, by the usual names, at least two
+    quantities; failing that, the row of text above the first row of numbers.
+
+    Parameters
+    ----------
+    grid : Grid
+    wanted : collection of str
+        Labels that the user named.
+    """
+    rows = grid.rows[:_SEARCHED_ROWS]
+    units_row: Sequence[str]
+    header = _row_naming(rows, wanted)
+    if header is not None:
+        after = header + 1
+        first = after + 1 if after < len(rows) and _is_units_row(rows[after]) else after
+        units_row = rows[after] if first > after else []
+    else:
+        first = next((at for at, row in enumerate(rows) if _is_data_row(row)), len(rows))
+        header, units_row = first - 1, []
+        if header > 0 and _is_units_row(rows[header]):
+            header, units_row = header - 1, rows[header]
+        if header < 0 or not any(cell.strip() for cell in rows[header]):
+            return Heading(columns=_numbered(len(rows[0])), row=None, first=first)
+    while first < len(rows) and not any(cell.strip() for cell in rows[first]):
+        first += 1
+    return Heading(columns=_columns(rows[header], units_row), row=header, first=first)
+
+
+def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str]) -> int | None:
+    for at, row in enumerate(rows):
+        if _is_data_row(row):
+            continue
+        labels = {_one_line(cell) for cell in row}
+        columns = _columns(row, [])
+        named = sum(label in labels or any(label == c.name for c in columns) for label in wanted)
+        known = {role_of(column.name) for column in columns} - {None}
+        if named >= min(2, len(wanted)) > 0 or len(known) >= 2:
+            return at
+    return None
+
+
+def _is_data_row(row: Sequence[str]) -> bool:
+    """More than half of the filled cells are numbers, and at least two are."""
+    filled = [cell for cell in row if cell.strip()]
+    count = sum(map(is_number, filled))
+    return count >= 2 and count > len(filled) / 2
+
+
+def _is_units_row(row: Sequence[str]) -> bool:
+    filled = [cell.strip() for cell in row if cell.strip()]
+    if not filled or any(map(is_number, filled)):
+        return False
+    return all(is_unit(_without_brackets(cell)) for cell in filled)
+
+
+def _columns(row: Sequence[str], units_row: Sequence[str]) -> tuple[Column, ...]:
+    columns = []
+    for position, cell in enumerate(row):
+        label = _one_line(cell)
+        name, unit = split_unit(label)
+        if position < len(units_row) and units_row[position].strip():
+            unit = _without_brackets(units_row[position])
+        columns.append(Column(label=label, name=name, unit=unit, position=position))
+    return tuple(columns)
+
+
+def split_unit(label: str) -> tuple[str, str | None]:
+    """Split a heading into its name and its unit.
+
+    >>> [split_unit(label) for label in ("Stress [kPa]", "time_s", "Kraft / N", "True strain %", "Strain")]
+    [('Stress', 'kPa'), ('time', 's'), ('Kraft', 'N'), ('True strain', '%'), ('Strain', None)]
+    """
+    if (match := _BRACKETED.fullmatch(label)) and match[1]:
+        return match[1], match[2].strip() or None
+    if (match := _SLASHED.fullmatch(label)) and is_unit(match[2]):
+        return match[1], match[2]
+    if (match := _TRAILING.fullmatch(label)) and role_of(match[1]) is not None and is_unit(match[2]):
+        return match[1], match[2]
+    if role_of(label) is None and (split := split_suffix(normalised(label))) is not None:
+        return split
+    return label, None
+
+
+def _numbered(width: int) -> tuple[Column, ...]:
+    """Columns of a file without headings, called by their position."""
+    return tuple(Column(label=f"{at + 1}", name=f"{at + 1}", unit=None, position=at) for at in range(width))
+
+
+def _without_brackets(text: str) -> str:
+    match = _BRACKETED_ALONE.fullmatch(text.strip())
+    return match[1].strip() if match else text.strip()
+
+
+def _one_line(cell: str) -> str:
+    return " ".join(cell.split())

@@ -1,0 +1,94 @@
+"""Profile ``excel``: an .xlsx workbook; the first sheet with enough rows, or the one named."""
+
+import io
+import warnings
+import zipfile
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from probation.errors import InputError
+from probation.records.checks import MINIMUM_SAMPLES
+from probation.records.complaint import bad_input, quoted, suggestion
+from probation.records.grid import Grid
+from probation.records.options import ReadOptions
+from probation.records.profiles.delimited import table_from
+from probation.records.profiles.profile import Profile, Reading
+from probation.records.source import Source
+
+if TYPE_CHECKING:
+    from openpyxl.workbook import Workbook
+
+_ZIP_MAGIC = b"PK\x03\x04"
+_OLD_EXCEL_MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+
+
+def recognises(source: Source) -> bool:
+    """Know a zip archive, or an old .xls, which is at least refused by its name."""
+    return source.data.startswith((_ZIP_MAGIC, _OLD_EXCEL_MAGIC))
+
+
+def read(source: Source, options: ReadOptions) -> Reading:
+    """Read one sheet as a table of cells."""
+    workbook = _open(source)
+    try:
+        sheets = [options.sheet] if options.sheet is not None else workbook.sheetnames
+        if options.sheet is not None and options.sheet not in workbook.sheetnames:
+            raise InputError(
+                f"{source.path}: found no sheet {quoted(options.sheet)}; "
+                + suggestion(options.sheet, workbook.sheetnames)
+            )
+        filled = [(name, grid) for name in sheets if (grid := _grid(workbook, name)).rows]
+    finally:
+        workbook.close()
+    if not filled:
+        raise bad_input(source.path, "an empty sheet", "a table with headings and at least ten rows")
+    name, grid = next((sheet for sheet in filled if len(sheet[1].rows) > MINIMUM_SAMPLES), filled[0])
+    ignored = [other for other, _ in filled if other != name]
+    note = f"read sheet {quoted(name)} only; choose another with sheet = …: {', '.join(ignored)}"
+    return Reading(
+        tables=(table_from(source, grid, options),),
+        separator=grid.separator,
+        warnings=(note,) if ignored else (),
+    )
+
+
+def _open(source: Source) -> "Workbook":
+    if source.data.startswith(_OLD_EXCEL_MAGIC):
+        raise bad_input(
+            source.path, "an old Excel file (.xls)", "an .xlsx workbook", remedy="save it as .xlsx"
+        )
+    import openpyxl  # noqa: PLC0415 - a quarter of a second that text files need not wait for
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # openpyxl warns of styles and validations, never of cells
+            return openpyxl.load_workbook(io.BytesIO(source.data), read_only=True, data_only=True)
+    except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError):
+        raise bad_input(
+            source.path, "no Excel workbook", "an .xlsx file", remedy="save it as .xlsx or CSV"
+        ) from None
+
+
+def _grid(workbook: "Workbook", name: str) -> Grid:
+    sheet = workbook[name]
+    rows: list[list[str]] = []
+    row_numbers: list[int] = []
+    if hasattr(sheet, "iter_rows"):  # a chart sheet has none
+        if hasattr(sheet, "reset_dimensions"):
+            sheet.reset_dimensions()  # some programs write a wrong extent
+        for number, cells in enumerate(sheet.iter_rows(values_only=True), start=1):
+            if row := _texts(cells):
+                rows.append(row)
+                row_numbers.append(number)
+    return Grid(rows=rows, row_numbers=row_numbers, separator=f"Excel sheet {quoted(name)}")
+
+
+def _texts(cells: Iterable[object]) -> list[str]:
+    """Cells as text, the row cut after its last filled cell; repr keeps every digit."""
+    row = ["" if cell is None else repr(cell) if isinstance(cell, float) else str(cell) for cell in cells]
+    while row and not row[-1].strip():
+        row.pop()
+    return row
+
+
+PROFILE = Profile(name="excel", title="Excel workbook (.xlsx)", recognises=recognises, read=read)

@@ -1,0 +1,186 @@
+"""Files to records: the one way in, for campaigns, previews and scripts."""
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+
+from probation.errors import InputError
+from probation.records.assembly import assemble
+from probation.records.complaint import bad_input, quoted
+from probation.records.options import ReadOptions, read_options
+from probation.records.profiles import Profile, Reading, find_profile
+from probation.records.record import Noise, Record
+from probation.records.source import Source
+from probation.records.table import Table
+
+
+def read_records(
+    path: str | PathLike[str],
+    *,
+    profile: str | None = None,
+    columns: Mapping[str, str | int] | None = None,
+    units: Mapping[str, str] | None = None,
+    specimen: Mapping[str, float] | None = None,
+    specimen_index: int | None = None,
+    sheet: str | None = None,
+    record_id: str | None = None,
+    control: str = "other",
+    role: str = "identify",
+    noise: Noise | None = None,
+) -> tuple[Record, ...]:
+    """Read every specimen of a file.
+
+    Parameters
+    ----------
+    path : path-like
+        CSV/TSV, .xlsx, or whatever an import profile reads; may be gzipped.
+    profile : str, optional
+        Import profile; by default recognised from the content.
+    columns : mapping of str to (str or int), optional
+        Heading (or position counted from 1) of the column for each role: ``time``; one of
+        ``true_strain``, ``engineering_strain``, ``stretch``, ``displacement``; one of ``true_stress``,
+        ``engineering_stress``, ``force``; optionally ``strain_rate``, ``transverse_strain``, ``temperature``.
+        By default found by the headings.
+    units : mapping of str to str, optional
+        Unit of the column of a role, e.g. ``{"force": "kN"}``; wins over the file's. A column
+        without any unit is taken in s, -, MPa, mm, N, 1/s or °C.
+    specimen : mapping of str to float, optional
+        ``area_mm2`` (for a force) and ``gauge_length_mm`` (for a displacement).
+    specimen_index : int, optional
+        Only this one of several specimens side by side, counted from 1.
+    sheet : str, optional
+        Sheet of an Excel workbook; by default the first that holds anything.
+    record_id : str, optional
+        By default the file's name without ending, and the specimen's number where there are several.
+    control, role, noise
+        As in `Record`.
+
+    Returns
+    -------
+    tuple of Record
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong, naming file, row, column, what was found and expected.
+    """
+    path = Path(path)
+    options = read_options(
+        path,
+        profile=profile,
+        columns=columns,
+        units=units,
+        specimen=specimen,
+        specimen_index=specimen_index,
+        sheet=sheet,
+    )
+    source, found, reading = open_file(path, options)
+    if reading.auxiliary:
+        raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
+    return assemble_all(
+        source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise
+    )
+
+
+def read_record(
+    path: str | PathLike[str],
+    *,
+    profile: str | None = None,
+    columns: Mapping[str, str | int] | None = None,
+    units: Mapping[str, str] | None = None,
+    specimen: Mapping[str, float] | None = None,
+    specimen_index: int | None = None,
+    sheet: str | None = None,
+    record_id: str | None = None,
+    control: str = "other",
+    role: str = "identify",
+    noise: Noise | None = None,
+) -> Record:
+    """Read one specimen of a file; parameters as in `read_records`.
+
+    Raises
+    ------
+    InputError
+        As `read_records`, and if the file holds several specimens and none is chosen.
+    """
+    records = read_records(
+        path,
+        profile=profile,
+        columns=columns,
+        units=units,
+        specimen=specimen,
+        specimen_index=specimen_index,
+        sheet=sheet,
+        record_id=record_id,
+        control=control,
+        role=role,
+        noise=noise,
+    )
+    if len(records) > 1:
+        raise several_specimens(Path(path), len(records))
+    return records[0]
+
+
+def several_specimens(path: Path, count: int) -> InputError:
+    """Build the error for a file of several specimens where one is wanted."""
+    return bad_input(
+        path,
+        f"{count} specimens side by side",
+        "a choice",
+        remedy=f"say specimen_index = 1 … {count}",
+    )
+
+
+def open_file(path: Path, options: ReadOptions) -> tuple[Source, Profile, Reading]:
+    """Open a file, recognise it, and find its columns."""
+    source = Source.open(path)
+    profile = find_profile(source, options.profile)
+    if options.sheet is not None and profile.name != "excel":
+        raise InputError(
+            f"{path}: found sheet = {quoted(options.sheet)} for a text file, expected none; drop it"
+        )
+    return source, profile, profile.read(source, options)
+
+
+def assemble_all(
+    source: Source,
+    profile: Profile,
+    reading: Reading,
+    options: ReadOptions,
+    *,
+    record_id: str | None = None,
+    control: str = "other",
+    role: str = "identify",
+    noise: Noise | None = None,
+) -> tuple[Record, ...]:
+    """Turn the specimens asked for into records, named after the file unless named."""
+    stem = record_id or source.path.name.split(".")[0] or source.path.name
+    several = record_id is None and len(reading.tables) > 1
+    return tuple(
+        assemble(
+            source,
+            profile.name,
+            reading,
+            table,
+            options,
+            record_id=f"{stem}-{number}" if several else stem,
+            control=control,
+            role=role,
+            noise=noise,
+        )
+        for number, table in chosen_tables(source.path, reading, options.specimen_index)
+    )
+
+
+def chosen_tables(path: Path, reading: Reading, specimen_index: int | None) -> list[tuple[int, Table]]:
+    """Pick the specimens asked for, each with its number in the file."""
+    numbered = list(enumerate(reading.tables, start=1))
+    if specimen_index is None:
+        return numbered
+    if isinstance(specimen_index, bool) or not 1 <= specimen_index <= len(numbered):
+        held = f"{len(numbered)} specimens" if len(numbered) > 1 else "1 specimen"
+        raise InputError(
+            f"{path}: specimen_index: found {specimen_index!r}, expected at most {len(numbered)} "
+            f"and counted from 1; the file holds {held}"
+        )
+    return [numbered[specimen_index - 1]]

@@ -1,0 +1,143 @@
+"""One test of one specimen: its samples in MPa, s and true strain, and where they came from."""
+
+import hashlib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation.errors import InputError
+from probation.records.checks import find_fault
+from probation.records.complaint import quoted, suggestion
+
+FloatArray = NDArray[np.float64]
+
+CONTROLS = ("strain-rate", "displacement-rate", "hold", "cyclic", "other")
+RECORD_ROLES = ("identify", "held-out")
+SAMPLED = ("time", "true_strain", "true_stress", "strain_rate", "transverse_strain", "temperature")
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviations of a record's noise, where they are known.
+
+    Attributes
+    ----------
+    stress_MPa : float or None [MPa]
+    strain : float or None [-]
+    """
+
+    stress_MPa: float | None = None  # noqa: N815 - as the campaign file spells it
+    strain: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in (("stress_MPa", self.stress_MPa), ("strain", self.strain)):
+            if value is not None and not 0.0 <= value < np.inf:
+                raise InputError(f"noise.{name}: found {value!r}, expected a number of at least 0")
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """One test of one specimen.
+
+    The arrays are copied, made float64 and read-only.
+
+    Attributes
+    ----------
+    id : str
+        Unique within a campaign.
+    time : ndarray, shape (n,) [s]
+        Strictly increasing, at least ten samples; need not start at zero.
+    true_strain : ndarray, shape (n,) [-]
+        Logarithmic strain, tension positive.
+    true_stress : ndarray, shape (n,) [MPa]
+    strain_rate : ndarray, shape (n,) [1/s], or None
+        True strain rate, where it was given rather than differentiated.
+    transverse_strain : ndarray, shape (n,) [-], or None
+        Logarithmic transverse strain.
+    temperature : ndarray, shape (n,) [°C], or None
+    control : {"strain-rate", "displacement-rate", "hold", "cyclic", "other"}
+    role : {"identify", "held-out"}
+    noise : Noise
+    file : Path or None
+        Where it was read; None for a record made in memory.
+    sha256 : str
+        Of that file; of the samples for a record made in memory.
+    warnings : tuple of str
+        What a reader should know: assumptions made, rows dropped, suspicious values.
+    profile : str
+        Import profile that read it; empty for a record made in memory.
+
+    Raises
+    ------
+    InputError
+        If a sample is not finite, the shapes differ, time does not increase, there are fewer than
+        ten samples, or control or role is unknown.
+    """
+
+    id: str
+    time: FloatArray
+    true_strain: FloatArray
+    true_stress: FloatArray
+    strain_rate: FloatArray | None = None
+    transverse_strain: FloatArray | None = None
+    temperature: FloatArray | None = None
+    control: str = "other"
+    role: str = "identify"
+    noise: Noise = field(default_factory=Noise)
+    file: Path | None = None
+    sha256: str = ""
+    warnings: tuple[str, ...] = ()
+    profile: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.id, str) or not self.id.strip():
+            raise InputError(f"record: found the id {self.id!r}, expected some text")
+        for name in SAMPLED:
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, self._as_samples(name))
+        if fault := find_fault(self.samples):
+            raise InputError(
+                f"record {quoted(self.id)}, {fault.quantity}, sample {fault.sample}: "
+                f"found {fault.found}, expected {fault.expected}"
+            )
+        for name, value, known in (("control", self.control, CONTROLS), ("role", self.role, RECORD_ROLES)):
+            if value not in known:
+                raise InputError(
+                    f"record {quoted(self.id)}: found {name} {value!r}; {suggestion(str(value), known)}"
+                )
+        if not self.sha256:
+            object.__setattr__(self, "sha256", self.samples_sha256)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def samples(self) -> dict[str, FloatArray]:
+        """The sampled quantities that there are, by name, time first."""
+        return {name: values for name in SAMPLED if (values := getattr(self, name)) is not None}
+
+    @property
+    def samples_sha256(self) -> str:
+        """Hash of the samples themselves, in hexadecimal."""
+        digest = hashlib.sha256()
+        for name, values in self.samples.items():
+            digest.update(name.encode() + np.ascontiguousarray(values, dtype="<f8").tobytes())
+        return digest.hexdigest()
+
+    def _as_samples(self, name: str) -> FloatArray:
+        """Copy one field to read-only float64 of the same length as the time."""
+        try:
+            values = np.array(getattr(self, name), dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError(
+                f"record {quoted(self.id)}, {name}: found no numbers, expected samples"
+            ) from None
+        if values.ndim != 1 or (name != "time" and len(values) != len(self.time)):
+            expected = "(n,)" if name == "time" else f"({len(self.time)},) as time"
+            raise InputError(
+                f"record {quoted(self.id)}, {name}: found shape {values.shape}, expected {expected}"
+            )
+        values.flags.writeable = False
+        return values

@@ -1,0 +1,82 @@
+"""What a column can be for: the keys of ``columns`` in a campaign, and the headings that imply them."""
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Role:
+    """What a column is for.
+
+    Attributes
+    ----------
+    unit : str
+        The internal unit, as pint spells it.
+    kind : str
+        What the unit must measure, with an example, for error messages.
+    headings : frozenset of str
+        Headings, in the form of `normalised`, that mean this role and nothing else.
+    """
+
+    unit: str
+    kind: str
+    headings: frozenset[str]
+
+
+def _role(unit: str, kind: str, *headings: str) -> Role:
+    return Role(unit=unit, kind=kind, headings=frozenset(headings))
+
+
+_STRAIN_UNIT = "a strain unit such as '-' or '%'"
+_STRESS_UNIT = "a stress unit such as 'MPa'"
+
+ROLES: dict[str, Role] = {
+    "time": _role("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
+    "true_strain": _role(
+        "dimensionless", _STRAIN_UNIT, "true_strain", "hencky_strain", "log_strain", "logarithmic_strain"
+    ),
+    "engineering_strain": _role(
+        "dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"
+    ),
+    "stretch": _role("dimensionless", _STRAIN_UNIT, "stretch", "stretch_ratio"),
+    "displacement": _role(
+        "mm", "a length unit such as 'mm'", "displacement", "extension", "crosshead_displacement", "disp"
+    ),
+    "true_stress": _role("MPa", _STRESS_UNIT, "true_stress", "cauchy_stress"),
+    "engineering_stress": _role("MPa", _STRESS_UNIT, "engineering_stress", "eng_stress", "nominal_stress"),
+    "force": _role("N", "a force unit such as 'N'", "force", "load"),
+    "strain_rate": _role("1/s", "a rate unit such as '1/s'", "strain_rate", "true_strain_rate"),
+    "transverse_strain": _role("dimensionless", _STRAIN_UNIT, "transverse_strain", "true_transverse_strain"),
+    "temperature": _role("degC", "a temperature unit such as 'degC'", "temperature", "temp"),
+}
+STRAIN_ROLES = ("true_strain", "engineering_strain", "stretch", "displacement")
+STRESS_ROLES = ("true_stress", "engineering_stress", "force")
+OPTIONAL_ROLES = ("strain_rate", "transverse_strain", "temperature")
+
+_SUFFIX_UNITS = {
+    **{unit.lower(): unit for unit in ("s", "ms", "min", "h", "MPa", "kPa", "Pa", "GPa", "N", "kN")},
+    **{unit.lower(): unit for unit in ("mm", "cm", "m", "um", "us", "K", "C", "degC", "percent")},
+    "pct": "percent",
+    "per_s": "1/s",
+    "per_min": "1/min",
+}
+
+
+def normalised(heading: str) -> str:
+    """Fold a heading for comparison: lower case, words joined by one underscore."""
+    return re.sub(r"[\W_]+", "_", heading.casefold()).strip("_")
+
+
+def role_of(heading: str) -> str | None:
+    """Tell the role that a heading without unit stands for, if it says so unmistakably."""
+    folded = normalised(heading)
+    return next((name for name, role in ROLES.items() if folded in role.headings), None)
+
+
+def split_suffix(folded: str) -> tuple[str, str] | None:
+    """Split a unit from the end of a heading such as ``true_stress_mpa``, where the rest is a role's."""
+    for suffix, unit in _SUFFIX_UNITS.items():
+        stem = folded.removesuffix(f"_{suffix}")
+        if stem != folded and role_of(stem) is not None:
+            return stem, unit
+    return None

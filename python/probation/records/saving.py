@@ -1,0 +1,101 @@
+"""Records and settings to files: campaign.toml and default CSVs, whole or not at all."""
+
+import json
+import os
+import re
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from probation.records.record import Record
+from probation.records.settings import LawSettings
+
+_HEADINGS = {
+    "time": "time_s",
+    "true_strain": "true_strain",
+    "true_stress": "true_stress_MPa",
+    "strain_rate": "strain_rate_per_s",
+    "transverse_strain": "transverse_strain",
+    "temperature": "temperature_C",
+}
+
+
+def save_campaign(folder: Path, name: str, law: LawSettings, records: Sequence[Record]) -> Path:
+    """Write the CSVs, then the campaign.toml that names them.
+
+    Returns
+    -------
+    Path
+        The campaign.toml.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    file_names = _file_names([record.id for record in records])
+    for record, file_name in zip(records, file_names, strict=True):
+        write_atomically(folder / file_name, csv_text(record))
+    path = folder / "campaign.toml"
+    write_atomically(path, campaign_text(name, law, records, file_names))
+    return path
+
+
+def csv_text(record: Record) -> str:
+    """Write a record in the default CSV form; each number the shortest text that reads back the same."""
+    samples = record.samples
+    lines = [",".join(_HEADINGS[quantity] for quantity in samples)]
+    columns = [values.tolist() for values in samples.values()]
+    lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
+    return "\n".join(lines) + "\n"
+
+
+def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_names: Sequence[str]) -> str:
+    """Write the campaign.toml of records saved under these file names."""
+    parts = [_lines({"name": name}), "[law]\n" + _lines({"modes": law.modes, "decades": law.decades})]
+    if law.companion is not None:
+        parts.append("[law.companion]\n" + _lines({"form": law.companion.form, **law.companion.parameters}))
+    if law.fixed:
+        parts.append("[law.fixed]\n" + _lines(law.fixed))
+    for record, file_name in zip(records, file_names, strict=True):
+        noise = {"stress_MPa": record.noise.stress_MPa, "strain": record.noise.strain}
+        known = {key: level for key, level in noise.items() if level is not None}
+        entry = {"id": record.id, "file": file_name, "control": record.control, "role": record.role}
+        parts.append("[[record]]\n" + _lines({**entry, **({"noise": known} if known else {})}))
+    return "\n".join(parts)
+
+
+def write_atomically(path: Path, text: str) -> None:
+    """Write a temporary file beside the path and rename it, so that nobody reads half a file."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
+            stream.write(text)
+        Path(temporary).chmod(0o644)
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _lines(values: Mapping[str, object]) -> str:
+    return "".join(f"{key} = {_toml(value)}\n" for key, value in values.items())
+
+
+def _toml(value: object) -> str:
+    match value:
+        case str():
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        case Mapping():
+            return "{ " + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + " }"
+        case tuple():
+            return "[" + ", ".join(map(_toml, value)) + "]"
+    return repr(value)
+
+
+def _file_names(ids: Sequence[str]) -> list[str]:
+    """Make a safe file name for each id, unique even where the disk folds capitals."""
+    names: list[str] = []
+    for record_id in ids:
+        stem = re.sub(r"[^\w.\-]+", "_", record_id).strip("._")[:80] or "record"
+        name, number = f"{stem}.csv", 2
+        while name.casefold() in (taken.casefold() for taken in names):
+            name, number = f"{stem}-{number}.csv", number + 1
+        names.append(name)
+    return names

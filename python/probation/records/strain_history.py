@@ -1,0 +1,84 @@
+"""Strain over time alone, as `simulate` and the excitation take it: files that need no stress."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation.records.complaint import bad_input
+from probation.records.extraction import extract
+from probation.records.options import read_options
+from probation.records.reading import chosen_tables, open_file, several_specimens
+
+FloatArray = NDArray[np.float64]
+
+_MINIMUM_SAMPLES = 2
+
+
+@dataclass(frozen=True, eq=False)
+class StrainHistory:
+    """The strain of a test, measured or imagined.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,) [s]
+        Strictly increasing, at least two samples.
+    true_strain : ndarray, shape (n,) [-]
+    strain_rate : ndarray, shape (n,) [1/s], or None
+        True strain rate, where the file gives it.
+    file : Path
+    warnings : tuple of str
+    """
+
+    time: FloatArray
+    true_strain: FloatArray
+    strain_rate: FloatArray | None
+    file: Path
+    warnings: tuple[str, ...]
+
+
+def read_strain_history(
+    path: str | PathLike[str],
+    *,
+    profile: str | None = None,
+    columns: Mapping[str, str | int] | None = None,
+    units: Mapping[str, str] | None = None,
+    specimen: Mapping[str, float] | None = None,
+    specimen_index: int | None = None,
+    sheet: str | None = None,
+) -> StrainHistory:
+    """Read ``time_s,true_strain`` and perhaps ``strain_rate_per_s``; parameters as in `read_records`.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong, naming file, row, column, what was found and expected.
+    """
+    path = Path(path)
+    options = read_options(
+        path,
+        profile=profile,
+        columns=columns,
+        units=units,
+        specimen=specimen,
+        specimen_index=specimen_index,
+        sheet=sheet,
+    )
+    _, _, reading = open_file(path, options)
+    if reading.auxiliary:
+        raise bad_input(path, reading.auxiliary, "a strain history", remedy="name another file")
+    tables = chosen_tables(path, reading, specimen_index)
+    if len(tables) > 1:
+        raise several_specimens(path, len(tables))
+    _, table = tables[0]
+    found = extract(table, reading, options, with_stress=False, minimum=_MINIMUM_SAMPLES)
+    return StrainHistory(
+        time=found.samples["time"],
+        true_strain=found.true_strain,
+        strain_rate=found.samples.get("strain_rate"),
+        file=path,
+        warnings=found.warnings,
+    )

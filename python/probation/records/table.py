@@ -1,0 +1,129 @@
+"""A specimen's named columns, as the file holds them: text until someone asks for numbers."""
+
+import re
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation.records.complaint import bad_input, quoted
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a file.
+
+    Attributes
+    ----------
+    label : str
+        The heading as the file has it.
+    name : str
+        The heading without its unit.
+    unit : str or None
+        The unit as the file spells it; None when it gives none.
+    position : int
+        Counted from 0 at the left edge of the file.
+    """
+
+    label: str
+    name: str
+    unit: str | None
+    position: int
+
+
+@dataclass(frozen=True)
+class Table:
+    """The columns of one specimen.
+
+    Attributes
+    ----------
+    path : Path
+    columns : tuple of Column
+    rows : list of list of str
+        The data cells of the whole file, shared by specimens that stand side by side.
+    row_numbers : list of int
+        The file's row of each, counted from 1.
+    header_row : int or None
+        The file's row of the headings.
+    decimal : str
+        ``"."`` or ``","``.
+    roles : dict of str to str
+        Which label plays which role (``{"time": "Time (s)"}``) where the import profile knows;
+        otherwise empty, and the headings decide.
+    """
+
+    path: Path
+    columns: tuple[Column, ...]
+    rows: list[list[str]]
+    row_numbers: list[int]
+    header_row: int | None
+    decimal: str = "."
+    roles: dict[str, str] = field(default_factory=dict)
+
+    def with_roles(self, roles: dict[str, str]) -> "Table":
+        """Copy the table, with what its profile knows of the columns."""
+        return replace(self, roles=roles)
+
+    def cells(self, column: Column) -> list[str]:
+        """Text of a column, empty where a row ends before it."""
+        at = column.position
+        return [row[at] if at < len(row) else "" for row in self.rows]
+
+    def numbers(self, column: Column) -> FloatArray:
+        """Values of a column.
+
+        Returns
+        -------
+        ndarray, shape (n_rows,) [the file's unit]
+            NaN where the cell is empty.
+
+        Raises
+        ------
+        InputError
+            At the first cell that is no number.
+        """
+        cells = self.cells(column)
+        texts = [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
+        try:
+            values = np.array([float(text) if text else np.nan for text in texts], dtype=np.float64)
+        except ValueError:
+            pass
+        else:
+            if not any("_" in text for text in texts):  # float() reads 1_000, no laboratory writes it
+                return values
+        return self._cell_by_cell(column, cells)
+
+    def _cell_by_cell(self, column: Column, cells: list[str]) -> FloatArray:
+        """Parse slowly: tolerate blanks, and name the first cell that is no number."""
+        values = np.full(len(cells), np.nan)
+        for at, cell in enumerate(cells):
+            text = cell.strip()
+            try:
+                if "_" in text:
+                    raise ValueError
+                if text:
+                    values[at] = float(text.replace(",", ".") if self.decimal == "," else text)
+            except ValueError:
+                raise bad_input(
+                    self.path,
+                    quoted(cell),
+                    "a number",
+                    row=self.row_numbers[at],
+                    column=column.label,
+                    remedy=self._remedy(text),
+                ) from None
+        return values
+
+    def _remedy(self, text: str) -> str:
+        if "\n" in text or '"' in text:
+            return "close the quote, or remove it"
+        if re.fullmatch(r"[+-]?\d+,\d+", text) and self.decimal == ".":
+            return "other cells use the decimal point: use one decimal mark throughout"
+        if re.fullmatch(r"[+-]?[\d.,' ]+", text):
+            return "remove thousands separators"
+        if re.fullmatch(r"[+-]?[\d.,]+(e[+-]?\d+)?\s*\D+", text, re.IGNORECASE):
+            return "put the unit into the heading instead"
+        return "correct or remove the cell"

@@ -1,0 +1,63 @@
+"""Temperatures logged in a file of their own, brought onto a record's instants."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from probation.records.checks import find_fault
+from probation.records.complaint import bad_input, quoted
+from probation.records.options import ReadOptions
+from probation.records.reading import chosen_tables, open_file
+from probation.records.record import Record
+
+_ROLES = ("time", "temperature")
+
+
+def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Record:
+    """Copy a record, with temperatures interpolated from a log of the same test.
+
+    Parameters
+    ----------
+    record : Record
+    path : Path
+        A file whose profile finds time [s] and temperature [°C]; both clocks start together.
+    specimen_index : int
+        Which of the file's specimens, counted from 1.
+
+    Raises
+    ------
+    InputError
+        If the file holds no temperatures, or starts or ends more than a tenth of the record's
+        duration inside it. Nearer than that, the log's end value is held, with a warning.
+    """
+    _, _, reading = open_file(path, ReadOptions())
+    ((_, table),) = chosen_tables(path, reading, specimen_index)
+    if not set(_ROLES) <= set(table.roles):
+        raise bad_input(path, "no temperatures over time", "a temperature log")
+    by_label = {column.label: column for column in table.columns}
+    columns = {role: by_label[table.roles[role]] for role in _ROLES}
+    log = {role: table.numbers(column) for role, column in columns.items()}
+    if fault := find_fault(log):
+        raise bad_input(
+            path,
+            fault.found,
+            fault.expected,
+            row=table.row_numbers[fault.sample],
+            column=columns[fault.quantity].label,
+            remedy=fault.remedy,
+        )
+    time, begin, end = log["time"], float(record.time[0]), float(record.time[-1])
+    missing = max(float(time[0]) - begin, end - float(time[-1]), 0.0)
+    if missing > 0.1 * (end - begin):
+        raise bad_input(
+            path,
+            f"temperatures from {time[0]:g} to {time[-1]:g} s",
+            f"the span of record {quoted(record.id)}, {begin:g} to {end:g} s",
+        )
+    held = (f"temperature held for {missing:.3g} s outside its log",) if missing > 0 else ()
+    return replace(
+        record,
+        temperature=np.interp(record.time, time, log["temperature"]),
+        warnings=(*record.warnings, *held),
+    )

@@ -1,0 +1,129 @@
+"""Do the types we publish for the compiled module tell the truth about it?"""
+
+import ast
+import inspect
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from probation import _core
+
+ROOT = Path(__file__).parents[2]
+STUB = ROOT / "python" / "probation" / "_core.pyi"
+
+Signatures = dict[str, list[list[str]]]  # dotted name -> argument names of each overload
+
+
+def split_arguments(text: str) -> Iterator[str]:
+    """Split at the commas that are in no bracket and in no string."""
+    depth, quote, start = 0, "", 0
+    for position, character in enumerate(text):
+        if quote:
+            quote = "" if character == quote else quote
+        elif character in "'\"":
+            quote = character
+        elif character in "([{<":
+            depth += 1
+        elif character in ")]}>" and text[position - 1] != "-":
+            depth -= 1
+        elif character == "," and depth == 0:
+            yield text[start:position]
+            start = position + 1
+    if text[start:].strip():
+        yield text[start:]
+
+
+def argument_names(arguments: str) -> list[str]:
+    names = [re.match(r"\s*([*/]*\w*)", part).group(1) for part in split_arguments(arguments)]  # type: ignore[union-attr]
+    return [name for name in names if name not in ("self", "/", "*")]
+
+
+def documented(name: str, docstring: str) -> list[list[str]]:
+    """Argument names from the signature lines that pybind11 puts into a docstring."""
+    lines = re.findall(rf"^(?:\d+\. )?{re.escape(name)}\((.*)\)(?: -> .*)?$", docstring, flags=re.MULTILINE)
+    return [argument_names(line) for line in lines if line != "*args, **kwargs"]
+
+
+def compiled_signatures() -> Signatures:
+    found: Signatures = {}
+    for name, thing in public_members(_core):
+        if inspect.isclass(thing):
+            for method, function in vars(thing).items():
+                if callable(function) and (not method.startswith("_") or method == "__init__"):
+                    found[f"{name}.{method}"] = documented(method, function.__doc__ or "")
+        elif callable(thing):
+            found[name] = documented(name, thing.__doc__ or "")
+    return {name: signatures for name, signatures in found.items() if signatures}
+
+
+def stub_signatures() -> Signatures:
+    found: Signatures = {}
+
+    def visit(body: list[ast.stmt], prefix: str) -> None:
+        for node in body:
+            if isinstance(node, ast.ClassDef):
+                visit(node.body, f"{node.name}.")
+            elif isinstance(node, ast.FunctionDef):
+                arguments = node.args
+                names = [a.arg for a in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)]
+                found.setdefault(prefix + node.name, []).append([name for name in names if name != "self"])
+
+    visit(ast.parse(STUB.read_text(encoding="utf-8")).body, "")
+    return found
+
+
+def public_members(module: object) -> list[tuple[str, object]]:
+    return [(name, thing) for name, thing in vars(module).items() if not name.startswith("_")]
+
+
+def test_every_public_name_is_in_the_stub_and_back():
+    stubbed = set()
+    for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ClassDef | ast.FunctionDef):
+            stubbed.add(node.name)
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            stubbed.add(node.target.id)
+    compiled = {name for name, _ in public_members(_core)}
+    assert {name for name in stubbed if not name.startswith("_")} == compiled
+
+
+def test_arguments_have_the_names_that_the_stub_gives_them():
+    stubbed = stub_signatures()
+    wrong = {
+        name: (signatures, stubbed.get(name))
+        for name, signatures in compiled_signatures().items()
+        if stubbed.get(name) != signatures
+    }
+    assert not wrong, "compiled module (left) and _core.pyi (right) differ"
+
+
+def test_mypy_finds_the_stub_true():
+    run = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "probation._core", "--concise", "--ignore-disjoint-bases"],
+        cwd=ROOT,
+        env={**os.environ, "MYPYPATH": str(ROOT / "python")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = (run.stdout + run.stderr).splitlines()
+    # Every class of pybind11 has a metaclass that no stub can name.
+    said = [line for line in said if line.strip() and not line.endswith("is inconsistent, metaclass differs")]
+    assert not said, "\n".join(said)
+
+
+@pytest.mark.parametrize(
+    ("signature", "names"),
+    [
+        ("f() -> None", []),
+        ("f(self: m.C, a: typing.Annotated[x, 'p, q'], b: dict[str, int] = {'k': 1}) -> int", ["a", "b"]),
+        ("f(a: typing.Callable[[float, int], float], *, b: m.C = <m.C object at 0x7f>) -> m.C", ["a", "b"]),
+    ],
+)
+def test_signatures_are_read_past_brackets_strings_and_defaults(signature, names):
+    assert documented("f", signature) == [names]

@@ -1,0 +1,267 @@
+"""Delimited text: separators, decimal marks, encodings and headings as laboratories write them."""
+
+import gzip
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from probation.errors import InputError
+from probation.records import read_record, read_strain_history
+from probation.records.header import split_unit
+
+HEADINGS = ("time_s", "true_strain", "true_stress_MPa")
+# Twelve samples of whatever; read back exactly because float(repr(x)) == x.
+SAMPLES = [(0.5 * i, 0.0125 * i, 10.0 * i / (1 + i)) for i in range(12)]
+
+
+def table(separator=",", decimal=".", *, headings=HEADINGS, samples=SAMPLES, above=(), quote="", end="\n"):
+    lines = list(above)
+    if headings:
+        lines.append(separator.join(headings))
+    for sample in samples:
+        cells = (repr(float(value)).replace(".", decimal) for value in sample)
+        lines.append(separator.join(f"{quote}{cell}{quote}" for cell in cells))
+    return end.join(lines) + end
+
+
+@pytest.fixture
+def read(tmp_path):
+    def write_and_read(content, name="record.csv", **options):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return read_record(path, **options)
+
+    return write_and_read
+
+
+def assert_reads_as_samples(record, samples=SAMPLES):
+    expected = np.array(samples)
+    np.testing.assert_array_equal(record.time, expected[:, 0])
+    np.testing.assert_array_equal(record.true_strain, expected[:, 1])
+    np.testing.assert_array_equal(record.true_stress, expected[:, 2])
+
+
+def test_the_default_form_is_read_digit_by_digit(read):
+    record = read(table())
+    assert_reads_as_samples(record)
+    assert record.profile == "csv"
+    assert record.id == "record"
+    assert record.warnings == ()
+    assert record.strain_rate is None
+
+
+@pytest.mark.parametrize(
+    ("separator", "decimal", "quote"),
+    [(",", ".", ""), (";", ".", ""), (";", ",", ""), ("\t", ".", ""), ("\t", ",", ""), (",", ",", '"')],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "gbk", "latin-1"])
+def test_separator_decimal_mark_and_encoding_do_not_change_the_numbers(
+    read, separator, decimal, quote, encoding
+):
+    text = table(separator, decimal, quote=quote)
+    assert_reads_as_samples(read(text.encode(encoding)))
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_line_ends_of_every_system_are_read(read, end):
+    assert_reads_as_samples(read(table(end=end)))
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    values=st.lists(
+        st.tuples(st.floats(-4, 4), st.floats(-1e9, 1e9, allow_subnormal=True)), min_size=10, max_size=30
+    ),
+    separator=st.sampled_from([";", "\t"]),
+    decimal=st.sampled_from([".", ","]),
+)
+def test_any_numbers_survive_any_separator(tmp_path_factory, values, separator, decimal):
+    samples = [(float(at), *sample) for at, sample in enumerate(values)]
+    path = tmp_path_factory.mktemp("any") / "record.csv"
+    path.write_text(table(separator, decimal, samples=samples + samples[-1:]), encoding="utf-8")
+    record = read_record(path)
+    assert_reads_as_samples(record, samples)
+
+
+def test_a_gzipped_file_is_read(read):
+    assert_reads_as_samples(read(gzip.compress(table().encode()), name="record.csv.gz"))
+
+
+def test_german_headings_in_latin_1_are_found_by_name(read):
+    headings = ("Zeit (s)", "Dehnung wahr", "Spannung (N/mm²)", "Temperaturänderung (°C)")
+    samples = [(*sample, 1.0) for sample in SAMPLES]
+    record = read(
+        table(";", ",", headings=headings, samples=samples).encode("latin-1"),
+        columns={"time": "Zeit", "true_strain": "Dehnung wahr", "true_stress": "Spannung (N/mm²)"},
+    )
+    assert_reads_as_samples(record)
+
+
+def test_chinese_headings_in_gbk_are_found_by_name(read):
+    record = read(
+        table(headings=("时间(s)", "真应变", "真应力(MPa)")).encode("gbk"),
+        columns={"time": "时间", "true_strain": "真应变", "true_stress": "真应力"},
+    )
+    assert_reads_as_samples(record)
+
+
+def test_headings_are_found_below_metadata(read):
+    above = ["Sample: A7", "Width,6.0,mm", "Date,2020-02-01", "", ",,", "Operator;none"]
+    assert_reads_as_samples(read(table(above=above)))
+
+
+def test_units_in_a_row_of_their_own_are_read(read):
+    r"""Milliseconds, percent, kPa: 5500 ms is 5.5 s, 13.75 % is 0.1375, 9.1667 kPa is 0.0091667 MPa."""
+    headings = ("Time", "True strain", "True stress\n(ms),(%),(kPa)")
+    record = read(table(headings=headings))
+    assert record.time[-1] == pytest.approx(5.5e-3)
+    assert record.true_strain[-1] == pytest.approx(0.1375e-2)
+    assert record.true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
+
+
+@pytest.mark.parametrize(
+    "headings",
+    [
+        ("Time (ms)", "True Strain [%]", "True Stress (kPa)"),
+        ("time_ms", "true_strain_percent", "true_stress_kPa"),
+        ("Time / ms", "Hencky strain / %", "Cauchy stress / kPa"),
+        ("Time, ms", "True strain in %", "True stress kPa"),
+    ],
+)
+def test_units_in_the_headings_are_read(read, headings):
+    record = read(table(separator=";", headings=headings))
+    assert record.time[-1] == pytest.approx(5.5e-3)
+    assert record.true_strain[-1] == pytest.approx(0.1375e-2)
+    assert record.true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("label", "name", "unit"),
+    [
+        ("Stress [N/mm²]", "Stress", "N/mm²"),
+        ("Kraft / N", "Kraft", "N"),
+        ("strain_rate_per_s", "strain_rate", "1/s"),
+        ("Load Cell", "Load Cell", None),
+        ("true_strain", "true_strain", None),
+        ("https://example.org/data", "https://example.org/data", None),
+    ],
+)
+def test_a_heading_splits_into_name_and_unit(label, name, unit):
+    assert split_unit(label) == (name, unit)
+
+
+def test_what_the_campaign_says_of_a_unit_wins_over_the_file_with_a_warning(read):
+    record = read(table(), units={"true_stress": "kPa"})
+    assert record.true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
+    assert any("as told" in warning for warning in record.warnings)
+
+
+def test_columns_may_be_chosen_by_position_where_there_are_no_headings(read):
+    content = table(headings=())
+    assert_reads_as_samples(read(content, columns={"time": 1, "true_strain": 2, "true_stress": 3}))
+
+
+def test_optional_columns_are_read_and_converted(read):
+    """300 K is 26.85 °C, and 60 1/min is 1 1/s."""
+    headings = (*HEADINGS, "Strain rate (1/min)", "Temperature (K)", "transverse_strain")
+    record = read(table(headings=headings, samples=[(*sample, 60.0, 300.0, -0.5) for sample in SAMPLES]))
+    assert record.strain_rate == pytest.approx(np.full(12, 1.0))
+    assert record.temperature == pytest.approx(np.full(12, 26.85))
+    assert record.transverse_strain == pytest.approx(np.full(12, -0.5))
+
+
+def test_an_optional_column_without_any_value_is_left_out_with_a_warning(read):
+    content = table(headings=(*HEADINGS, "temperature_C")).replace("\n", ",\n").replace("_C,", "_C")
+    record = read(content)
+    assert record.temperature is None
+    assert any("temperature" in warning for warning in record.warnings)
+
+
+def test_a_column_of_dates_does_not_spoil_decimal_commas(read):
+    lines = table(";", ",").splitlines()
+    dated = ["Datum;" + lines[0]] + ["01.02.2020 10:00:00;" + line for line in lines[1:]]
+    assert_reads_as_samples(read("\n".join(dated)))
+
+
+def test_true_columns_are_preferred_where_engineering_ones_stand_beside_them(read):
+    headings = (
+        "Engineering Strain",
+        "Engineering Stress (MPa)",
+        "Time (s)",
+        "True Strain",
+        "True Stress (MPa)",
+    )
+    record = read(table(headings=headings, samples=[(9.0, 9.0, *sample) for sample in SAMPLES]))
+    assert_reads_as_samples(record)
+
+
+def test_rows_of_nan_that_pad_the_end_are_cut(read):
+    assert_reads_as_samples(read(table() + "NaN,NaN,NaN\n,,\n\n"))
+
+
+def test_exact_repeats_of_the_last_row_are_dropped_with_a_warning(read):
+    last = table().splitlines()[-1]
+    record = read(table() + f"{last}\n{last}\n")
+    assert_reads_as_samples(record)
+    assert record.warnings == ("dropped 2 rows at the end that repeat row 13 exactly",)
+
+
+def test_strain_that_looks_like_percent_is_warned_of(read):
+    record = read(table(samples=[(t, 1000.0 * e, s) for t, e, s in SAMPLES]))
+    assert any("percent" in warning for warning in record.warnings)
+
+
+def test_engineering_strain_without_unit_that_looks_like_percent_is_warned_of(read):
+    """6 as engineering strain is only ln 7 = 1.9 as true strain, but 600 % is rarely meant."""
+    headings = ("time_s", "engineering_strain", "engineering_stress_MPa")
+    samples = [(t, 6.0 * at / 11, s) for at, (t, _, s) in enumerate(SAMPLES)]
+    assert any("percent" in warning for warning in read(table(headings=headings, samples=samples)).warnings)
+    given_unit = ("time_s", "engineering_strain (-)", "engineering_stress_MPa")
+    warnings = read(table(headings=given_unit, samples=samples)).warnings
+    assert not any("percent" in warning for warning in warnings)
+
+
+def test_a_record_that_starts_strained_is_warned_of(read):
+    record = read(table(samples=[(t, e + 0.05, s) for t, e, s in SAMPLES]))
+    assert any("relaxed" in warning for warning in record.warnings)
+
+
+def test_twenty_thousand_rows_are_read_in_well_under_a_second(read):
+    samples = [(0.1 * at, 1e-5 * at, 0.01 * at) for at in range(20_000)]
+    content = table(samples=samples)
+    begin = time.perf_counter()
+    record = read(content)
+    assert len(record) == 20_000
+    assert time.perf_counter() - begin < 1.0
+
+
+def test_a_vague_heading_is_not_guessed(read):
+    with pytest.raises(InputError, match="'Strain' may be true or engineering"):
+        read(table(headings=("Time (s)", "Strain", "Stress (MPa)")))
+
+
+def test_a_strain_history_needs_no_stress_and_only_two_samples(tmp_path):
+    path = tmp_path / "history.csv"
+    path.write_text("time_s,true_strain,strain_rate_per_s\n0,0,0.005\n2.5,0.0125,0.005\n", encoding="utf-8")
+    history = read_strain_history(path)
+    assert (history.time.tolist(), history.true_strain.tolist()) == ([0.0, 2.5], [0.0, 0.0125])
+    assert history.strain_rate is not None
+    assert history.strain_rate.tolist() == [0.005, 0.005]
+
+
+@pytest.mark.parametrize(
+    ("rows", "complaint"),
+    [
+        ("0,0\n", "found 1 point, expected at least 2"),
+        ("0,0\n1,x\n", "row 3, column 'true_strain': found 'x'"),
+        ("0,0\n1,1\n1,2\n", "row 4, column 'time_s': found 1 again"),
+    ],
+)
+def test_a_bad_strain_history_is_refused_like_a_record(tmp_path, rows, complaint):
+    path = tmp_path / "history.csv"
+    path.write_text("time_s,true_strain\n" + rows, encoding="utf-8")
+    with pytest.raises(InputError, match=complaint):
+        read_strain_history(path)
