@@ -1,0 +1,159 @@
+"""The command line: arguments to calls, exceptions to one line and an exit status."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import sys
+import traceback
+import warnings
+from typing import TYPE_CHECKING, NoReturn
+
+from probation._core import __version__
+from probation.commands import crosscheck, demo, fit, preview, simulate
+from probation.errors import ConvergenceError, InputError
+from probation.histories.named import nearest
+from probation.report.provenance import running
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+COMMANDS = (demo, preview, fit, crosscheck, simulate)
+"""One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
+
+_DESCRIPTION = """\
+Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline polymers, on your records.
+
+  see it work, without any file      probation demo
+  what would be read from a file     probation preview tension.csv
+  identify the law on a campaign     probation fit hdpe-2020/ --report fit.html
+  how far the schemes agree          probation crosscheck hdpe-2020/
+  simulate a test                    probation simulate --history ramp:rate=0.005,strain=2 \\
+                                         --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\
+                                         --set hardening_modulus_MPa=2.5 -o ramp.csv
+"""
+_EPILOG = """\
+probation COMMAND --help tells the options of a command, with examples.
+
+A campaign is a folder with a campaign.toml and its records; `probation demo` writes three to look at.
+Exit status: 0 done, whatever the verdict; 2 bad input, said in one line; 1 anything else.
+PROBATION_DEBUG=1 shows where in the program an error arose.
+"""
+
+_DONE, _FAILED, _BAD_INPUT, _INTERRUPTED, _PIPE_CLOSED = 0, 1, 2, 130, 141
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong with the arguments in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}; see {self.prog} --help")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    parser = _Parser(
+        prog="probation",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"probation {__version__}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", parser_class=_Parser)
+    for command in COMMANDS:
+        own = command.add_parser(subparsers)
+        own.set_defaults(run=command.run)
+        own.formatter_class = argparse.RawDescriptionHelpFormatter
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Those of the process if left out.
+
+    Returns
+    -------
+    int
+        Exit status: 0 done, 2 bad input, 1 otherwise; 130 interrupted, 141 where the reader of a pipe went away.
+    """
+    arguments = sys.argv[1:] if arguments is None else list(arguments)
+    _tolerate_plain_terminals()
+    try:
+        with running(shlex.join(["probation", *arguments])), warnings.catch_warnings():
+            warnings.showwarning = _show_warning
+            status = _run(arguments)
+            sys.stdout.flush()
+    except InputError as error:
+        return _tell(error, str(error), _BAD_INPUT)
+    except ConvergenceError as error:
+        return _tell(error, f"did not converge: {error}", _FAILED)
+    except BrokenPipeError:
+        _silence_stdout()
+        return _PIPE_CLOSED
+    except KeyboardInterrupt:
+        print("probation: interrupted", file=sys.stderr)
+        return _INTERRUPTED
+    except Exception as error:
+        hint = "" if _debugging() else "; PROBATION_DEBUG=1 shows where"
+        return _tell(error, f"unexpected {type(error).__name__}: {error}{hint}", _FAILED)
+    return status
+
+
+def _run(arguments: list[str]) -> int:
+    names = [command.NAME for command in COMMANDS]
+    parser = build_parser()
+    if not arguments:
+        parser.print_help()
+        return _DONE
+    if not arguments[0].startswith("-") and arguments[0] not in names:
+        raise InputError(f"found the unknown command {arguments[0]!r}; {nearest(arguments[0], names)}")
+    try:
+        options = parser.parse_args(arguments)
+    except SystemExit:  # after --help or --version
+        return _DONE
+    if options.command is None:
+        raise InputError(f"found no command; expected one of {', '.join(names)}")
+    status: int = options.run(options)
+    return status
+
+
+def _tell(error: Exception, message: str, status: int) -> int:
+    if _debugging():
+        traceback.print_exception(error)
+    print(f"probation: {' '.join(message.split())}", file=sys.stderr)
+    return status
+
+
+def _debugging() -> bool:
+    return os.environ.get("PROBATION_DEBUG", "0") not in ("", "0")
+
+
+def _show_warning(message: Warning | str, category: type[Warning], filename: str, lineno: int, *_rest: object) -> None:
+    where = f" ({filename}:{lineno})" if _debugging() else ""
+    print(f"warning: {message}{where}", file=sys.stderr)
+
+
+def _tolerate_plain_terminals() -> None:
+    """A terminal without these characters shows question marks rather than an error."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="replace")
+
+
+def _silence_stdout() -> None:
+    """Let the interpreter flush into nothing at exit, instead of failing once more."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):  # not a real file, as under a test
+        return
+
+
+if __name__ == "__main__":
+    sys.exit(main())

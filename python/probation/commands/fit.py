@@ -1,0 +1,58 @@
+"""``probation fit``: the law's parameters from records."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, warn
+from probation.commands.progress import shown
+from probation.law import SCHEMES
+
+NAME = "fit"
+
+METHODS = ("least-squares", "variable-projection", "simplex")
+
+_DESCRIPTION = """\
+Identify the law on the records of a campaign: E_u, tau_max (or alpha, with a companion relation) and G, what is
+known about them, and what is left.
+
+  probation fit hdpe-2020/
+  probation fit hdpe-2020/campaign.toml --hold unrelaxed_modulus_MPa=3220 --report fit.html
+  probation fit hdpe-2020/ --scheme sa3 --json - > fit.json
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
+    parser.add_argument("campaign", metavar="CAMPAIGN", help="a folder with a campaign.toml, or that file")
+    parser.add_argument("--scheme", choices=SCHEMES, default="be2", help="time integration (be2)")
+    parser.add_argument("--method", choices=METHODS, default="least-squares", help="of identification (least-squares)")
+    parser.add_argument(
+        "--hold",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="hold a parameter instead of identifying it: unrelaxed_modulus_MPa, tau_max_s, alpha, "
+        "hardening_modulus_MPa; wins over the campaign's law.fixed",
+    )
+    add_delivery(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    from probation.identify import fit  # noqa: PLC0415 - see the package
+    from probation.records import Campaign  # noqa: PLC0415
+
+    held = named_numbers(options.hold, "--hold")
+    campaign = Campaign.load(options.campaign)
+    for warning in campaign.warnings:
+        warn(warning)
+    with shown(f"identifying on {campaign.name}"):
+        answer = fit(campaign, scheme=options.scheme, method=options.method, hold=held)
+    deliver(answer, options)
+    deliver_report(answer, options)
+    sys.stdout.flush()
+    return 0

@@ -1,0 +1,32 @@
+"""Progress of long work, on a terminal only."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+@contextmanager
+def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
+    """Show a bar on standard error while the block runs; it vanishes at the end.
+
+    Yields
+    ------
+    callable
+        ``advance(done, total, what)``.
+    """
+    from rich.console import Console  # noqa: PLC0415 - not every command shows progress
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
+    console = Console(stderr=True)
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task(title, total=None)
+
+        def advance(done: int, total: int, what: str) -> None:
+            progress.update(task, completed=done, total=total, description=f"{title}: {what}" if what else title)
+
+        yield advance

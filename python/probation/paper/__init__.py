@@ -1,0 +1,1 @@
+"""The paper's own experiments, tables and figures."""

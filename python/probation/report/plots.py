@@ -1,0 +1,159 @@
+"""Plots of records, fits and simulations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.report.figures import house_style, new_figure, thinned
+from probation.report.style import colour, series_colour
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.simulate import Simulation
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One record beside the law.
+
+    Attributes
+    ----------
+    name : str
+    true_strain : ndarray, shape (n_times,) [-]
+    measured : ndarray, shape (n_times,) [MPa]
+    model : ndarray, shape (n_times,) [MPa]
+    noise_MPa : float or None
+        Standard deviation, drawn as a band of two either way around zero.
+    """
+
+    name: str
+    true_strain: FloatArray
+    measured: FloatArray
+    model: FloatArray
+    noise_MPa: float | None = None  # noqa: N815 - the unit is part of the name, as in JSON
+
+
+def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Figure:
+    """Measured and model stress over strain, the residuals (model - measured) below on their own scale.
+
+    The paper's Figure 2. The lower axis says how many times it is magnified.
+    """
+    with house_style():
+        figure = new_figure(7.2, 5.4)
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.4))
+        for at, curve in enumerate(curves):
+            shade = series_colour(at)
+            measured = thinned(curve.true_strain, curve.measured)
+            many = len(curves) > 1
+            above.plot(
+                *measured,
+                ".",
+                ms=5,
+                color=colour("data"),
+                zorder=1,
+                label="measured" if at == len(curves) - 1 else None,
+            )
+            above.plot(
+                *thinned(curve.true_strain, curve.model), color=shade, lw=1.1, label=curve.name if many else "model"
+            )
+            residual = curve.model - curve.measured
+            below.plot(*thinned(curve.true_strain, residual), color=shade, lw=0.9)
+        noise = next((curve.noise_MPa for curve in curves if curve.noise_MPa), None)
+        if noise is not None:
+            below.axhspan(-2 * noise, 2 * noise, color=colour("data"), alpha=0.18, lw=0)
+            _note(below, f"band: ±2 noise, {2 * noise:.2g} MPa", left=False)
+        below.axhline(0.0, color=colour("muted"), lw=0.8)
+        below.margins(y=0.25)
+        above.set(ylabel="true stress [MPa]", title=title)
+        below.set(xlabel="true strain [–]", ylabel="model − measured\n[MPa]")
+        above.legend(loc="upper left")
+        figure.canvas.draw()
+        _note(below, f"magnified {float(f'{_magnification(above, below):.2g}'):g} times")
+    return figure
+
+
+def sensitivities(
+    x: FloatArray, sensitivity: FloatArray, names: Sequence[str], x_label: str = "true strain [–]"
+) -> Figure:
+    """Scaled sensitivities, parameter times derivative of the stress, over strain or time.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n_times,)
+    sensitivity : ndarray, shape (n_times, n_parameters) [MPa]
+        Already multiplied by the parameters.
+    names : sequence of str
+    x_label : str
+        With its unit.
+    """
+    with house_style():
+        figure = new_figure(7.2, 3.4)
+        axes = figure.subplots()
+        for at, name in enumerate(names):
+            axes.plot(*thinned(x, sensitivity[:, at]), color=series_colour(at), label=name)
+        axes.axhline(0.0, color=colour("muted"), lw=0.8)
+        axes.set(xlabel=x_label, ylabel="parameter × ∂σ/∂parameter [MPa]")
+        axes.legend()
+    return figure
+
+
+def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figure:
+    """Strain rate over strain, the paper's Figure 1.
+
+    Parameters
+    ----------
+    records : sequence of (name, true_strain [-], strain_rate [1/s]), both of shape (n_times,)
+    """
+    with house_style():
+        figure = new_figure(7.2, 3.6)
+        axes = figure.subplots()
+        for at, (name, strain, rate) in enumerate(records):
+            axes.plot(*thinned(strain, rate), color=series_colour(at), label=name)
+        if all((rate > 0).all() for _, _, rate in records):
+            axes.set_yscale("log")
+        axes.set(xlabel="true strain [–]", ylabel="true strain rate [1/s]")
+        axes.legend()
+    return figure
+
+
+def simulation_plot(simulation: Simulation) -> Figure:
+    """Stress over strain, and both over time."""
+    time, strain, stress = simulation.time, simulation.true_strain, simulation.true_stress
+    with house_style():
+        figure = new_figure(7.2, 4.4)
+        grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1))
+        whole = figure.add_subplot(grid[:, 0])
+        upper = figure.add_subplot(grid[0, 1])
+        lower = figure.add_subplot(grid[1, 1], sharex=upper)
+        whole.plot(*thinned(strain, stress), color=colour("model"))
+        upper.plot(*thinned(time, stress), color=colour("model"))
+        lower.plot(*thinned(time, strain), color=colour("second"))
+        whole.set(xlabel="true strain [–]", ylabel="true stress [MPa]")
+        upper.set(ylabel="true stress [MPa]")
+        lower.set(xlabel="time [s]", ylabel="true strain [–]")
+        upper.tick_params(labelbottom=False)
+        figure.suptitle(simulation.name, x=0.01, ha="left", fontsize=10, fontweight="bold")
+    return figure
+
+
+def _note(axes: Axes, text: str, *, left: bool = True) -> None:
+    at, side = (0.012, "left") if left else (0.988, "right")
+    axes.text(at, 0.96, text, transform=axes.transAxes, ha=side, va="top", fontsize=8, color=colour("muted"))
+
+
+def _magnification(above: Axes, below: Axes) -> float:
+    """How many times longer one MPa is drawn below than above."""
+
+    def length_of_one(axes: Axes) -> float:
+        low, high = axes.get_ylim()
+        return axes.get_window_extent().height / float(np.abs(high - low))
+
+    return length_of_one(below) / length_of_one(above)
