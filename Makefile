@@ -70,7 +70,7 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the addre
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \
 	PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 \
 	LD_PRELOAD="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -S -m pytest -q -p no:cacheprovider tests/boundary
+	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys tests/boundary
 
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel
