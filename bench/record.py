@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,6 +18,9 @@ COLUMNS = (
 
 NOTICEABLE = 0.2
 """Changes below this are noise."""
+
+OURS = ("overhead", "sensitivities", "batch")
+"""Sections in which every row is the engine's; elsewhere its label says so."""
 
 
 def as_dict(row: Row) -> dict[str, object]:
@@ -71,7 +75,7 @@ def compare(found: Findings, machine: dict[str, object]) -> list[str]:
     if not same:
         lines.append("  another machine, so only ratios to numba fastmath are compared")
     compared = changed = 0
-    for row in found.rows:
+    for row in (row for row in found.rows if row.section in OURS or "engine" in row.label):
         before = rows.get((row.section, row.case, row.method))
         factor = None if before is None else _change(row, before, same)
         if factor is None:
@@ -86,11 +90,17 @@ def compare(found: Findings, machine: dict[str, object]) -> list[str]:
 
 
 def _change(row: Row, before: dict[str, str], same_machine: bool) -> float | None:
-    """Time now over time then; by the ratio to numba fastmath (of the same rounds) where both runs have it."""
+    """Time now over time then: as it is (same machine), and by the ratio to numba fastmath in the same rounds.
+
+    A change of the engine shows in both, a noisy yardstick or a slow spell in one: the smaller of the two is taken.
+    """
+    changes = []
     then, now = before["ratio_to_numba_fastmath"], row.ratios.get("numba_be2_fastmath")
     if then and now:
-        return now / float(then)
-    return row.median * 1e6 / float(before["median_us"]) if same_machine else None
+        changes.append(now / float(then))
+    if same_machine:
+        changes.append(row.median * 1e6 / float(before["median_us"]))
+    return min(changes, key=lambda factor: abs(math.log(factor)), default=None)
 
 
 def _last() -> tuple[dict[str, str], dict[tuple[str, str, str], dict[str, str]]] | None:
