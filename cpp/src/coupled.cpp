@@ -8,7 +8,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 constexpr int most_iterations = 50;
 constexpr double newton_tolerance = 1e-9;  // of the last correction, relative; Newton's error is its square
 
@@ -298,7 +298,7 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
       (*derivatives)(m + 1, static_cast<Index>(k)) =
           area[m + 1] * ds + stress[m + 1] * Sampled(t.direction->log_load_bearing_area, 0.0)[m + 1];
     }
-    if (directions.empty() == false && extra_.empty() == false) {
+    if (!directions.empty() && !extra_.empty()) {
       double unused = 0.0;
       unit_extra = unit_extra_before;
       kernel.tangent(unit_extra.view(), one_step(extra_forcing, ratio), &unused, nullptr, 0, scratch.data());

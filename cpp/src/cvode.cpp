@@ -13,7 +13,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 using State = Eigen::Map<Eigen::ArrayXd>;
 using ConstState = Eigen::Map<const Eigen::ArrayXd>;
 

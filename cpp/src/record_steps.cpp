@@ -8,7 +8,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 Differentiator differentiator_of(Scheme scheme) {
   return scheme == Scheme::be2 ? Differentiator::backward : Differentiator::three_point;
@@ -78,10 +78,10 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
     const Index end = m + history.uniform_run(m);
     ++m;
     if (m >= end || std::abs(history.ratio(m) - 1.0) > 1e-9) continue;
-    const auto first = static_cast<std::size_t>(m), last = static_cast<std::size_t>(end);
-    std::fill(out.rule.begin() + first, out.rule.begin() + last, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-    std::fill(out.ratio.begin() + first, out.ratio.begin() + last, 1.0);
-    std::fill(out.scale.begin() + first, out.scale.begin() + last, h * fluidity);
+    const auto fill = [&](auto& samples, auto value) { std::fill(samples.begin() + m, samples.begin() + end, value); };
+    fill(out.rule, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
+    fill(out.ratio, 1.0);
+    fill(out.scale, h * fluidity);
     double* forcing = out.forcing.data();
     double* curvature = out.curvature.data();
     if (scheme == Scheme::be2) {
@@ -91,7 +91,7 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
       if (scheme == Scheme::sa3)
         for (Index k = m; k < end; ++k) curvature[k] = 0.5 * (f[k + 1] - 2.0 * f[k] + f[k - 1]);
     }
-    if (scheme != Scheme::sa3) std::fill(out.curvature.begin() + first, out.curvature.begin() + last, 0.0);
+    if (scheme != Scheme::sa3) fill(out.curvature, 0.0);
     m = end;
   }
 }

@@ -12,7 +12,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 /// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
 template <class Take>
