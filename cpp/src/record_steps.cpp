@@ -1,7 +1,5 @@
 #include "record_steps.hpp"
 
-#include "probation/errors.hpp"
-
 namespace probation {
 namespace {
 
@@ -12,12 +10,6 @@ Differentiator differentiator_of(Scheme scheme) {
 }
 
 std::size_t length(bool constant, Index n) { return constant ? 1 : static_cast<std::size_t>(n); }
-
-void require_shape(const Eigen::ArrayXd& samples, Index n_times, const char* name) {
-  if (samples.size() > 1 && samples.size() != n_times)
-    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " samples; 1 or " +
-                     std::to_string(n_times) + " are needed");
-}
 
 /// tau_max at one rate; the last one is kept, since a step mostly ends at the rate at which the next begins.
 class CompanionTimes {
@@ -83,18 +75,7 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
                  const RecordInputs<double>& base, const Direction& direction, RecordInputs<Dual>& out) {
   const Index n = history.size(), steps = history.steps();
-  require_shape(direction.unrelaxed_modulus, n, "unrelaxed_modulus");
-  require_shape(direction.log_relaxation_time, n, "log_relaxation_time");
-  require_shape(direction.relaxed_stress, n, "relaxed_stress");
-  require_shape(direction.log_load_bearing_area, n, "log_load_bearing_area");
-  const bool strained = direction.true_strain.size() > 0;
-  if (strained && direction.true_strain.size() != n)
-    throw InputError("direction.true_strain has " + std::to_string(direction.true_strain.size()) + " samples; " +
-                     std::to_string(n) + " are needed");
-  const bool rated = direction.strain_rate.size() > 0;
-  if (rated && (direction.strain_rate.size() != n || !history.rate_given()))
-    throw InputError("direction.strain_rate needs a history with its own rates, and one entry per instant");
-
+  const bool strained = direction.true_strain.size() > 0, rated = direction.strain_rate.size() > 0;
   const Sampled d_modulus(direction.unrelaxed_modulus, 0.0), d_time(direction.log_relaxation_time, 0.0);
   const Sampled d_relaxed(direction.relaxed_stress, 0.0), hardening_factor(change.hardening_factor, 1.0);
 
