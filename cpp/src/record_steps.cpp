@@ -95,19 +95,19 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
     out.unrelaxed_modulus[i] = {at(base.unrelaxed_modulus, static_cast<Index>(i)), d_modulus[static_cast<Index>(i)]};
 
-  // Rates move with the strain unless the history has its own.
+  // Rates move with the strain; given ones only on that side of a jump where the secant stands in for them.
   StepRates rates, d_rates;
-  const bool rates_move = rated || (strained && !history.rate_given());
+  const bool rates_move = rated || strained;
   if (law.companion || history.rate_given()) rates = history.rates(differentiator_of(scheme));
-  if (rated) {
-    d_rates = {direction.strain_rate.head(steps), direction.strain_rate.tail(steps)};
-  } else if (rates_move) {
-    d_rates = history.differentiate(direction.true_strain, differentiator_of(scheme));
+  if (rates_move) {
+    const Eigen::ArrayXd still = Eigen::ArrayXd::Zero(n);
+    d_rates = history.move_rates(strained ? direction.true_strain : still, rated ? direction.strain_rate : still,
+                                 differentiator_of(scheme));
   }
   out.end_rate.clear();
   if (history.rate_given()) {
     out.end_rate.resize(static_cast<std::size_t>(steps));
-    for (Index m = 0; m < steps; ++m) out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rated ? d_rates.end[m] : 0.0};
+    for (Index m = 0; m < steps; ++m) out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rates_move ? d_rates.end[m] : 0.0};
   }
 
   const bool constant_fluidity = base.fluidity_end.size() == 1 && d_time.constant();
