@@ -128,8 +128,9 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
                              Eigen::Ref<Eigen::ArrayXd> stress) {
   law.validate();
   change.validate(history.size(), law.spectrum.modes());
-  if (!(options.relative_tolerance > 0.0) || !(options.absolute_tolerance > 0.0))
-    throw InputError("relative_tolerance and absolute_tolerance must be positive numbers");
+  for (const double tolerance : {options.relative_tolerance, options.absolute_tolerance})
+    if (!(tolerance > 0.0) || !std::isfinite(tolerance))
+      throw InputError("relative_tolerance and absolute_tolerance must be positive numbers");
   if (options.max_steps < 1) throw InputError("max_steps must be at least 1");
 
   const double begin = history.time()[0];

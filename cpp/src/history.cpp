@@ -45,6 +45,8 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
   step_ = time_.tail(n - 1) - time_.head(n - 1);
   for (Index m = 0; m < steps(); ++m) require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
   haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
+  for (Index i = 0; i < n; ++i)
+    require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i], "its stretch is beyond all numbers: is it a strain?");
 
   fresh_.assign(static_cast<std::size_t>(steps()), 0);
   fresh_[0] = 1;
