@@ -31,7 +31,7 @@ def backward_rates(time, strain, fresh=()):
 
 
 def be2(time, strain, E_u, G, tau_max, *, modes=50, decades=6.0, fresh=(), rates=None):
-    """Eqs. (8), (9) in the modal stresses themselves, on any grid; the paper's start, again at every step in `fresh`.
+    """Eqs. (8), (9) in the modal stresses themselves, on any grid; the paper's start, so too `fresh` steps.
 
     `tau_max` is a number or has one entry per step, at its end; so has `rates`.
     """
