@@ -69,9 +69,7 @@ def _find(table: Table, label: str | int) -> Column:
             if column.position == label - 1:
                 return column
         positions = f"{table.columns[0].position + 1} to {table.columns[-1].position + 1}"
-        raise bad_input(
-            table.path, f"column position {label}", f"a position from {positions}", row=table.header_row
-        )
+        raise bad_input(table.path, f"column position {label}", f"a position from {positions}", row=table.header_row)
     wanted = " ".join(label.split())
     for matches in (
         [column for column in table.columns if column.label == wanted],

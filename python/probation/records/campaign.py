@@ -55,8 +55,7 @@ class Campaign:
                 )
         if not self.identify:
             raise InputError(
-                f"campaign {quoted(self.name)}: found only held-out records, "
-                'expected at least one with role "identify"'
+                f'campaign {quoted(self.name)}: found only held-out records, expected at least one with role "identify"'
             )
 
     @classmethod
@@ -70,9 +69,7 @@ class Campaign:
             file, row, column, what was found and what was expected.
         """
         read = load_campaign_file(Path(path))
-        return cls(
-            name=read.name, records=read.records, law=read.law, path=read.path, file_sha256=read.sha256
-        )
+        return cls(name=read.name, records=read.records, law=read.law, path=read.path, file_sha256=read.sha256)
 
     def save(self, folder: str | PathLike[str]) -> Path:
         """Write campaign.toml and one CSV per record, every digit kept.

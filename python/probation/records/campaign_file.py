@@ -87,9 +87,7 @@ def _campaign_path(path: Path) -> Path:
             raise bad_input(path, f"no {FILE_NAME}", "a campaign folder", remedy=f"write {FILE_NAME} into it")
         return path / FILE_NAME
     if not path.is_file():
-        raise InputError(
-            f"{path}: found no such file or folder; expected a campaign folder or its {FILE_NAME}"
-        )
+        raise InputError(f"{path}: found no such file or folder; expected a campaign folder or its {FILE_NAME}")
     return path
 
 

@@ -44,9 +44,7 @@ def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES
     for quantity, values in samples.items():
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
-            return Fault(
-                quantity, int(bad[0]), str(values[bad[0]]), "a finite number", "remove or repair the row"
-            )
+            return Fault(quantity, int(bad[0]), str(values[bad[0]]), "a finite number", "remove or repair the row")
     quantity, time = next(iter(samples.items()))
     if len(time) < minimum:
         points = "point" if len(time) == 1 else "points"
@@ -58,12 +56,8 @@ def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES
         return Fault(
             quantity,
             at,
-            f"{time[at]:.10g} again"
-            if repeats
-            else f"time going back from {time[at - 1]:.10g} to {time[at]:.10g}",
+            f"{time[at]:.10g} again" if repeats else f"time going back from {time[at - 1]:.10g} to {time[at]:.10g}",
             "time that increases from row to row",
-            "remove the repeated row"
-            if steps[at - 1] == 0
-            else "sort the rows, or split the file where time restarts",
+            "remove the repeated row" if steps[at - 1] == 0 else "sort the rows, or split the file where time restarts",
         )
     return None

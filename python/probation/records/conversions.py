@@ -60,9 +60,7 @@ def true_strain_from(role: str, values: FloatArray, gauge_length: float | None =
     raise RuntimeError(f"no true strain from {role} with gauge length {gauge_length}")
 
 
-def true_stress_from(
-    role: str, values: FloatArray, stretch: FloatArray, area: float | None = None
-) -> FloatArray:
+def true_stress_from(role: str, values: FloatArray, stretch: FloatArray, area: float | None = None) -> FloatArray:
     r"""Compute true stress by constant volume.
 
     .. math:: \sigma = s\,\lambda = \frac{F}{A_0}\,\lambda

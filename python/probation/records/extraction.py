@@ -78,8 +78,7 @@ def extract(
     columns = assign_columns(table, options, with_stress=with_stress)
     raw = _raw_samples(table, columns, minimum)
     samples = {
-        role: _in_internal_units(table, role, columns[role], values, options)
-        for role, values in raw.samples.items()
+        role: _in_internal_units(table, role, columns[role], values, options) for role, values in raw.samples.items()
     }
     role = next(role for role in STRAIN_ROLES if role in columns)
     length = dimension(table, reading, options, "gauge_length_mm", role) if role == "displacement" else None
@@ -113,9 +112,7 @@ def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, ro
     return float(value)
 
 
-def dimension_warning(
-    reading: Reading, options: ReadOptions, key: str, value: float | None
-) -> tuple[str, ...]:
+def dimension_warning(reading: Reading, options: ReadOptions, key: str, value: float | None) -> tuple[str, ...]:
     """Say so where a dimension in use is the profile's and not the user's."""
     if value is None or key in options.specimen or key not in reading.specimen:
         return ()
@@ -144,9 +141,7 @@ def _raw_samples(table: Table, columns: dict[str, Column], minimum: int) -> _Raw
     return _Raw(samples=samples, rows=table.row_numbers[:last], notes=tuple(notes))
 
 
-def _check_samples(
-    table: Table, columns: dict[str, Column], samples: dict[str, FloatArray], minimum: int
-) -> None:
+def _check_samples(table: Table, columns: dict[str, Column], samples: dict[str, FloatArray], minimum: int) -> None:
     fault = find_fault(samples, minimum)
     if fault is None:
         return
@@ -164,9 +159,7 @@ def _check_samples(
     )
 
 
-def _in_internal_units(
-    table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions
-) -> FloatArray:
+def _in_internal_units(table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions) -> FloatArray:
     unit = options.units.get(role) or column.unit
     if unit is None:
         return values
@@ -183,9 +176,7 @@ def _in_internal_units(
         ) from None
 
 
-def _check_stretch(
-    table: Table, column: Column, raw: FloatArray, stretch: FloatArray, rows: list[int]
-) -> None:
+def _check_stretch(table: Table, column: Column, raw: FloatArray, stretch: FloatArray, rows: list[int]) -> None:
     bad = np.flatnonzero(stretch <= 0)
     if bad.size:
         raise bad_input(

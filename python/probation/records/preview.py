@@ -78,9 +78,7 @@ class Preview:
         """All of it as text, the verdict first, with a plot of each record."""
         parts = [self._verdict(), self._layout(), self._columns()]
         if self.metadata:
-            parts.append(
-                "\n".join(["metadata", *(f"  {key}: {text}" for key, text in self.metadata.items())])
-            )
+            parts.append("\n".join(["metadata", *(f"  {key}: {text}" for key, text in self.metadata.items())]))
         parts += [_describe(record) for record in self.records]
         parts.append(self._first_rows())
         return "\n\n".join(parts)

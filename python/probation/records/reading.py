@@ -77,9 +77,7 @@ def read_records(
     source, found, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
-    return assemble_all(
-        source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise
-    )
+    return assemble_all(source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise)
 
 
 def read_record(
@@ -136,9 +134,7 @@ def open_file(path: Path, options: ReadOptions) -> tuple[Source, Profile, Readin
     source = Source.open(path)
     profile = find_profile(source, options.profile)
     if options.sheet is not None and profile.name != "excel":
-        raise InputError(
-            f"{path}: found sheet = {quoted(options.sheet)} for a text file, expected none; drop it"
-        )
+        raise InputError(f"{path}: found sheet = {quoted(options.sheet)} for a text file, expected none; drop it")
     return source, profile, profile.read(source, options)
 
 

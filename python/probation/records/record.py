@@ -104,9 +104,7 @@ class Record:
             )
         for name, value, known in (("control", self.control, CONTROLS), ("role", self.role, RECORD_ROLES)):
             if value not in known:
-                raise InputError(
-                    f"record {quoted(self.id)}: found {name} {value!r}; {suggestion(str(value), known)}"
-                )
+                raise InputError(f"record {quoted(self.id)}: found {name} {value!r}; {suggestion(str(value), known)}")
         if not self.sha256:
             object.__setattr__(self, "sha256", self.samples_sha256)
 
@@ -131,13 +129,9 @@ class Record:
         try:
             values = np.array(getattr(self, name), dtype=np.float64)
         except (TypeError, ValueError):
-            raise InputError(
-                f"record {quoted(self.id)}, {name}: found no numbers, expected samples"
-            ) from None
+            raise InputError(f"record {quoted(self.id)}, {name}: found no numbers, expected samples") from None
         if values.ndim != 1 or (name != "time" and len(values) != len(self.time)):
             expected = "(n,)" if name == "time" else f"({len(self.time)},) as time"
-            raise InputError(
-                f"record {quoted(self.id)}, {name}: found shape {values.shape}, expected {expected}"
-            )
+            raise InputError(f"record {quoted(self.id)}, {name}: found shape {values.shape}, expected {expected}")
         values.flags.writeable = False
         return values

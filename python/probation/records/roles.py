@@ -35,9 +35,7 @@ ROLES: dict[str, Role] = {
     "true_strain": _role(
         "dimensionless", _STRAIN_UNIT, "true_strain", "hencky_strain", "log_strain", "logarithmic_strain"
     ),
-    "engineering_strain": _role(
-        "dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"
-    ),
+    "engineering_strain": _role("dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"),
     "stretch": _role("dimensionless", _STRAIN_UNIT, "stretch", "stretch_ratio"),
     "displacement": _role(
         "mm", "a length unit such as 'mm'", "displacement", "extension", "crosshead_displacement", "disp"

@@ -51,18 +51,14 @@ class CompanionSettings:
         if self.form == "table":
             self._check_table()
         elif frozen.get("coefficient", 1.0) <= 0.0:  # type: ignore[operator]
-            raise InputError(
-                f"companion {self.form!r}: found coefficient = {frozen['coefficient']}, expected > 0"
-            )
+            raise InputError(f"companion {self.form!r}: found coefficient = {frozen['coefficient']}, expected > 0")
 
     def _checked(self, name: str) -> float | tuple[float, ...]:
         value = self.parameters[name]
         if self.form == "table":
             values = tuple(float(entry) for entry in value) if not isinstance(value, int | float) else ()
             if len(values) < 2 or not all(math.isfinite(entry) and entry > 0 for entry in values):
-                raise InputError(
-                    f"companion 'table': found {name} = {value!r}, expected two or more numbers > 0"
-                )
+                raise InputError(f"companion 'table': found {name} = {value!r}, expected two or more numbers > 0")
             return values
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             raise InputError(f"companion {self.form!r}: found {name} = {value!r}, expected a finite number")
@@ -115,15 +111,11 @@ class LawSettings:
         absent = "alpha" if self.companion is None else "tau_max_s"
         for name, value in self.fixed.items():
             if name not in FIXABLE:
-                raise InputError(
-                    f"law.fixed: found the unknown key {quoted(name)}; {suggestion(name, FIXABLE)}"
-                )
+                raise InputError(f"law.fixed: found the unknown key {quoted(name)}; {suggestion(name, FIXABLE)}")
             if name == absent:
                 which = "without a companion" if self.companion is None else "with a companion"
                 other = "tau_max_s" if self.companion is None else "alpha"
-                raise InputError(
-                    f"law.fixed: found {absent}, expected {other}: the law {which} has no {absent}"
-                )
+                raise InputError(f"law.fixed: found {absent}, expected {other}: the law {which} has no {absent}")
             lowest = "at least 0" if name == "hardening_modulus_MPa" else "positive"
             if not (math.isfinite(value) and (value > 0 or (value == 0 and lowest == "at least 0"))):
                 raise InputError(f"law.fixed: found {name} = {value!r}, expected a number that is {lowest}")

@@ -10,9 +10,7 @@ _BLANK = 0x2800
 _DOTS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
 
 
-def text_plot(
-    x: FloatArray, y: FloatArray, x_label: str, y_label: str, *, width: int = 60, height: int = 10
-) -> str:
+def text_plot(x: FloatArray, y: FloatArray, x_label: str, y_label: str, *, width: int = 60, height: int = 10) -> str:
     """Draw y over x in braille characters.
 
     Parameters

@@ -69,9 +69,7 @@ class TomlTable:
         """Refuse keys that are not known, and suggest the nearest that is."""
         for key in self.values:
             if key not in known:
-                raise self.complain(
-                    key, f"the unknown key {quoted(key)}", "a known one", suggestion(key, known)
-                )
+                raise self.complain(key, f"the unknown key {quoted(key)}", "a known one", suggestion(key, known))
 
     def text(self, key: str, default: str | None = None, known: Collection[str] | None = None) -> str:
         """Get some text, required unless there is a default; one of the known if given."""
@@ -138,9 +136,7 @@ class TomlTable:
         value = self.values[key]
         fits = isinstance(value, (int, float) if kind is float else kind)
         if isinstance(value, bool) or not fits:
-            raise self.complain(
-                key, f"{key} = {quoted(value) if isinstance(value, str) else value}", _TYPES[kind]
-            )
+            raise self.complain(key, f"{key} = {quoted(value) if isinstance(value, str) else value}", _TYPES[kind])
         return cast(_T, value)
 
     def _below(self, key: str) -> str:

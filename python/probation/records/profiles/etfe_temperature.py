@@ -33,6 +33,4 @@ def read(source: Source, options: ReadOptions) -> Reading:
     return Reading(tables=tables, separator=grid.separator, auxiliary="temperatures over time")
 
 
-PROFILE = Profile(
-    name="etfe_temperature", title="ETFE chamber temperatures", recognises=recognises, read=read
-)
+PROFILE = Profile(name="etfe_temperature", title="ETFE chamber temperatures", recognises=recognises, read=read)

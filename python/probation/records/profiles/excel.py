@@ -54,9 +54,7 @@ def read(source: Source, options: ReadOptions) -> Reading:
 
 def _open(source: Source) -> "Workbook":
     if source.data.startswith(_OLD_EXCEL_MAGIC):
-        raise bad_input(
-            source.path, "an old Excel file (.xls)", "an .xlsx workbook", remedy="save it as .xlsx"
-        )
+        raise bad_input(source.path, "an old Excel file (.xls)", "an .xlsx workbook", remedy="save it as .xlsx")
     import openpyxl  # noqa: PLC0415 - a quarter of a second that text files need not wait for
 
     try:
@@ -64,9 +62,7 @@ def _open(source: Source) -> "Workbook":
             warnings.simplefilter("ignore")  # openpyxl warns of styles and validations, never of cells
             return openpyxl.load_workbook(io.BytesIO(source.data), read_only=True, data_only=True)
     except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError):
-        raise bad_input(
-            source.path, "no Excel workbook", "an .xlsx file", remedy="save it as .xlsx or CSV"
-        ) from None
+        raise bad_input(source.path, "no Excel workbook", "an .xlsx file", remedy="save it as .xlsx or CSV") from None
 
 
 def _grid(workbook: "Workbook", name: str) -> Grid:

@@ -50,8 +50,7 @@ def tables_by_position(
         Table(
             path=source.path,
             columns=tuple(
-                Column(label=name, name=name, unit=unit, position=start + at)
-                for at, (name, unit) in enumerate(block)
+                Column(label=name, name=name, unit=unit, position=start + at) for at, (name, unit) in enumerate(block)
             ),
             rows=rows,
             row_numbers=grid.row_numbers[header_rows:],

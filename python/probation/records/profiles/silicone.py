@@ -22,9 +22,7 @@ def read(source: Source, options: ReadOptions) -> Reading:
 
 
 def _metadata(grid: Grid, header_row: int | None) -> dict[str, str]:
-    above = [
-        row for row, number in zip(grid.rows, grid.row_numbers, strict=True) if number < (header_row or 0)
-    ]
+    above = [row for row, number in zip(grid.rows, grid.row_numbers, strict=True) if number < (header_row or 0)]
     return {row[0].strip(): row[1].strip() for row in above[1:] if len(row) > 1 and row[0].strip()}
 
 
