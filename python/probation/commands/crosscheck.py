@@ -68,8 +68,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
     """The campaign's law, what is neither set nor held identified."""
-    from probation.crosscheck import companion_of  # noqa: PLC0415
     from probation.identify import fit  # noqa: PLC0415
+    from probation.schemes.cases import companion_of  # noqa: PLC0415
 
     values = {"modes": float(campaign.law.modes), "decades": campaign.law.decades, **campaign.law.fixed, **settings}
     relation = companion_of(campaign.law.companion)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.answers import PARAMETER_KEYS
-from probation.crosscheck.candidates import CANDIDATES, Candidate, Solve, solve
-from probation.crosscheck.cases import Case, companion_of, record_case, twin_case
-from probation.crosscheck.result import CrossCheck, RecordCheck, SchemeCheck
-from probation.crosscheck.steps import StepStudy, study_steps
 from probation.errors import InputError
+from probation.schemes.candidates import CANDIDATES, Candidate, Solve, solve
+from probation.schemes.cases import Case, record_case, twin_case
+from probation.schemes.result import CrossCheck, RecordCheck, SchemeCheck
+from probation.schemes.steps import StepStudy, study_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from probation.law import Law
     from probation.records import Record
 
-__all__ = ["CrossCheck", "RecordCheck", "SchemeCheck", "StepStudy", "companion_of", "crosscheck"]
+__all__ = ["CrossCheck", "RecordCheck", "SchemeCheck", "StepStudy", "crosscheck"]
 
 
 def crosscheck(

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.crosscheck.result import PAPERS_START
 from probation.report.figures import house_style, new_figure
 from probation.report.style import SERIES, colour
+from probation.schemes.result import PAPERS_START
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.crosscheck.steps import StepStudy
+    from probation.schemes.steps import StepStudy
 
 _MARKERS = "osD^vPX"
 _BOTTOM = 1e-13  # MPa: errors below are drawn there

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation.companion import FORMS
-from probation.crosscheck.candidates import StrainPath
-from probation.crosscheck.smooth import RampHistory, SmoothHistory
 from probation.law import Law
 from probation.paper.necking import NECKING_SETS
 from probation.paper.twins import GRIP_LAWS, experiment, necking_history
 from probation.report.provenance import samples_sha256
+from probation.schemes.candidates import StrainPath
+from probation.schemes.smooth import RampHistory, SmoothHistory
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

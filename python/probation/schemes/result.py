@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from probation.crosscheck.steps import StepStudy
     from probation.report.page import Section
+    from probation.schemes.steps import StepStudy
 
 PAPERS_START = "be2, paper's start"
 
@@ -150,7 +150,7 @@ class CrossCheck:
 
     def plot(self) -> Figure:
         """Error against step and against time, with the slopes of the orders."""
-        from probation.crosscheck.plot import crosscheck_plot  # noqa: PLC0415 - plots are slow to load
+        from probation.schemes.plot import crosscheck_plot  # noqa: PLC0415 - plots are slow to load
 
         return crosscheck_plot([record.steps for record in self.records if record.steps is not None])
 

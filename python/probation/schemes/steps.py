@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.crosscheck.candidates import CANDIDATES, StrainPath, solve
-from probation.crosscheck.smooth import RampHistory
 from probation.ramp import ramp_stress
+from probation.schemes.candidates import CANDIDATES, StrainPath, solve
+from probation.schemes.smooth import RampHistory
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from probation._arrays import FloatArray
-    from probation.crosscheck.smooth import SmoothHistory
     from probation.law import Law
+    from probation.schemes.smooth import SmoothHistory
 
 _COARSEST, _HALVINGS = 125, 6
 _AWAY_FROM_START = 1.0 / 3.0  # of the duration: an order is observed where the start is forgotten
