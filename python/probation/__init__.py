@@ -4,20 +4,26 @@ from probation._core import __version__
 from probation.change import Change, Direction, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
+from probation.crosscheck import CrossCheck, crosscheck
 from probation.errors import ConvergenceError, InputError
+from probation.histories import ImposedHistory, named_history
+from probation.history_file import read_history
 from probation.identify import Fit, fit
 from probation.kinematics import haward_thackray_strain
 from probation.law import Law, Spectrum
 from probation.ramp import ramp_stress
 from probation.records import Campaign, Noise, Record, preview
+from probation.simulate import Simulation, simulate
 
 __all__ = [
     "Campaign",
     "Change",
     "ConvergenceError",
+    "CrossCheck",
     "Direction",
     "Exponential",
     "Fit",
+    "ImposedHistory",
     "InputError",
     "Law",
     "Noise",
@@ -25,14 +31,19 @@ __all__ = [
     "RateFunction",
     "Record",
     "SelfHeating",
+    "Simulation",
     "Spectrum",
     "StressActivation",
     "Table",
     "Weissenberg",
     "__version__",
     "creep",
+    "crosscheck",
     "fit",
     "haward_thackray_strain",
+    "named_history",
     "preview",
     "ramp_stress",
+    "read_history",
+    "simulate",
 ]

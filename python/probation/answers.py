@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
@@ -20,6 +21,8 @@ PARAMETER_KEYS = {
     "hardening_modulus": "hardening_modulus_MPa",
 }
 """Parameters of the law as they are called where they leave the program, with their units."""
+
+_LIST_OF_NUMBERS = re.compile(r"\[[^\[\]{}\"]+\]")  # on one line, however long
 
 
 def json_answer(schema: str, content: Mapping[str, object]) -> str:
@@ -38,7 +41,8 @@ def json_answer(schema: str, content: Mapping[str, object]) -> str:
         With the version after the schema; ends in a newline.
     """
     answer = {"schema": schema, "version": __version__, **content}
-    return json.dumps(plain(answer), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+    text = json.dumps(plain(answer), ensure_ascii=False, allow_nan=False, indent=1)
+    return _LIST_OF_NUMBERS.sub(lambda numbers: " ".join(numbers[0].split()), text) + "\n"
 
 
 def plain(value: object) -> Json:

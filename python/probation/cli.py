@@ -8,7 +8,7 @@ import shlex
 import sys
 import traceback
 import warnings
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
 from probation.commands import crosscheck, demo, fit, preview, simulate
@@ -134,7 +134,14 @@ def _debugging() -> bool:
     return os.environ.get("PROBATION_DEBUG", "0") not in ("", "0")
 
 
-def _show_warning(message: Warning | str, category: type[Warning], filename: str, lineno: int, *_rest: object) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     where = f" ({filename}:{lineno})" if _debugging() else ""
     print(f"warning: {message}{where}", file=sys.stderr)
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from probation._arrays import one_of
 from probation.answers import PARAMETER_KEYS, json_answer
-from probation.creeping import creep_strain
+from probation.creep import creep
 from probation.law import SCHEMES, Law, Scheme, Start
 from probation.report.provenance import samples_sha256
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
+    from probation.companion import Companion
     from probation.histories import ImposedHistory
 
 
@@ -101,7 +102,7 @@ class Simulation:
                     "parameters": _parameters(self.law),
                     "modes": self.law.modes,
                     "decades": self.law.decades,
-                    "companion": None if self.law.companion is None else repr(self.law.companion),
+                    "companion": None if self.law.companion is None else _companion_answer(self.law.companion),
                 },
                 "warnings": self.warnings,
                 "time_s": self.time,
@@ -131,7 +132,7 @@ def simulate(
     history : ImposedHistory
         From `named_history`, `read_history`, or made of arrays.
     scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
-        As in `Law.stress`; creep has one way only, and no scheme.
+        As in `Law.stress`; creep is always solved by be2.
     start : {"exponential", "backward_euler"}
         bE2's first step.
     relative_tolerance, absolute_tolerance : float [-], [MPa]
@@ -150,9 +151,10 @@ def simulate(
         If CVODE fails.
     """
     one_of(scheme, "scheme", SCHEMES)
+    jumps: Literal["auto"] | tuple[float, ...] | None = "auto" if history.jumps is None else history.jumps or None
     if history.true_stress is not None:
         stress = history.true_stress
-        strain = creep_strain(law, history.time, stress)
+        strain = creep(law, history.time, stress, start=start, jumps=jumps)
     else:
         assert history.true_strain is not None
         strain = history.true_strain
@@ -162,7 +164,7 @@ def simulate(
             scheme,
             strain_rate=history.strain_rate,
             start=start,
-            jumps="auto" if history.jumps is None else history.jumps or None,
+            jumps=jumps,
             relative_tolerance=relative_tolerance,
             absolute_tolerance=absolute_tolerance,
         )
@@ -170,7 +172,7 @@ def simulate(
     return Simulation(
         name=history.name,
         law=law,
-        scheme=scheme,
+        scheme="be2" if history.true_stress is not None else scheme,
         start=start,
         time=history.time,
         true_strain=strain,
@@ -194,6 +196,15 @@ def companion_warnings(law: Law, strain_rate: FloatArray) -> tuple[str, ...]:
 
 def _parameters(law: Law) -> dict[str, float]:
     return {PARAMETER_KEYS[name]: getattr(law, name) for name in law.parameter_names}
+
+
+def _companion_answer(companion: Companion) -> dict[str, object]:
+    numbers = {
+        PARAMETER_KEYS.get(name, name): value
+        for name, value in vars(companion).items()
+        if isinstance(value, float | tuple) and name not in ("rate_floor", "calibrated")
+    }
+    return {"form": companion.form, **numbers}
 
 
 def _number(value: float) -> str:

@@ -145,9 +145,7 @@ def test_a_temperature_log_that_ends_early_is_refused(refusal, folder):
     log = "t,TMean01\n" + "".join(f"{0.1 * at},20\n" for at in range(12))
     (folder / "log.csv").write_text(log, encoding="utf-8")
     message = refusal(ENTRY + 'temperature_file = "log.csv"\n')
-    assert (
-        "log.csv: found temperatures from 0 to 1.1 s, expected the span of record 'a', 0 to 11 s" in message
-    )
+    assert "log.csv: found temperatures from 0 to 1.1 s, expected the span of record 'a', 0 to 11 s" in message
     assert "b.csv: found no temperatures" in refusal(ENTRY + 'temperature_file = "b.csv"\n')
 
 

@@ -58,9 +58,7 @@ def test_the_default_form_is_read_digit_by_digit(read):
     [(",", ".", ""), (";", ".", ""), (";", ",", ""), ("\t", ".", ""), ("\t", ",", ""), (",", ",", '"')],
 )
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "gbk", "latin-1"])
-def test_separator_decimal_mark_and_encoding_do_not_change_the_numbers(
-    read, separator, decimal, quote, encoding
-):
+def test_separator_decimal_mark_and_encoding_do_not_change_the_numbers(read, separator, decimal, quote, encoding):
     text = table(separator, decimal, quote=quote)
     assert_reads_as_samples(read(text.encode(encoding)))
 
@@ -72,9 +70,7 @@ def test_line_ends_of_every_system_are_read(read, end):
 
 @settings(deadline=None, max_examples=60)
 @given(
-    values=st.lists(
-        st.tuples(st.floats(-4, 4), st.floats(-1e9, 1e9, allow_subnormal=True)), min_size=10, max_size=30
-    ),
+    values=st.lists(st.tuples(st.floats(-4, 4), st.floats(-1e9, 1e9, allow_subnormal=True)), min_size=10, max_size=30),
     separator=st.sampled_from([";", "\t"]),
     decimal=st.sampled_from([".", ","]),
 )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TextIO
 
 from probation._files import write_whole
 from probation.errors import InputError
@@ -42,14 +43,21 @@ def add_delivery(parser: argparse.ArgumentParser, *, report: bool = True) -> Non
     group.add_argument("--json", metavar="FILE", help="write the answer as JSON; - is standard output, and alone there")
     if report:
         group.add_argument("--report", metavar="FILE.html", help="write one self-contained HTML page")
-    group.add_argument("--plot", metavar="FILE", type=_plot_file, help="save the plot, as .png, .svg or .pdf")
+    group.add_argument("--plot", metavar="FILE", type=plot_file, help="save the plot, as .png, .svg or .pdf")
 
 
 def deliver(answer: Answer, options: argparse.Namespace) -> None:
     """Print the summary and write the files; with ``--json -`` only JSON goes to standard output."""
-    people = sys.stderr if options.json == "-" else sys.stdout
-    print(answer.summary(), file=people)
+    tell(answer.summary(), sys.stderr if options.json == "-" else sys.stdout)
     deliver_files(answer, options)
+
+
+def tell(summary: str, stream: TextIO) -> None:
+    """Print a summary, its first line, the verdict, in bold on a terminal."""
+    verdict, newline, rest = summary.partition("\n")
+    if stream.isatty() and "NO_COLOR" not in os.environ:
+        verdict = f"\x1b[1m{verdict}\x1b[0m"
+    print(verdict + newline + rest, file=stream)
 
 
 def deliver_files(answer: Answer, options: argparse.Namespace) -> None:
@@ -83,7 +91,8 @@ def warn(text: str) -> None:
     print(f"warning: {text}", file=sys.stderr)
 
 
-def _plot_file(text: str) -> str:
+def plot_file(text: str) -> str:
+    """Check the ending of a plot before anything is computed."""
     if Path(text).suffix.lower() not in PLOT_ENDINGS:
         raise argparse.ArgumentTypeError(f"found {text!r}, expected a file that ends in {', '.join(PLOT_ENDINGS)}")
     return text

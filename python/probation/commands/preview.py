@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
-from probation.commands.delivery import named_numbers
+from probation.commands.delivery import named_numbers, plot_file, said, tell
 from probation.errors import InputError
 
 NAME = "preview"
@@ -37,7 +38,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--specimen-index", metavar="N", type=int, help="of specimens side by side, only this one")
     parser.add_argument("--sheet", metavar="NAME", help="of an Excel workbook")
-    parser.add_argument("--plot", metavar="FILE", help="save a plot, as .png, .svg or .pdf")
+    parser.add_argument("--plot", metavar="FILE", type=plot_file, help="save a plot, as .png, .svg or .pdf")
     return parser
 
 
@@ -54,9 +55,8 @@ def run(options: argparse.Namespace) -> int:
         specimen_index=options.specimen_index,
         sheet=options.sheet,
     )
-    print(shown.summary())
+    tell(shown.summary(), sys.stdout)
     if options.plot:
-        from probation.commands.delivery import said  # noqa: PLC0415
         from probation.report.figures import save_figure  # noqa: PLC0415
 
         save_figure(shown.plot(), options.plot)

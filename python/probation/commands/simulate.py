@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from probation._files import write_whole
-from probation.commands.delivery import add_delivery, deliver_files, said, warn
+from probation.commands.delivery import add_delivery, deliver_files, said, tell, warn
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.errors import InputError
 from probation.law import SCHEMES
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
     if options.output == "-":
         sys.stdout.write(simulation.to_csv())
     else:
-        print(simulation.summary(), file=sys.stderr if options.json == "-" else sys.stdout)
+        tell(simulation.summary(), sys.stderr if options.json == "-" else sys.stdout)
     if options.output not in (None, "-"):
         write_whole(options.output, simulation.to_csv())
         said("CSV", options.output)

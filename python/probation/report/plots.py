@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from probation.simulate import Simulation
 
 
+_DOTS = 400  # measured points that are drawn
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """One record beside the law.
@@ -42,42 +45,39 @@ class Curve:
 
 
 def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Figure:
-    """Measured and model stress over strain, the residuals (model - measured) below on their own scale.
+    """Measured and model stress over strain; below, the residuals (model - measured) of each on their own scale.
 
-    The paper's Figure 2. The lower axis says how many times it is magnified.
+    The paper's Figure 2. Each lower axis says how many times it is magnified.
     """
     with house_style():
-        figure = new_figure(7.2, 5.4)
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.4))
+        count = len(curves)
+        figure = new_figure(7.2, 3.9 + 1.3 * count)
+        above, *below = figure.subplots(1 + count, 1, sharex=True, height_ratios=[3.4] + [1.2] * count)
         for at, curve in enumerate(curves):
-            shade = series_colour(at)
-            measured = thinned(curve.true_strain, curve.measured)
-            many = len(curves) > 1
-            above.plot(
-                *measured,
-                ".",
-                ms=5,
-                color=colour("data"),
-                zorder=1,
-                label="measured" if at == len(curves) - 1 else None,
-            )
-            above.plot(
-                *thinned(curve.true_strain, curve.model), color=shade, lw=1.1, label=curve.name if many else "model"
-            )
-            residual = curve.model - curve.measured
-            below.plot(*thinned(curve.true_strain, residual), color=shade, lw=0.9)
-        noise = next((curve.noise_MPa for curve in curves if curve.noise_MPa), None)
-        if noise is not None:
-            below.axhspan(-2 * noise, 2 * noise, color=colour("data"), alpha=0.18, lw=0)
-            _note(below, f"band: ±2 noise, {2 * noise:.2g} MPa", left=False)
-        below.axhline(0.0, color=colour("muted"), lw=0.8)
-        below.margins(y=0.25)
+            measured = thinned(curve.true_strain, curve.measured, _DOTS)
+            label = "measured" if at == 0 else None
+            above.plot(*measured, ".", ms=5, color=colour("data"), mew=0, zorder=1.5, label=label)
+            name = curve.name if count > 1 else "model"
+            above.plot(*thinned(curve.true_strain, curve.model), color=series_colour(at), lw=1.1, label=name)
+            _residual(below[at], curve, series_colour(at))
         above.set(ylabel="true stress [MPa]", title=title)
-        below.set(xlabel="true strain [–]", ylabel="model − measured\n[MPa]")
+        below[-1].set_xlabel("true strain [–]")
         above.legend(loc="upper left")
         figure.canvas.draw()
-        _note(below, f"magnified {float(f'{_magnification(above, below):.2g}'):g} times")
+        for at, axes in enumerate(below):
+            prefix = f"{curves[at].name}, " if count > 1 else ""
+            _note(axes, f"{prefix}model − measured, magnified {float(f'{_magnification(above, axes):.2g}'):g} times")
     return figure
+
+
+def _residual(axes: Axes, curve: Curve, shade: str) -> None:
+    axes.plot(*thinned(curve.true_strain, curve.model - curve.measured), color=shade, lw=0.8)
+    if curve.noise_MPa:
+        axes.axhspan(-2 * curve.noise_MPa, 2 * curve.noise_MPa, color=colour("data"), alpha=0.18, lw=0)
+        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa", left=False)
+    axes.axhline(0.0, color=colour("muted"), lw=0.8)
+    axes.margins(y=0.3)
+    axes.set_ylabel("residual [MPa]")
 
 
 def sensitivities(

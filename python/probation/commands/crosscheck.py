@@ -1,0 +1,81 @@
+"""``probation crosscheck``: how far the schemes agree."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import TYPE_CHECKING
+
+from probation.commands.delivery import add_delivery, deliver, deliver_report, warn
+from probation.commands.law_options import make_law, read_settings
+from probation.commands.progress import shown
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from probation.law import Law
+    from probation.records import Campaign
+
+NAME = "crosscheck"
+
+_DESCRIPTION = """\
+Run every scheme (be2 from both starts, sa2, sa3, exact, cvode, and eq. (7) on a ramp) on the same records: largest
+error, observed order, time per solve, CVODE's statistics.
+
+  probation crosscheck                          on the embedded twins of experiments 1 and 3
+  probation crosscheck hdpe-2020/ --record ramp1 --report crosscheck.html
+
+On a campaign the law's parameters are those of --set, then the campaign's law.fixed; what is left is identified.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="how far the schemes agree: error, order, time", description=_DESCRIPTION)
+    parser.add_argument("campaign", metavar="CAMPAIGN", nargs="?", help="a folder with a campaign.toml, or that file")
+    parser.add_argument("--record", metavar="ID", action="append", help="only this record; may be repeated")
+    parser.add_argument(
+        "--set",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="a parameter of the law: unrelaxed_modulus_MPa, hardening_modulus_MPa, tau_max_s or alpha",
+    )
+    add_delivery(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    from probation.crosscheck import crosscheck  # noqa: PLC0415 - see the package
+    from probation.records import Campaign  # noqa: PLC0415
+
+    if options.campaign is None:
+        if options.record or options.set:
+            raise InputError("found --record or --set without a campaign, expected CAMPAIGN before them")
+        with shown("cross-checking") as advance:
+            answer = crosscheck(progress=advance)
+    else:
+        campaign = Campaign.load(options.campaign)
+        for warning in campaign.warnings:
+            warn(warning)
+        records = [campaign.record(each) for each in options.record] if options.record else campaign.records
+        with shown("cross-checking") as advance:
+            answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)
+    deliver(answer, options)
+    deliver_report(answer, options)
+    return 0
+
+
+def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
+    """The campaign's law, what is neither set nor held identified."""
+    from probation.identify import fit  # noqa: PLC0415
+    from probation.schemes.cases import companion_of  # noqa: PLC0415
+
+    values = {"modes": float(campaign.law.modes), "decades": campaign.law.decades, **campaign.law.fixed, **settings}
+    relation = companion_of(campaign.law.companion)
+    needed = {"unrelaxed_modulus_MPa", "hardening_modulus_MPa", "tau_max_s" if relation is None else "alpha"}
+    if not needed <= set(values):
+        held = {name: value for name, value in values.items() if name in needed}
+        found = json.loads(fit(campaign, hold=held).to_json())["parameters"]
+        values = {**{name: parameter["value"] for name, parameter in found.items()}, **values}
+    return make_law(values, relation)

@@ -1,0 +1,1 @@
+"""The schemes side by side: what `probation.crosscheck` is made of."""

@@ -1,0 +1,170 @@
+"""The schemes that are compared, and one timed solve of each."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from probation.change import Change
+from probation.errors import ConvergenceError, InputError
+from probation.ramp import ramp_stress
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from probation import _core
+    from probation._arrays import FloatArray
+    from probation.law import Law, Scheme, Start
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One way of solving eq. (6).
+
+    Attributes
+    ----------
+    name : str
+    scheme : str or None
+        None for the closed form (7), which only a ramp has.
+    start : str
+        bE2's first step.
+    """
+
+    name: str
+    scheme: Scheme | None
+    start: Start = "exponential"
+
+
+CANDIDATES = (
+    Candidate("be2", "be2"),
+    Candidate("be2, paper's start", "be2", "backward_euler"),
+    Candidate("sa2", "sa2"),
+    Candidate("sa3", "sa3"),
+    Candidate("exact", "exact"),
+    Candidate("cvode", "cvode"),
+    Candidate("eq. (7)", None),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class StrainPath:
+    """The strain that every candidate gets.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n_times,) [s]
+    true_strain : ndarray, shape (n_times,) [-]
+    strain_rate : ndarray, shape (n_times,) [1/s], or None
+        Without it the samples mean the piecewise-linear history between them.
+    ramp_rate : float or None [1/s]
+        Where it is a ramp from zero: eq. (7) holds.
+    smooth : bool
+        No jump of the rate is to be looked for.
+    """
+
+    time: FloatArray
+    true_strain: FloatArray
+    strain_rate: FloatArray | None = None
+    ramp_rate: float | None = None
+    smooth: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Solve:
+    """What one candidate answered.
+
+    Attributes
+    ----------
+    true_stress : ndarray, shape (n_times,) [MPa], or None
+        None where it failed.
+    time_us : float
+        Of one solve, the fastest of several [µs].
+    statistics : mapping of str to int
+        CVODE's.
+    failure : str
+        Why there is no stress.
+    """
+
+    true_stress: FloatArray | None
+    time_us: float = np.nan
+    statistics: Mapping[str, int] = field(default_factory=dict)
+    failure: str = ""
+
+
+_STATISTICS = (
+    "steps",
+    "rate_evaluations",
+    "error_test_failures",
+    "nonlinear_iterations",
+    "nonlinear_failures",
+    "restarts",
+    "last_order",
+)
+_LONGEST_TIMING = 0.01  # s, for repeating a solve; one is always done
+
+
+def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1e-10) -> Solve | None:
+    """Solve once and time it; None where the candidate does not apply.
+
+    Parameters
+    ----------
+    candidate : Candidate
+    law : Law
+    path : StrainPath
+    tolerance : float
+        Of CVODE, relative, and absolute in MPa.
+    """
+    try:
+        if candidate.scheme is None:
+            return _closed_form(law, path)
+        solver = law.solver(
+            path.time,
+            path.true_strain,
+            candidate.scheme,
+            strain_rate=path.strain_rate,
+            start=candidate.start,
+            jumps=_jumps(candidate, path),
+            relative_tolerance=tolerance,
+            absolute_tolerance=tolerance,
+        )
+        stress, change = np.empty(len(path.time)), Change()._engine()
+        time_us = _fastest(lambda: solver.stress(law.engine, change, stress))
+    except (ConvergenceError, InputError) as error:
+        return Solve(None, failure=str(error))
+    return Solve(stress, time_us, _statistics(solver) if candidate.scheme == "cvode" else {})
+
+
+def _closed_form(law: Law, path: StrainPath) -> Solve | None:
+    if path.ramp_rate is None or law.companion is not None:
+        return None
+    rate = path.ramp_rate
+    return Solve(ramp_stress(law, rate, path.time), _fastest(lambda: ramp_stress(law, rate, path.time)))
+
+
+def _jumps(candidate: Candidate, path: StrainPath) -> FloatArray | Literal["auto"] | None:
+    """CVODE starts afresh wherever the rate of the piecewise-linear history changes: it cannot step across."""
+    if path.smooth:
+        return None
+    if candidate.scheme == "cvode" and path.strain_rate is None:
+        rate = np.diff(path.true_strain) / np.diff(path.time)
+        changes = np.abs(np.diff(rate)) > 1e-9 * np.abs(rate).max()
+        corners: FloatArray = path.time[1:-1][changes]
+        return corners
+    return "auto"
+
+
+def _fastest(call: Callable[[], object]) -> float:
+    best, spent = np.inf, 0.0
+    while spent < _LONGEST_TIMING:
+        begun = time.perf_counter()
+        call()
+        taken = time.perf_counter() - begun
+        best, spent = min(best, taken), spent + max(taken, 1e-4)
+    return 1e6 * best
+
+
+def _statistics(solver: _core.Solver) -> dict[str, int]:
+    return {name: int(getattr(solver.cvode_statistics, name)) for name in _STATISTICS}

@@ -1,0 +1,93 @@
+"""What the schemes are compared on: the embedded twins, or the records of a campaign."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from probation.companion import FORMS
+from probation.law import Law
+from probation.paper.necking import NECKING_SETS
+from probation.paper.twins import GRIP_LAWS, experiment, necking_history
+from probation.report.provenance import samples_sha256
+from probation.schemes.candidates import StrainPath
+from probation.schemes.smooth import RampHistory, SmoothHistory
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.companion import Companion
+    from probation.records import CompanionSettings, Record
+
+_FINER = 50
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One record on which the schemes are compared.
+
+    Attributes
+    ----------
+    name : str
+    law : Law
+    path : StrainPath
+    reference : ndarray, shape (n_times,) [MPa]
+    reference_name : str
+        For people.
+    smooth : SmoothHistory or None
+        Where to observe the order; None: not for this record.
+    smooth_name : str
+    data_sha256 : str
+    """
+
+    name: str
+    law: Law
+    path: StrainPath
+    reference: FloatArray
+    reference_name: str
+    smooth: SmoothHistory | None
+    smooth_name: str
+    data_sha256: str
+
+
+def twin_case(number: Literal[1, 3]) -> Case:
+    """The twin of experiment 1 (a ramp, constant tau_max) or 3 (necking, companion relation (11))."""
+    twin = experiment(number)
+    if number == 1:
+        rate = float(twin.true_strain[-1] / twin.time[-1])
+        path = StrainPath(twin.time, twin.true_strain, ramp_rate=rate)
+        reference = twin.truth.stress(twin.time, twin.true_strain, "exact")
+        smooth: SmoothHistory = RampHistory(rate, float(twin.time[-1]))
+        named = "exact", f"ramp at {rate:g} 1/s"
+    else:
+        smooth = necking_history(number)
+        path = StrainPath(twin.time, twin.true_strain, twin.strain_rate, smooth=True)
+        fine = np.linspace(0.0, smooth.duration, _FINER * (len(twin.time) - 1) + 1)
+        reference = GRIP_LAWS[number].stress(fine, smooth.true_strain(fine), "exact", jumps=None)[::_FINER]
+        named = f"exact on {_FINER} times finer a grid", "necking (A-1)"
+    sha256 = samples_sha256(twin.time, twin.true_strain)
+    return Case(twin.name, twin.truth, path, reference, named[0], smooth, named[1], sha256)
+
+
+def record_case(record: Record, law: Law, *, with_steps: bool) -> Case:
+    """A record; with steps, the order is observed on a necking history of its duration and largest strain."""
+    path = StrainPath(record.time - record.time[0], record.true_strain, record.strain_rate)
+    reference = law.stress(path.time, path.true_strain, "exact", strain_rate=path.strain_rate)
+    smooth = None
+    if with_steps:
+        plain = NECKING_SETS["P2"]
+        stretched = plain.slowed(float(path.time[-1]) / plain.duration)
+        reach = float(np.ptp(record.true_strain)) / float(stretched.true_strain([stretched.duration])[0])
+        smooth = replace(stretched, b=stretched.b * reach)
+    named = "exact, for the samples as recorded", "necking (A-1) of the record's duration and strain"
+    return Case(record.id, law, path, reference, named[0], smooth, named[1], record.sha256)
+
+
+def companion_of(settings: CompanionSettings | None) -> Companion | None:
+    """The companion relation that a campaign names."""
+    if settings is None:
+        return None
+    outside_names = {"tau_max_s": "tau_max"}
+    numbers = {outside_names.get(name, name): value for name, value in settings.parameters.items()}
+    return FORMS[settings.form](**numbers)

@@ -1,0 +1,68 @@
+"""Error against step and against time, log-log."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.report.figures import house_style, new_figure
+from probation.report.style import SERIES, colour
+from probation.schemes.result import PAPERS_START
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.schemes.steps import StepStudy
+
+_MARKERS = "osD^vPX"
+_BOTTOM = 1e-13  # MPa: errors below are drawn there
+
+
+def crosscheck_plot(studies: Sequence[StepStudy]) -> Figure:
+    """One row per study: error against step on the left, against the time of one solve on the right."""
+    with house_style():
+        figure = new_figure(7.6, 0.6 + 3.1 * max(1, len(studies)))
+        if not studies:
+            figure.text(0.5, 0.5, "no smooth history was asked for", ha="center")
+            return figure
+        rows = figure.subplots(len(studies), 2, sharey="row", squeeze=False)
+        for (left, right), study in zip(rows, studies, strict=True):
+            for at, (name, errors) in enumerate(study.largest_error_MPa.items()):
+                drawn = np.maximum(errors, _BOTTOM)
+                look = {"color": colour(SERIES[at % len(SERIES)]), "marker": _MARKERS[at % len(_MARKERS)], "ms": 3.5}
+                if name == PAPERS_START:  # the same curve as be2's, away from the start
+                    look |= {"mfc": "none", "ms": 6, "ls": "--"}
+                left.loglog(study.step, drawn, label=name, lw=1.1, **look)
+                right.loglog(study.time_us[name], drawn, lw=1.1, **look)
+            _slopes(left, study)
+            left.set(xlabel="step [s]", ylabel="largest error [MPa]", title=study.history)
+            right.set(xlabel="time of one solve [µs]")
+        handles, labels = rows[0][0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    return figure
+
+
+def _slopes(axes: Axes, study: StepStudy) -> None:
+    """Guides at the fine end: order 2 above be2, order 3 below sa3."""
+    for name, order, apart in (("be2", 2, 3.5), ("sa3", 3, 0.25)):
+        errors = study.largest_error_MPa.get(name)
+        if errors is None or not np.isfinite(errors[-1]):
+            continue
+        step = study.step[-3:]
+        guide: FloatArray = apart * errors[-1] * (step / step[-1]) ** order
+        axes.loglog(step, guide, color=colour("muted"), lw=0.8, ls="--")
+        axes.annotate(
+            f"order {order}",
+            (step[1], guide[1]),
+            xytext=(-3, 3) if apart > 1 else (3, -3),
+            textcoords="offset points",
+            ha="right" if apart > 1 else "left",
+            va="bottom" if apart > 1 else "top",
+            fontsize=8,
+            color=colour("muted"),
+        )

@@ -1,0 +1,149 @@
+"""The command line as a whole: help, exit statuses, one line for every error."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from probation import cli
+from probation.errors import ConvergenceError, InputError
+
+LAW = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "tau_max_s=5.2", "--set", "hardening_modulus_MPa=2.5"]
+
+
+@pytest.fixture
+def failing(monkeypatch):
+    """Let the preview command raise that exception."""
+
+    def arrange(error):
+        def run(options):
+            raise error
+
+        monkeypatch.setattr(cli.preview, "run", run)
+        return cli.main(["preview", "any.csv"])
+
+    return arrange
+
+
+def one_line(text):
+    return text.endswith("\n") and text.count("\n") == 1 and "Traceback" not in text
+
+
+def test_without_arguments_the_help_teaches_by_example(capsys):
+    assert cli.main([]) == 0
+    out = capsys.readouterr().out
+    assert "probation simulate --history ramp" in out
+    assert all(command.NAME in out for command in cli.COMMANDS)
+
+
+@pytest.mark.parametrize("command", [command.NAME for command in cli.COMMANDS])
+def test_every_command_has_help_with_an_example(command, capsys):
+    assert cli.main([command, "--help"]) == 0
+    assert f"\n  probation {command}" in capsys.readouterr().out
+
+
+def test_the_version_is_that_of_the_package(capsys):
+    assert cli.main(["--version"]) == 0
+    assert capsys.readouterr().out == f"probation {cli.__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["simulat"], "did you mean 'simulate'?"),
+        (["simulate", "--scheme", "be3"], "invalid choice: 'be3'"),
+        (["simulate", "--nonsense"], "--nonsense"),
+        (["preview"], "FILE"),
+        (["fit"], "CAMPAIGN"),
+        (["fit", "no-such-folder"], "no-such-folder"),
+        (["crosscheck", "--set", "tau_max_s=3"], "without a campaign"),
+        (["preview", "a.csv", "--plot", "a.bmp"], "expected a file that ends in .png"),
+        (["preview", "a.csv", "--unit", "force"], "--unit: found 'force', expected ROLE=…"),
+        (["preview", "a.csv", "--column", "time=1", "--column", "time=2"], "found time twice"),
+        (["preview", "no-such.csv"], "no-such.csv: found no such file"),
+        (["demo", "--no-files", "--out", "x"], "not allowed with"),
+    ],
+)
+def test_bad_arguments_are_told_in_one_line_with_status_2(arguments, told, capsys):
+    assert cli.main(arguments) == 2
+    err = capsys.readouterr().err
+    assert one_line(err)
+    assert err.startswith("probation: ")
+    assert told in err
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (InputError("a.csv, row 3: found 'x',\nexpected a number"), 2),
+        (ConvergenceError("stopped at t = 3 s"), 1),
+        (RuntimeError("an invariant broke"), 1),
+        (KeyboardInterrupt(), 130),
+        (BrokenPipeError(), 141),
+    ],
+)
+def test_each_kind_of_failure_has_its_status_and_no_traceback(error, status, failing, capsys):
+    assert failing(error) == status
+    err = capsys.readouterr().err
+    assert err == "" if status == 141 else one_line(err)
+
+
+def test_an_unexpected_error_tells_how_to_see_where(failing, capsys):
+    failing(RuntimeError("an invariant broke"))
+    assert "PROBATION_DEBUG=1" in capsys.readouterr().err
+
+
+def test_debugging_shows_where_an_error_arose(failing, capsys, monkeypatch):
+    monkeypatch.setenv("PROBATION_DEBUG", "1")
+    assert failing(RuntimeError("an invariant broke")) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_a_warning_of_a_library_is_one_line_on_standard_error(monkeypatch, capsys):
+    def run(options):
+        import warnings  # noqa: PLC0415
+
+        warnings.simplefilter("always")
+        warnings.warn("mind the gap", stacklevel=1)
+        return 0
+
+    monkeypatch.setattr(cli.preview, "run", run)
+    assert cli.main(["preview", "any.csv"]) == 0
+    assert capsys.readouterr().err == "warning: mind the gap\n"
+
+
+def run_as_process(*arguments, **environment):
+    return subprocess.run(
+        [sys.executable, "-m", "probation", *arguments],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        env={**os.environ, **environment},
+        check=False,
+    )
+
+
+def test_as_a_process_bad_input_leaves_status_2_and_an_empty_standard_output():
+    done = run_as_process("simulate", "no-such.csv", *LAW)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert one_line(done.stderr)
+
+
+def test_as_a_process_a_simulation_goes_to_standard_output():
+    done = run_as_process("simulate", "--history", "ramp:samples=11", *LAW, "-o", "-")
+    assert done.returncode == 0
+    assert done.stdout.splitlines()[0] == "time_s,true_strain,true_stress_MPa"
+    assert len(done.stdout.splitlines()) == 12
+
+
+def test_a_terminal_without_unicode_shows_question_marks_instead_of_failing():
+    done = run_as_process("simulate", "--history", "ramp:samples=11", *LAW, PYTHONIOENCODING="ascii")
+    assert done.returncode == 0
+
+
+def test_a_reader_that_goes_away_is_no_error_to_speak_of():
+    command = f'"{sys.executable}" -m probation simulate --history ramp:samples=20001 {" ".join(LAW)} -o - | head -1'
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.stdout == "time_s,true_strain,true_stress_MPa\n"
+    assert done.stderr == ""

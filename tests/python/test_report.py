@@ -1,0 +1,166 @@
+"""Plots and pages."""
+
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import probation
+from probation.answers import json_answer, plain
+from probation.report.figures import figure_to_svg, house_style, new_figure, save_figure, thinned
+from probation.report.page import Page, Section, picture
+from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
+from probation.report.provenance import provenance, running
+from probation.report.style import COLOURS
+from probation.report.table import Table
+
+STRAIN = np.linspace(0.0, 1.0, 500)
+CURVE = Curve("ramp <1>", STRAIN, 30 * STRAIN + 0.1 * np.sin(40 * STRAIN), 30 * STRAIN, 0.04)
+
+
+@pytest.fixture
+def figure():
+    return stress_strain_with_residuals([CURVE])
+
+
+@pytest.fixture
+def page(figure):
+    table = Table(("name", "value [MPa]"), (("E_u", "3224"), ("G & more", "2.5")), "Parameters")
+    sections = (Section("Curves", (picture(figure, "Curves <and> residuals"), "A paragraph.", table)),)
+    with running("probation fit x"):
+        return Page("Fit of <x>", "All is well", sections, "good", "A lead.", provenance("abc123", 7))
+
+
+class Tags(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.open, self.seen = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+        if tag not in ("meta", "br", "link", "img"):
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_a_page_is_well_formed_and_fetches_nothing(page):
+    tags = Tags()
+    tags.feed(page.html())
+    assert tags.open == []
+    names = {tag for tag, _ in tags.seen}
+    assert names.isdisjoint({"script", "link", "img", "iframe"})
+    links = [value for _, attributes in tags.seen for key, value in attributes.items() if key.endswith("href")]
+    assert all(link.startswith("#") for link in links)
+
+
+def test_a_page_says_the_verdict_first_and_where_it_came_from(page):
+    html = page.html()
+    assert html.index("All is well") < html.index("A lead.") < html.index("Curves</h2>")
+    footer = html[html.index("<footer>") :]
+    assert all(part in footer for part in (probation.__version__, "abc123", "seed 7", "probation fit x"))
+
+
+def test_a_page_escapes_what_it_shows(page):
+    html = page.html()
+    assert "Fit of &lt;x&gt;" in html
+    assert "G &amp; more" in html
+    assert "Curves &lt;and&gt; residuals" in html
+
+
+def test_colours_of_a_figure_follow_the_page(figure):
+    svg = figure_to_svg(figure, "curves")
+    assert f"var(--model, {COLOURS['model'].light})" in svg
+    assert not re.search(r"(?<!, )#[0-9a-f]{6}", svg.replace("#ffffff", ""))
+
+
+def test_numbers_in_a_figure_keep_their_digits():
+    with house_style():
+        drawing = new_figure()
+        drawing.subplots().set_title("rate 0.00512 1/s")
+    assert "rate 0.00512 1/s" in figure_to_svg(drawing, "title")
+
+
+def test_the_same_figure_gives_the_same_text(figure):
+    assert figure_to_svg(figure, "curves") == figure_to_svg(figure, "curves")
+
+
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_a_browser_shows_the_page(page, tmp_path, colours):
+    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if browser is None:
+        pytest.skip("no browser here")
+    page.write(tmp_path / "page.html")
+    scheme = ["--blink-settings=preferredColorScheme=0"] if colours == "dark" else []
+    subprocess.run(
+        [
+            *(browser, "--headless", "--no-sandbox", "--disable-gpu", *scheme, "--window-size=900,1200"),
+            f"--user-data-dir={tmp_path / 'profile'}",
+            f"--screenshot={tmp_path / 'page.png'}",
+            (tmp_path / "page.html").as_uri(),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    shown = np.asarray(Image.open(tmp_path / "page.png").convert("L"))
+    background = shown[-20, 20]
+    assert background > 240 if colours == "light" else background < 40
+    assert len(np.unique(shown)) > 30
+
+
+def test_a_figure_is_saved_by_its_ending(figure, tmp_path):
+    for ending in ("png", "svg", "pdf"):
+        save_figure(figure, tmp_path / f"a.{ending}")
+    with pytest.raises(probation.InputError, match=r"found the ending '.gif'"):
+        save_figure(figure, tmp_path / "a.gif")
+
+
+def test_residuals_are_magnified_as_said(figure):
+    above, below = figure.axes
+    lengths = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (above, below)]
+    said = float(re.search(r"magnified (\S+) times", " ".join(text.get_text() for text in below.texts))[1])
+    assert said == pytest.approx(lengths[1] / lengths[0], rel=0.06)
+
+
+def test_every_plot_labels_its_axes_with_units(figure):
+    others = [
+        sensitivities(STRAIN, np.outer(STRAIN, [1.0, 2.0]), ["E_u", "G"]),
+        strain_rates([("ramp", STRAIN, 0.005 + 0 * STRAIN), ("reversed", STRAIN, -0.005 + 0 * STRAIN)]),
+    ]
+    for drawn in (figure, *others):
+        assert "[" in drawn.axes[-1].get_xlabel()
+        assert all("[" in axes.get_ylabel() for axes in drawn.axes)
+
+
+def test_a_long_curve_is_thinned_to_its_outline():
+    x = np.arange(100_000.0)
+    y = np.zeros_like(x)
+    y[54_321] = 1.0
+    few_x, few_y = thinned(x, y)
+    assert len(few_x) <= 2100
+    assert few_y.max() == 1.0
+    assert (few_x[0], few_x[-1]) == (x[0], x[-1])
+
+
+def test_a_table_sets_words_left_and_numbers_right():
+    text = Table(("name", "value"), (("a", "1.5"), ("long name", "10")), "Caption").text()
+    assert text.splitlines()[0] == "Caption"
+    assert text.splitlines()[-1] == "  long name     10"
+
+
+def test_json_has_no_nan_and_knows_arrays():
+    text = json_answer("probation.test/1", {"a": float("nan"), "b": np.arange(3.0), "c": (np.int64(2), np.bool_(True))})
+    assert '"a": null' in text
+    assert '"b": [ 0.0, 1.0, 2.0 ]' in text
+    assert plain({"x": np.float64("inf")}) == {"x": None}
+    with pytest.raises(TypeError, match="no form in JSON"):
+        plain(object())
