@@ -5,10 +5,11 @@ using probation::Differentiator;
 using probation::History;
 
 void bind_history(py::module_& m) {
-  py::enum_<Differentiator>(m, "Differentiator")
+  py::native_enum<Differentiator>(m, "Differentiator", "enum.Enum")
       .value("secant", Differentiator::secant)
       .value("backward", Differentiator::backward)
-      .value("three_point", Differentiator::three_point);
+      .value("three_point", Differentiator::three_point)
+      .finalize();
   py::class_<History>(m, "History")
       .def(py::init<const probation::Samples&, const probation::Samples&, const probation::Samples&, History::Indices,
                     const Eigen::ArrayXi&>(),

@@ -4,13 +4,17 @@
 using namespace probation;
 
 void bind_solver(py::module_& m) {
-  py::enum_<Scheme>(m, "Scheme")
+  py::native_enum<Scheme>(m, "Scheme", "enum.Enum")
       .value("be2", Scheme::be2)
       .value("sa2", Scheme::sa2)
       .value("sa3", Scheme::sa3)
       .value("exact", Scheme::exact)
-      .value("cvode", Scheme::cvode);
-  py::enum_<Start>(m, "Start").value("exponential", Start::exponential).value("backward_euler", Start::backward_euler);
+      .value("cvode", Scheme::cvode)
+      .finalize();
+  py::native_enum<Start>(m, "Start", "enum.Enum")
+      .value("exponential", Start::exponential)
+      .value("backward_euler", Start::backward_euler)
+      .finalize();
 
   py::class_<CvodeStatistics>(m, "CvodeStatistics")
       .def_readonly("steps", &CvodeStatistics::steps)

@@ -2,6 +2,7 @@
 // One bind_<header>.cpp per topic; module.cpp lists them.
 
 #include <pybind11/eigen.h>
+#include <pybind11/native_enum.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -109,8 +109,7 @@ def mp_segments(time, strain, E_u, G, tau_max, *, modes=50, decades=6.0, digits=
     """
     with mp.workdps(digits):
         weights = [
-            mp.mpf(10) ** (-mp.mpf(modes - j) * mp.mpf(decades) / max(modes - 1, 1))
-            for j in range(1, modes + 1)
+            mp.mpf(10) ** (-mp.mpf(modes - j) * mp.mpf(decades) / max(modes - 1, 1)) for j in range(1, modes + 1)
         ]
         taus = [mp.mpf(tau_max) * w for w in weights] if tau is None else [mp.mpf(each) for each in tau]
         roots = [mp.sqrt(w) for w in weights]
@@ -139,10 +138,7 @@ def mp_ramp(rate, time, E_u, G, tau_max, **options):
         duration = mp.mpf(float(time))
         taus = options.get("tau")
         modes, decades = options.get("modes", 50), options.get("decades", 6.0)
-        ratios = [
-            mp.mpf(10) ** (-mp.mpf(modes - j) * mp.mpf(decades) / max(modes - 1, 1))
-            for j in range(1, modes + 1)
-        ]
+        ratios = [mp.mpf(10) ** (-mp.mpf(modes - j) * mp.mpf(decades) / max(modes - 1, 1)) for j in range(1, modes + 1)]
         taus = [mp.mpf(tau_max) * r for r in ratios] if taus is None else [mp.mpf(x) for x in taus]
         whole = mp.fsum([mp.sqrt(r) for r in ratios])
         r = mp.mpf(float(rate))

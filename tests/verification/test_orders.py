@@ -120,9 +120,7 @@ def test_the_papers_companion_relations(scheme, order, form):
 
     run = solve_ivp(flow, (0.0, DURATION), np.zeros(modes), "DOP853", rtol=1e-12, atol=1e-12, t_eval=AT)
     base = law(tau_max=None, companion=companion, modes=modes, decades=decades)
-    found = errors(
-        base, scheme, uniform(300), paper.smooth_strain, run.y.sum(axis=0), strain_rate=paper.smooth_rate
-    )
+    found = errors(base, scheme, uniform(300), paper.smooth_strain, run.y.sum(axis=0), strain_rate=paper.smooth_rate)
     assert measured(found) > order - 0.05
 
 

@@ -98,10 +98,7 @@ def test_the_papers_start_errs_as_physics_states(h, error):
 def test_the_exponential_start_is_about_five_times_better(h):
     time, strain = experiment_1(h)
     truth = probation.ramp_stress(law(), 0.005, time)
-    worst = {
-        s: np.abs(law().stress(time, strain, start=s) - truth).max()
-        for s in ("exponential", "backward_euler")
-    }
+    worst = {s: np.abs(law().stress(time, strain, start=s) - truth).max() for s in ("exponential", "backward_euler")}
     assert worst["exponential"] < 0.25 * worst["backward_euler"]
 
 
@@ -247,9 +244,7 @@ def test_every_change_is_the_one_that_cvode_integrates(field, companion):
     assert_allclose(changed_run(field, "sa3", 4096, companion)[away], reference[away], rtol=0.0, atol=2e-4)
 
 
-@pytest.mark.parametrize(
-    "field", ["modulus", "added stress", "area", "initial stress", "extra modes", "number"]
-)
+@pytest.mark.parametrize("field", ["modulus", "added stress", "area", "initial stress", "extra modes", "number"])
 def test_exact_knows_every_change_but_feedbacks(field):
     """All that it takes as straight between samples, as CVODE does: the same to CVODE's tolerance."""
     found = changed_run(field, "exact", 64, companion=False)
@@ -278,14 +273,14 @@ def test_a_feedback_that_does_nothing_changes_nothing(scheme):
     time, strain = several_segments()
     idle = Change(feedbacks=(StressActivation(1e9), SelfHeating(0.0, 0.0, 1.0, 1.0)))
     found, plain = (law(modes=12).stress(time, strain, scheme, change=c) for c in (idle, None))
-    assert_allclose(found, plain, rtol=1e-11, atol=1e-5 if scheme == "cvode" else 1e-9)
+    # A step of a microsecond before one of 17 s: SA3's parabola multiplies the rounding of the first by 1.7e7.
+    rounding = {"cvode": 1e-5, "sa3": 1e-6}.get(scheme, 1e-9)
+    assert_allclose(found, plain, rtol=1e-11, atol=rounding)
 
 
 def test_two_changes_at_once_are_those_of_either():
     """Factors multiply, stresses add, modes and feedbacks stand side by side."""
-    one = Change(
-        relaxation_time_factor=2.0, added_relaxed_stress=1.0, extra_modulus=3.0, extra_relaxation_time=4.0
-    )
+    one = Change(relaxation_time_factor=2.0, added_relaxed_stress=1.0, extra_modulus=3.0, extra_relaxation_time=4.0)
     two = Change(
         relaxation_time_factor=[3.0, 4.0], added_relaxed_stress=[1.0, 2.0], extra_modulus=[5.0], extra_relaxation_time=[6.0],
         load_bearing_area=0.5, feedbacks=(StressActivation(7.0),),

@@ -80,9 +80,7 @@ def test_parameters_are_differentiated(scheme, feedback, companion, history):
     time, strain, options, _ = history
     base, change = law(companion), Change(feedbacks=feedback)
     stress, found = base.sensitivity(time, strain, scheme, change=change, **options)
-    assert_allclose(
-        stress, base.stress(time, strain, scheme, change=change, **options), rtol=1e-12, atol=1e-12
-    )
+    assert_allclose(stress, base.stress(time, strain, scheme, change=change, **options), rtol=1e-12, atol=1e-12)
     for k, name in enumerate(base.parameter_names):
         value = getattr(base, name)
         expected = central(
@@ -145,9 +143,7 @@ def test_given_rates_are_differentiated(scheme, companion, feedback, history):
         **options,
     )
     expected = central(
-        lambda d: base.stress(
-            time, strain, scheme, change=change, strain_rate=rates + d * towards, **options
-        ),
+        lambda d: base.stress(time, strain, scheme, change=change, strain_rate=rates + d * towards, **options),
         1e-4,
     )
     agree(found[:, 0], expected)
@@ -175,19 +171,12 @@ def moved(law, change, direction, d, start_strain):
     fields["added_relaxed_stress"] = or_else(change.added_relaxed_stress, 0.0) + step("relaxed_stress")
     if change.extra_modulus is not None:
         fields["extra_modulus"] = np.asarray(change.extra_modulus) + step("extra_modulus")
-        fields["extra_relaxation_time"] = np.asarray(change.extra_relaxation_time) * np.exp(
-            step("log_extra_time")
-        )
+        fields["extra_relaxation_time"] = np.asarray(change.extra_relaxation_time) * np.exp(step("log_extra_time"))
     if change.initial_modal_stress is not None:
-        fields["initial_modal_stress"] = np.asarray(change.initial_modal_stress) + step(
-            "initial_modal_stress"
-        )
+        fields["initial_modal_stress"] = np.asarray(change.initial_modal_stress) + step("initial_modal_stress")
     elif direction.initial_modal_stress is not None:
         hardening = law.hardening_modulus * np.atleast_1d(or_else(change.hardening_factor, 1.0))[0]
-        relaxed = (
-            hardening * literal.hardening_strain(start_strain)
-            + np.atleast_1d(fields["added_relaxed_stress"])[0]
-        )
+        relaxed = hardening * literal.hardening_strain(start_strain) + np.atleast_1d(fields["added_relaxed_stress"])[0]
         fields["initial_modal_stress"] = (p + step("modal_weight")) * relaxed + step("initial_modal_stress")
     spectrum = probation.Spectrum(
         law.spectrum.relaxation_ratio * np.exp(step("log_relaxation_ratio")), p + step("modal_weight")
@@ -268,9 +257,7 @@ def test_directions_add_up(scheme, start, feedback):
     every = fields["all at once"]
     alone = [fields[name] for name in vars(every) if name in fields]
     change = replace(changes(len(time))["plain"], initial_modal_stress=start, feedbacks=feedback)
-    _, found = law(True).sensitivity(
-        time, strain, scheme, change=change, directions=[every, *alone], **options
-    )
+    _, found = law(True).sensitivity(time, strain, scheme, change=change, directions=[every, *alone], **options)
     scale = np.abs(found).max()
     assert_allclose(found[:, 0], found[:, 1:].sum(axis=1), rtol=0.0, atol=1e-11 * scale)
 
@@ -326,18 +313,14 @@ def test_a_start_that_is_not_relaxed_in_a_mode_of_weight_zero_has_none(feedback,
 def test_a_direction_that_does_not_fit_is_named(feedback, wrong, message):
     time, strain, _, _ = HISTORIES["smooth"]
     with pytest.raises(probation.InputError, match=message):
-        law(False).sensitivity(
-            time, strain, change=Change(feedbacks=feedback), directions=[Direction(**wrong)]
-        )
+        law(False).sensitivity(time, strain, change=Change(feedbacks=feedback), directions=[Direction(**wrong)])
 
 
 def test_a_feedback_parameter_that_is_not_there_is_named():
     time, strain, _, _ = HISTORIES["smooth"]
     change = Change(feedbacks=FEEDBACKS["both"])
     with pytest.raises(probation.InputError, match=r"feedback_parameter is 1; that feedback has 1"):
-        law(False).sensitivity(
-            time, strain, change=change, directions=[Direction(feedback=0, feedback_parameter=1)]
-        )
+        law(False).sensitivity(time, strain, change=change, directions=[Direction(feedback=0, feedback_parameter=1)])
 
 
 @schemes
@@ -359,12 +342,8 @@ def test_feedback_parameters_are_differentiated(scheme, companion, history, para
 
     where = (0, 0) if parameter == 0 else (1, parameter - 1)
     direction = Direction(feedback=where[0], feedback_parameter=where[1])
-    _, found = base.sensitivity(
-        time, strain, scheme, change=change(values), directions=[direction], **options
-    )
+    _, found = base.sensitivity(time, strain, scheme, change=change(values), directions=[direction], **options)
     step = 1e-4 * values[parameter]
     moved = np.eye(5)[parameter]
-    expected = central(
-        lambda d: base.stress(time, strain, scheme, change=change(values + d * moved), **options), step
-    )
+    expected = central(lambda d: base.stress(time, strain, scheme, change=change(values + d * moved), **options), step)
     agree(found[:, 0], expected, 3e-6)
