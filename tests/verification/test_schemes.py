@@ -36,7 +36,7 @@ def test_be2_is_literally_eq_9(start):
 
 
 def test_be2_takes_the_three_point_backward_difference():
-    """The sum of a difference quotient is rounded: 1e-16 of the strain over h, times E_u tau, is 1e-12 MPa."""
+    """Strains are rounded: 1e-16 over h, times E_u tau, is 1e-12 MPa."""
     time = paper.uneven(500, 60.0)
     strain = paper.smooth_strain(time)
     found = law().stress(time, strain, start="backward_euler", jumps=None)
@@ -206,7 +206,8 @@ FIELDS = {
     "extra modes": lambda w: Change(extra_modulus=[400.0, 30.0], extra_relaxation_time=[0.7, 50.0]),
     "number": lambda w: Change(0.7, 1.1, 1.2, 0.5, 0.9),
     "all": lambda w: Change(
-        w, w[::-1], w, 2.0 * w, w, np.linspace(0.5, -0.2, 12), [400.0, 30.0], [0.7, 50.0], (SelfHeating(1.0, 0.01, 0.02, 0.01),)
+        w, w[::-1], w, 2.0 * w, w, np.linspace(0.5, -0.2, 12), [400.0, 30.0], [0.7, 50.0],
+        (SelfHeating(1.0, 0.01, 0.02, 0.01),),
     ),
     "activation": lambda w: Change(feedbacks=(StressActivation(20.0),)),
     "heating": lambda w: Change(feedbacks=(SelfHeating(1.0, 0.02, 0.03, 0.01),)),
@@ -215,7 +216,7 @@ FIELDS = {
 
 
 def changed_run(field, scheme, n, companion):
-    """A kinked path on n steps; samples of the change are a straight line in each half, so refinement is exact."""
+    """A kinked path on n steps; the samples of a change are straight in each half."""
     time = np.linspace(0.0, 32.0, n + 1)
     strain = 0.05 + np.where(time < 16.0, 0.01 * time, 0.16 + 0.004 * (time - 16.0))
     wave = 1.0 + 0.2 * np.where(time < 16.0, time / 16.0, 2.0 - time / 16.0)
@@ -231,7 +232,7 @@ def changed_run(field, scheme, n, companion):
 @pytest.mark.parametrize("companion", [False, True], ids=["constant", "companion"])
 @pytest.mark.parametrize("field", FIELDS)
 def test_every_change_is_the_one_that_cvode_integrates(field, companion):
-    """be2 and sa2 approach it as h^2: extrapolated by Richardson, (4 f(h / 2) - f(h)) / 3, they agree within 1e-4 MPa.
+    """be2 and sa2 approach it as h^2: by Richardson, (4 f(h / 2) - f(h)) / 3, they agree within 1e-4 MPa.
 
     sa3 meets kinks with restarts and is compared as it is.
     """
@@ -282,8 +283,8 @@ def test_two_changes_at_once_are_those_of_either():
     """Factors multiply, stresses add, modes and feedbacks stand side by side."""
     one = Change(relaxation_time_factor=2.0, added_relaxed_stress=1.0, extra_modulus=3.0, extra_relaxation_time=4.0)
     two = Change(
-        relaxation_time_factor=[3.0, 4.0], added_relaxed_stress=[1.0, 2.0], extra_modulus=[5.0], extra_relaxation_time=[6.0],
-        load_bearing_area=0.5, feedbacks=(StressActivation(7.0),),
+        relaxation_time_factor=[3.0, 4.0], added_relaxed_stress=[1.0, 2.0], extra_modulus=[5.0],
+        extra_relaxation_time=[6.0], load_bearing_area=0.5, feedbacks=(StressActivation(7.0),),
     )  # fmt: skip
     both = one.and_(two)
     assert_allclose(both.relaxation_time_factor, [6.0, 8.0])

@@ -1,7 +1,7 @@
 """Is every sensitivity the derivative it claims to be?
 
 Each is compared with a central difference of the stress itself, (stress(+d) - stress(-d)) / 2d, whose
-own error is d^2 times a third derivative plus rounding over d; steps are chosen so that both stay below a millionth.
+own error is d^2 times a third derivative plus rounding over d; steps keep both below a millionth.
 """
 
 from dataclasses import replace

@@ -1,0 +1,113 @@
+"""Four threads at once: the same answers, and the interpreter free meanwhile."""
+
+import os
+import subprocess
+import sys
+import threading
+import time as clock
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import probation
+from probation import Change, SelfHeating
+from reference import paper
+
+TIME = np.linspace(0.0, 60.0, 3001)
+STRAIN = paper.smooth_strain(TIME)
+
+
+def law(tau):
+    return probation.Law(unrelaxed_modulus=3220.0, tau_max=tau, hardening_modulus=2.5)
+
+
+@pytest.mark.parametrize("scheme", ["be2", "sa3", "exact", "cvode"])
+def test_four_threads_give_what_one_gives(scheme):
+    n = 201 if scheme == "cvode" else 3001
+
+    def solve(tau):
+        return law(tau).stress(TIME[:n], STRAIN[:n], scheme)
+
+    taus = [1.0, 3.0, 5.0, 7.0] * (1 if scheme == "cvode" else 5)
+    alone = [solve(tau) for tau in taus]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(solve, taus))
+    assert all(np.array_equal(one, other) for one, other in zip(alone, together, strict=True))
+
+
+def test_feedbacks_and_sensitivities_in_threads_give_what_one_gives():
+    change = Change(feedbacks=(SelfHeating(1.0, 0.01, 0.02, 0.01),))
+
+    def solve(tau):
+        return law(tau).sensitivity(TIME[:301], STRAIN[:301], change=change)
+
+    taus = [1.0, 3.0, 5.0, 7.0]
+    alone = [solve(tau) for tau in taus]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(solve, taus))
+    for one, other in zip(alone, together, strict=True):
+        assert np.array_equal(one[0], other[0])
+        assert np.array_equal(one[1], other[1])
+
+
+@pytest.mark.parametrize("call", ["stress", "tangent", "strain_sensitivity"])
+def test_the_interpreter_goes_on_during_a_call(call):
+    """A call of some 0.1 s: with the lock held, no other thread would take a step before its end."""
+    base = law(5.0)
+    change = Change(extra_modulus=np.ones(400), extra_relaxation_time=np.geomspace(1e-3, 1e3, 400))
+    n = {"stress": 201, "tangent": 1001, "strain_sensitivity": 401}[call]
+    scheme = "cvode" if call == "stress" else "sa3"
+    solver = base.solver(TIME[:n] ** 1.01, STRAIN[:n], scheme)
+    done = threading.Event()
+    out, columns = np.empty(n), np.empty((n, 40))
+    engine_change = change._engine()
+    directions = [probation.Direction(relaxed_stress=1.0)._engine()] * 40
+
+    def work():
+        began.append(clock.perf_counter())
+        if call == "stress":
+            solver.stress(base.engine, engine_change, out)
+        elif call == "tangent":
+            solver.tangent(base.engine, engine_change, directions, out, columns)
+        else:
+            solver.strain_sensitivity(base.engine, engine_change)
+        ended.append(clock.perf_counter())
+        done.set()
+
+    began, ended, ticks = [], [], []
+    thread = threading.Thread(target=work)
+    thread.start()
+    while not done.wait(0.001):
+        ticks.append(clock.perf_counter())
+    thread.join()
+    during = [tick for tick in ticks if began[0] < tick < ended[0]]
+    assert len(during) >= 3, f"{len(during)} steps in {ended[0] - began[0]:.3f} s"
+
+
+PROGRAM = """
+import sys
+import numpy as np
+import probation
+time = np.concatenate([np.linspace(0.0, 20.0, 400), 20.0 + np.cumsum(np.linspace(0.01, 0.2, 100))])
+strain = 0.006 * time + 0.01 * np.sin(0.3 * time)
+rows = []
+for modes in (1, 6, 29, 50):
+    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=modes)
+    rows += [law.stress(time, strain, scheme) for scheme in ("be2", "sa2", "sa3")]
+    rows += list(law.sensitivity(time, strain, "sa3")[1].T)
+np.save(sys.argv[1], np.array(rows))
+"""
+
+
+def test_the_baseline_kernels_give_the_same_stress(tmp_path):
+    """To 1e-12 of the largest: the two differ in how they add and round."""
+    found = {}
+    for kernels in ("baseline", "v3"):
+        file = tmp_path / f"{kernels}.npy"
+        environment = os.environ | {"PROBATION_KERNELS": kernels}
+        subprocess.run([sys.executable, "-c", PROGRAM, str(file)], env=environment, check=True)
+        found[kernels] = np.load(file)
+    scale = np.abs(found["v3"]).max(axis=1, keepdims=True)
+    assert_allclose(found["baseline"] / scale, found["v3"] / scale, rtol=0.0, atol=1e-12)

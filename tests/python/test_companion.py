@@ -1,0 +1,119 @@
+"""Do the companion relations give the paper's numbers, and say where they end?"""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import probation
+from probation import Exponential, PowerLaw, RateFunction, Table, Weissenberg
+from reference import paper
+
+FORMS = {
+    "weissenberg": Weissenberg(0.00464, 0.0367),
+    "exponential": Exponential(27.24, -2.1),
+    "power": PowerLaw(0.03, -0.9),
+    "table": Table(list(paper.TABLE_2), list(paper.TABLE_2.values())),
+}
+forms = pytest.mark.parametrize("companion", FORMS.values(), ids=FORMS)
+
+
+def test_eq_11_by_hand():
+    """At 0.001 1/s: (0.00464 (-3) + 0.0367) / 0.001 = 22.78 s; at 0.005, physics.md's anchor, 5.205 s."""
+    assert FORMS["weissenberg"].relaxation_time([0.001, 0.005]) == pytest.approx([22.78, 5.205], rel=1e-4)
+    assert FORMS["weissenberg"].weissenberg_number([0.001]) == pytest.approx([0.02278])
+
+
+def test_eq_12_by_hand():
+    """At 0.001 1/s log10(1000 r) = 0: 27.24 s; ten times faster, e^-2.1 of it."""
+    found = FORMS["exponential"].relaxation_time([0.001, 0.01])
+    assert found == pytest.approx([27.24, 27.24 * np.exp(-2.1)], rel=1e-14)
+
+
+def test_eq_12_errs_by_what_physics_states():
+    """+7.2, +4.4, +3.9 % at the three fastest rates of Table 2."""
+    rates = sorted(paper.TABLE_2)[-3:]
+    found = FORMS["exponential"].relaxation_time(rates) / [paper.TABLE_2[rate] for rate in rates] - 1.0
+    assert found == pytest.approx([0.072, 0.044, 0.039], abs=1e-3)
+
+
+def test_a_table_passes_through_its_points_and_is_straight_between():
+    """Log-log: halfway in ln r is the geometric mean; beyond the end the last segment goes on."""
+    table = Table([1e-3, 1e-1], [100.0, 1.0])  # slope -1
+    assert table.relaxation_time([1e-3, 1e-2, 1e-1, 1.0, 1e-4]) == pytest.approx(
+        [100.0, 10.0, 1.0, 0.1, 1000.0]
+    )
+    assert FORMS["table"].relaxation_time(list(paper.TABLE_2)) == pytest.approx(list(paper.TABLE_2.values()))
+
+
+@forms
+@pytest.mark.parametrize("rate", [7e-5, 1e-3, 9e-3])
+def test_the_slope_is_the_derivative(companion, rate):
+    engine = companion._engine()
+    step = 1e-5
+    up, down = (np.log(engine.relaxation_time(rate * np.exp(d))) for d in (step, -step))
+    assert engine.log_slope(rate) == pytest.approx((up - down) / (2 * step), rel=1e-7)
+
+
+@forms
+def test_the_modulus_of_the_rate_counts_and_the_floor_below_it(companion):
+    assert companion.relaxation_time([-0.002]) == companion.relaxation_time([0.002])
+    assert companion.relaxation_time([0.0]) == companion.relaxation_time([1e-7])
+
+
+def test_a_function_is_as_good_as_the_form_it_states():
+    function = RateFunction(lambda rate: (0.00464 * np.log10(rate) + 0.0367) / rate, between=(1e-6, 1.0))
+    rates = np.geomspace(2e-6, 0.9, 57)
+    assert function.relaxation_time(rates) == pytest.approx(
+        FORMS["weissenberg"].relaxation_time(rates), rel=1e-6
+    )
+    assert RateFunction(lambda rate: 5.0).relaxation_time([1e-3]) == pytest.approx([5.0])
+
+
+@pytest.mark.parametrize(
+    ("rates", "outside"),
+    [
+        ([5e-5, 1e-2], None),
+        ([1e-3, -2e-2], (1e-3, 2e-2)),
+        ([1e-5], (1e-5, 1e-5)),
+        ([0.0], None),
+        ([0.0, 1e-3], None),
+    ],
+)
+def test_rates_outside_the_calibrated_range_are_told(rates, outside):
+    assert FORMS["weissenberg"].outside(rates) == outside
+    assert FORMS["power"].outside(rates) is None
+
+
+@forms
+def test_relations_are_values(companion):
+    assert pickle.loads(pickle.dumps(companion)) == companion
+    assert copy.deepcopy(companion) == companion
+    assert eval(repr(companion), vars(probation)) == companion
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Weissenberg("a", 1.0), r"slope is 'a'"),
+        (lambda: Exponential(1.0, None), r"exponent is None"),
+        (lambda: PowerLaw(1.0, 1.0, rate_floor=0.0), r"rate_floor"),
+        (lambda: PowerLaw(1.0, 1.0, rate_floor=np.nan), r"rate_floor"),
+        (lambda: Table([1.0], [1.0]), r"1 rates and 1 times"),
+        (lambda: Table([1.0, 2.0], [1.0]), r"2 rates and 1 times"),
+        (lambda: Table([2.0, 1.0], [1.0, 2.0]), r"row 2"),
+        (lambda: Table([1.0, 2.0], [0.0, 2.0]), r"row 1"),
+        (lambda: Table([1.0, 2.0], ["a", "b"]), r"tau_max holds"),
+        (lambda: Table([1.0, 2.0], [1.0, 2.0], rate_floor="0"), r"rate_floor is '0'"),
+        (lambda: RateFunction(lambda rate: -rate), r"row 1"),
+        (lambda: RateFunction(lambda rate: rate[:3]), r"function\(rates\) has the shape \(3,\)"),
+        (lambda: RateFunction(lambda rate: rate, between=(1.0, 0.1)), r"between"),
+        (lambda: Weissenberg(0.00464, 0.0367, 1e-9).relaxation_time([0.0]), r"raise rate_floor"),
+        (lambda: Exponential(-1.0, 1.0).relaxation_time([1.0]), r"tau_max = -"),
+        (lambda: FORMS["power"].relaxation_time([np.nan]), r"tau_max = nan"),
+    ],
+)
+def test_a_relation_that_cannot_be_is_refused(make, message):
+    with pytest.raises(probation.InputError, match=message):
+        make()
