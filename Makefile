@@ -3,6 +3,8 @@
 PYTHON ?= $(shell for python in python3 python3.14 python3.13 python3.12 python3.11; do \
     $$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$python && break; done)
 WERROR ?= $(if $(CI),ON,OFF)
+# What is looked for beside a compiler, Eigen and SUNDIALS: asked for at once, so that it is one line to install.
+SYSTEM_EXTRAS := $(if $(filter test lint sanitize,$(MAKECMDGOALS)),doctest)
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
@@ -55,7 +57,7 @@ format: $(VENV)/.lint  ## rewrite the sources as lint wants them
 	@$(BIN)/clang-format -i $(CPP_FILES)
 
 sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the address and undefined-behaviour sanitizers
-	@$(BIN)/cmake -G Ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
 	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
 	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
 	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
@@ -68,7 +70,7 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the addre
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \
 	PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 \
 	LD_PRELOAD="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -S -m pytest -q -p no:cacheprovider tests/boundary
+	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys tests/boundary
 
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel
@@ -89,9 +91,9 @@ clean:  ## remove everything that was made here, .venv too
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(VENV)/.tools: pyproject.toml
-	@[ -n "$(PYTHON)" ] && $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	@[ -n "$(PYTHON)" ] && $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
 	    echo "probation: needs Python 3.11 or newer, as in: make PYTHON=/path/to/python3.11" >&2; exit 1; }
-	@.ci/system $(PYTHON)
+	@.ci/system $(PYTHON) $(SYSTEM_EXTRAS)
 	@[ -x $(BIN)/python ] || { echo "probation: making $(VENV)"; $(PYTHON) -m venv $(VENV); }
 	@$(call requirements,build)
 	@$(PIP) install cmake ninja

@@ -8,22 +8,28 @@ from probation.crosscheck import CrossCheck, crosscheck
 from probation.errors import ConvergenceError, InputError
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
+from probation.identify import Fit, fit
 from probation.kinematics import haward_thackray_strain
 from probation.law import Law, Spectrum
 from probation.ramp import ramp_stress
+from probation.records import Campaign, Noise, Record, preview
 from probation.simulate import Simulation, simulate
 
 __all__ = [
+    "Campaign",
     "Change",
     "ConvergenceError",
     "CrossCheck",
     "Direction",
     "Exponential",
+    "Fit",
     "ImposedHistory",
     "InputError",
     "Law",
+    "Noise",
     "PowerLaw",
     "RateFunction",
+    "Record",
     "SelfHeating",
     "Simulation",
     "Spectrum",
@@ -33,8 +39,10 @@ __all__ = [
     "__version__",
     "creep",
     "crosscheck",
+    "fit",
     "haward_thackray_strain",
     "named_history",
+    "preview",
     "ramp_stress",
     "read_history",
     "simulate",

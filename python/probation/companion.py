@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from probation.records.settings import CompanionSettings
+
 RATE_FLOOR = 1e-7
 """Slowest strain rate that a companion relation is asked for [1/s]."""
 
@@ -243,3 +245,13 @@ WEISSENBERG_AS_PRINTED = Weissenberg(0.00464, 0.0367)
 
 EXPONENTIAL_AS_PRINTED = Exponential(27.24, -2.1)
 """Eq. (12) as printed in the paper."""
+
+
+def from_settings(settings: CompanionSettings | None) -> Companion | None:
+    """The companion relation that a campaign names."""
+    if settings is None:
+        return None
+    values = dict(settings.parameters)
+    if settings.form == "table":
+        return Table(rates=values["rates"], tau_max=values["tau_max_s"])  # type: ignore[arg-type]
+    return FORMS[settings.form](**values)

@@ -1,0 +1,81 @@
+"""Which speed targets are met?
+
+REQUIRED is what the engine must reach; GOALS is the full target table, reached row by row later.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from bench.rows import Findings
+
+Value = Callable[[Findings], float | None]
+
+
+@dataclass(frozen=True)
+class Target:
+    """`value` is compared with `limit`; None means that this run has no such number."""
+
+    item: str
+    value: Value
+    limit: float
+    at_least: bool = True
+    unit: str = "x"
+
+    def met(self, found: Findings) -> bool | None:
+        value = self.value(found)
+        if value is None:
+            return None
+        return value >= self.limit if self.at_least else value <= self.limit
+
+
+def _faster(fast: str, slow: str, case: str = "ramp") -> Value:
+    return lambda found: found.ratio("forward", slow, fast, case)
+
+
+def _ratio(section: str, method: str, other: str, case: str | None = None) -> Value:
+    return lambda found: found.ratio(section, method, other, case)
+
+
+def _median(section: str, method: str, scale: float) -> Value:
+    def value(found: Findings) -> float | None:
+        row = found.find(section, method)
+        return None if row is None else row.median * scale
+
+    return value
+
+
+def _sa3_error(found: Findings) -> float | None:
+    row = found.find("forward", "sa3", "ramp")
+    return None if row is None else row.error
+
+
+REQUIRED = (
+    Target("bE2 faster than numba, eq. (9) as printed", _faster("be2", "numba_be2"), 5),
+    Target("bE2 faster than scipy BDF", _faster("be2", "scipy_bdf"), 400),
+)
+
+GOALS = (
+    Target("bE2 faster than numba, eq. (9) as printed", _faster("be2", "numba_be2"), 20),
+    Target("bE2 faster than numba fastmath", _faster("be2", "numba_be2_fastmath"), 2.5),
+    Target("bE2 faster than numpy (precomputed)", _faster("be2", "numpy_be2"), 250),
+    Target("bE2 faster than scipy BDF", _faster("be2", "scipy_bdf"), 1700),
+    Target("bE2 faster than scipy LSODA", _faster("be2", "scipy_lsoda"), 400),
+    Target("bE2 faster than CVODE in C", _faster("be2", "cvode_c"), 150),
+    Target("SA3 faster than numba fastmath bE2", _faster("sa3", "numba_be2_fastmath"), 5),
+    Target("SA3 faster than lfilter SA2", _faster("sa3", "lfilter_sa2"), 100),
+    Target("SA3 faster than CVODE in C", _faster("sa3", "cvode_c"), 330),
+    Target("SA3's largest error", _sa3_error, 2e-7, at_least=False, unit=" MPa"),
+    Target("uneven steps: bE2 faster than numba bE2", _faster("be2", "numba_be2_variable", "uneven ramp"), 4),
+    Target("uneven steps: SA3 faster than numba SA2", _faster("sa3", "numba_sa2_variable", "uneven ramp"), 13),
+    Target("bE2, tau_max by rate over constant", _ratio("forward", "be2", "beside", "grips"), 2.5, at_least=False),
+    Target("SA3, tau_max by rate over constant", _ratio("forward", "sa3", "beside", "grips"), 2.5, at_least=False),
+    Target("bE2, three sensitivities over a solve", _ratio("sensitivities", "be2", "beside"), 4.5, at_least=False),
+    Target("SA3, three sensitivities over a solve", _ratio("sensitivities", "sa3", "beside"), 4.5, at_least=False),
+    Target("10^4 solves as a batch, CPU", _median("batch", "batch", 1e3), 90, at_least=False, unit=" ms"),
+    Target("variable projection faster than scipy on numpy", lambda found: None, 800),
+    Target("variable projection faster than scipy on numba", lambda found: None, 25),
+    Target("Levenberg-Marquardt faster than scipy on numpy", lambda found: None, 350),
+    Target("Levenberg-Marquardt faster than scipy on numba", lambda found: None, 12),
+    Target("compiled call with out=", _median("overhead", "one step", 1e6), 1, at_least=False, unit=" us"),
+    Target("law.stress beyond the compiled call", _median("overhead", "beyond", 1e6), 5, at_least=False, unit=" us"),
+)

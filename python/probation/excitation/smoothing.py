@@ -1,0 +1,92 @@
+"""Smoothing splines, segment by segment: strain and strain rate without a formula for either."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import make_smoothing_spline
+from scipy.optimize import minimize_scalar
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+SHORTEST_SEGMENT = 6
+"""Segments with fewer samples get a straight line."""
+
+COARSE = 15
+"""Points of the coarse search for the smoothness."""
+
+PRUDENCE = 1.4
+"""Each degree of freedom counts this often in the cross-validation, which otherwise follows the noise now and then."""
+
+
+def smooth_segments(time: FloatArray, true_strain: FloatArray, jumps: list[int]) -> tuple[FloatArray, FloatArray]:
+    """Cubic smoothing splines between the jumps, their smoothness chosen by generalised cross-validation.
+
+    A jump belongs to both of its segments: its strain is the mean of the two, its rate the one before it.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n_times,) [s]
+    true_strain : ndarray, shape (n_times,) [-]
+    jumps : list of int
+        Indices at which the rate jumps.
+
+    Returns
+    -------
+    true_strain : ndarray, shape (n_times,) [-]
+    strain_rate : ndarray, shape (n_times,) [1/s]
+    """
+    strain, rate = np.empty_like(true_strain), np.empty_like(true_strain)
+    borders = [0, *jumps, len(time) - 1]
+    meeting: dict[int, float] = {}
+    for first, last in pairwise(borders):
+        part = slice(first, last + 1)
+        values, slopes = _smooth(time[part], true_strain[part])
+        if first in meeting:
+            values[0] = 0.5 * (values[0] + meeting[first])
+            strain[first] = values[0]
+        keep = slice(first + (first > 0), last + 1)
+        strain[keep], rate[keep] = values[keep.start - first :], slopes[keep.start - first :]
+        meeting[last] = float(values[-1])
+    return strain, rate
+
+
+def _smooth(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    if len(time) < SHORTEST_SEGMENT:
+        slope, offset = np.polyfit(time - time[0], values, 1)
+        return offset + slope * (time - time[0]), np.full_like(values, slope)
+    # Scaled to unit spacing and unit range, so that one range of smoothness serves every record.
+    scale = (time[-1] - time[0]) / (len(time) - 1)
+    span = float(np.ptp(values)) or 1.0
+    t, y = (time - time[0]) / scale, values / span
+    spline = make_smoothing_spline(t, y, lam=_smoothness(t, y))
+    return spline(t) * span, spline.derivative()(t) * span / scale
+
+
+def _smoothness(time: FloatArray, values: FloatArray) -> float:
+    """The penalty that generalised cross-validation (Craven & Wahba 1979) prefers; unit mean spacing.
+
+    The degrees of freedom come from the spectrum of the cubic smoothing spline on an even grid, whose k-th penalty is
+    (pi (k - 3/2) / n)^4.
+    """
+    count = len(time)
+    penalties = (np.pi * (np.arange(2, count) - 0.5) / count) ** 4
+
+    def score(log_penalty: float) -> float:
+        penalty = float(np.exp(log_penalty))
+        freedom = 2.0 + float(np.sum(1.0 / (1.0 + penalty * penalties)))
+        left = 1.0 - PRUDENCE * freedom / count
+        if left <= 0.0:
+            return np.inf
+        residual = values - make_smoothing_spline(time, values, lam=penalty)(time)
+        return float(np.mean(residual**2)) / left**2
+
+    grid = np.linspace(np.log(1e-2), np.log(float(count) ** 4), COARSE)
+    scores = [score(point) for point in grid]
+    best = int(np.argmin(scores))
+    ends = (grid[max(best - 1, 0)], grid[min(best + 1, COARSE - 1)])
+    found = minimize_scalar(score, bounds=ends, method="bounded", options={"xatol": 0.1})
+    return float(np.exp(found.x if found.fun < scores[best] else grid[best]))

@@ -1,0 +1,141 @@
+"""What is known about the estimates: covariance, identifiability, noise and bias of the fit residual."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.identify.parameter import IDENTIFIABLE, WEAKLY, Status
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+
+SINGULAR = 1e-12
+"""Relative singular value below which a direction of the parameters is taken as not determined at all."""
+
+WHITE = 2.0
+"""A residual whose variance at low frequency exceeds the white level by more than this factor is correlated."""
+
+
+@dataclass(frozen=True)
+class Covariance:
+    """Covariance of the identified parameters.
+
+    Attributes
+    ----------
+    matrix : ndarray, shape (free, free)
+    relative_error : ndarray, shape (free,)
+        Standard error over value; inf where the data do not determine the parameter.
+    condition_number : float
+        Of the Jacobian whose columns are scaled by the parameters.
+    correlated : bool
+        Whether the fit residual is autocorrelated, which widens the errors.
+    """
+
+    matrix: FloatArray
+    relative_error: FloatArray
+    condition_number: float
+    correlated: bool
+
+    def standard_error(self, index: int) -> float | None:
+        """Of one parameter; None where the data do not determine it."""
+        if not np.isfinite(self.relative_error[index]):
+            return None
+        return float(np.sqrt(self.matrix[index, index]))
+
+
+def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int], values: FloatArray) -> Covariance:
+    """Covariance of a weighted least-squares estimate, from the scaled Jacobian's singular values.
+
+    White fit residuals give s^2 (J^T J)^-1. Correlated ones (the low-frequency bias of a law, or filtered noise) give
+    the sandwich (J^T J)^-1 S (J^T J)^-1, S the long-run covariance of the scores (Newey & West 1987), summed over
+    records.
+
+    Parameters
+    ----------
+    jacobian : ndarray, shape (n_samples, free)
+        Of the weighted fit residual.
+    residual : ndarray, shape (n_samples,)
+    lengths : sequence of int
+        Samples of each record.
+    values : ndarray, shape (free,)
+        The estimates.
+    """
+    count, free = jacobian.shape
+    if free == 0:
+        return Covariance(np.zeros((0, 0)), np.zeros(0), 1.0, False)
+    size = np.where(values != 0.0, np.abs(values), 1.0)
+    scaled = jacobian * size
+    _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
+    determined = singular > SINGULAR * max(singular[0], 1e-300)
+    inverse = (basis[determined].T / singular[determined] ** 2) @ basis[determined]
+    lost = np.sqrt(np.sum(basis[~determined] ** 2, axis=0)) > 1e-6
+
+    borders = np.concatenate([[0], np.cumsum(lengths)])
+    parts = [slice(first, last) for first, last in pairwise(borders.tolist())]
+    bandwidths = [_bandwidth(residual[part]) for part in parts]
+    correlated = any(bandwidth > 0 for bandwidth in bandwidths)
+    scatter = float(residual @ residual) / max(count - free, 1)
+    relative = scatter * inverse
+    if correlated:
+        middle = np.zeros((free, free))
+        for part, bandwidth in zip(parts, bandwidths, strict=True):
+            middle += _long_run(scaled[part] * residual[part, None], bandwidth)
+        sandwich = inverse @ middle @ inverse * count / max(count - free, 1)
+        # Never narrower than the white one: a long wave seen once looks like no variance at all to the sandwich.
+        keep = np.diag(sandwich) < np.diag(relative)
+        scale = np.where(keep, np.sqrt(np.diag(relative) / np.maximum(np.diag(sandwich), 1e-300)), 1.0)
+        relative = sandwich * np.outer(scale, scale)
+    error = np.where(lost, np.inf, np.sqrt(np.maximum(np.diag(relative), 0.0)))
+    condition = float(singular[0] / singular[-1]) if singular[-1] > 0.0 else np.inf
+    return Covariance(relative * np.outer(size, size), error, condition, correlated)
+
+
+def status_of(relative_error: float) -> Status:
+    """How well the data determine a parameter."""
+    if relative_error <= IDENTIFIABLE:
+        return "identifiable"
+    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
+
+
+def correlation(matrix: FloatArray) -> FloatArray:
+    """Correlation matrix of a covariance matrix; 0 where a variance is."""
+    deviation = np.sqrt(np.diag(matrix))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scaled = matrix / np.outer(deviation, deviation)
+    scaled[~np.isfinite(scaled)] = 0.0
+    np.fill_diagonal(scaled, 1.0)
+    return np.asarray(scaled, dtype=np.float64)
+
+
+def _bandwidth(residual: FloatArray) -> int:
+    """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
+    count = len(residual)
+    centred = residual - residual.mean()
+    variance = float(centred @ centred) / count
+    if variance == 0.0 or count < 20:
+        return 0
+    spectrum = np.abs(np.fft.rfft(centred, 2 * count)) ** 2
+    autocovariance = np.fft.irfft(spectrum)[: count // 2] / count / variance
+    # Sum up to the first lag that is not above chance (Sokal's window would need one more choice).
+    chance = 2.0 / np.sqrt(count)
+    below = np.flatnonzero(autocovariance[1:] < chance)
+    last = int(below[0]) if below.size else len(autocovariance) - 1
+    inflation = 1.0 + 2.0 * float(autocovariance[1 : last + 1].sum())
+    if inflation < WHITE:
+        return 0
+    return min(max(int(4.0 * inflation), 1), count // 2)
+
+
+def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:
+    """Long-run covariance of the scores, Bartlett weights."""
+    total: FloatArray = scores.T @ scores
+    for lag in range(1, bandwidth + 1):
+        cross = scores[lag:].T @ scores[:-lag]
+        total = total + (1.0 - lag / (bandwidth + 1.0)) * (cross + cross.T)
+    return total

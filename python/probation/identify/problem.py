@@ -1,0 +1,119 @@
+"""The identification problem: fit residuals of a law on several records, and their sensitivities."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+from probation.law import Law, Scheme, Start, make_solver
+from probation.records.noise import scatter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.excitation import Excitation
+    from probation.records import Record
+
+LEAST_NOISE = 1e-6
+"""Least noise of a record, as a fraction of its stress range: a synthetic record has much weight, not all of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class RecordProblem:
+    """One record, ready to be solved for again and again.
+
+    Attributes
+    ----------
+    record : Record
+    excitation : Excitation
+    solver : Solver
+    noise : float
+        Standard deviation of the stress noise [MPa]: given with the record, else by robust differences.
+    """
+
+    record: Record
+    excitation: Excitation
+    solver: _core.Solver
+    noise: float
+
+    @classmethod
+    def prepare(cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start) -> RecordProblem:
+        """Estimate the noise and set up the solver."""
+        noise = record.noise.stress_MPa
+        if noise is None:
+            noise = scatter(record.time, record.true_stress)
+        noise = max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)
+        return cls(record, excitation, make_solver(excitation.history(), scheme, start), noise)
+
+    def stress(self, law: Law) -> FloatArray:
+        """Model stress, shape (n_times,) [MPa]."""
+        stress = np.empty(len(self.record))
+        self.solver.stress(law.engine, _core.LawChange(), stress)
+        return stress
+
+    def sensitivity(self, law: Law) -> tuple[FloatArray, FloatArray]:
+        """Model stress (n_times,) [MPa] and its derivatives (n_times, 3) along `law.parameters`."""
+        stress, sensitivity = np.empty(len(self.record)), np.empty((len(self.record), 3))
+        change = _core.LawChange()
+        directions = _core.parameter_directions(law.engine, change, self.solver.history)
+        self.solver.tangent(law.engine, change, directions, stress, sensitivity)
+        return stress, sensitivity
+
+
+class Problem:
+    """Fit residuals (model - data) of all records, each over its weight, stacked.
+
+    Parameters
+    ----------
+    law : Law
+        The base law; its parameters are where a search may start.
+    records : sequence of RecordProblem
+    held : tuple of bool, shape (3,)
+        Which of `law.parameters` are not identified.
+    """
+
+    def __init__(self, law: Law, records: Sequence[RecordProblem], held: tuple[bool, bool, bool]) -> None:
+        self.law = law
+        self.records = tuple(records)
+        self.held = np.array(held)
+        self.weights = np.array([1.0 / record.noise for record in self.records])
+
+    @property
+    def free(self) -> NDArray[np.intp]:
+        """Indices of the identified parameters."""
+        return np.flatnonzero(~self.held)
+
+    def law_at(self, free_values: FloatArray) -> Law:
+        """The law with other values of the identified parameters."""
+        values = self.law.parameters
+        values[self.free] = free_values
+        return self.law.with_parameters(values)
+
+    def residual(self, law: Law) -> FloatArray:
+        """Weighted fit residual, shape (n_samples,) [-]."""
+        parts = (
+            weight * (record.stress(law) - record.record.true_stress)
+            for weight, record in zip(self.weights, self.records, strict=True)
+        )
+        return np.concatenate(list(parts))
+
+    def residual_and_jacobian(self, law: Law) -> tuple[FloatArray, FloatArray]:
+        """Weighted fit residual (n_samples,) and its derivatives (n_samples, 3) along `law.parameters`."""
+        residuals, jacobians = [], []
+        for weight, record in zip(self.weights, self.records, strict=True):
+            stress, sensitivity = record.sensitivity(law)
+            residuals.append(weight * (stress - record.record.true_stress))
+            jacobians.append(weight * sensitivity)
+        return np.concatenate(residuals), np.concatenate(jacobians)
+
+    def reweigh(self, law: Law) -> None:
+        """Weigh each record by what really scatters it around the law: noise and bias together."""
+        for index, record in enumerate(self.records):
+            residual = record.stress(law) - record.record.true_stress
+            self.weights[index] = 1.0 / max(record.noise, float(np.sqrt(np.mean(residual**2))))

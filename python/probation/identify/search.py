@@ -1,0 +1,115 @@
+"""The three ways to the minimum: least squares with the engine's Jacobian, variable projection, simplex."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import Bounds as Box
+from scipy.optimize import least_squares, minimize
+
+from probation.identify.variable_projection import search, time_bounds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from probation._arrays import FloatArray
+    from probation.identify.problem import Problem
+    from probation.law import Law
+
+Bounds = tuple[float, float]
+
+
+class _Scaled:
+    """The identified parameters as a search sees them: moduli over their start, tau_max (or alpha) as a logarithm.
+
+    A raw search can wander to tau_max < 0; this one cannot.
+    """
+
+    def __init__(self, problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> None:
+        self.problem = problem
+        self.names = [start.parameter_names[i] for i in problem.free]
+        self.is_time = problem.free == 1
+        values = start.parameters[problem.free]
+        fallback = np.array([1000.0, 1.0, 1.0])[problem.free]
+        self.size = np.where(values > 0.0, values, fallback)
+        lower, upper = (np.array(ends) for ends in zip(*(bounds[name] for name in self.names), strict=True))
+        self.lower, self.upper = self.to_search(lower), self.to_search(upper)
+        self.start = np.clip(self.to_search(values), self.lower, self.upper)
+
+    def to_search(self, values: FloatArray) -> FloatArray:
+        with np.errstate(divide="ignore"):
+            found: FloatArray = np.where(self.is_time, np.log(np.maximum(values, 0.0) / self.size), values / self.size)
+        return found
+
+    def law(self, x: FloatArray) -> Law:
+        return self.problem.law_at(np.where(self.is_time, np.exp(x), x) * self.size)
+
+    def slopes(self, x: FloatArray) -> FloatArray:
+        """Derivatives of the parameters with respect to x."""
+        found: FloatArray = np.where(self.is_time, np.exp(x), 1.0) * self.size
+        return found
+
+
+def by_least_squares(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> Law:
+    """Trust-region Gauss-Newton (Levenberg-Marquardt with bounds, scipy) with the engine's sensitivities."""
+    scaled = _Scaled(problem, start, bounds)
+    cache: dict[bytes, tuple[FloatArray, FloatArray]] = {}
+
+    def both(x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        key = x.tobytes()
+        if key not in cache:
+            cache.clear()
+            cache[key] = problem.residual_and_jacobian(scaled.law(x))
+        return cache[key]
+
+    def residual(x: FloatArray) -> FloatArray:
+        return both(x)[0]
+
+    def jacobian(x: FloatArray) -> FloatArray:
+        slopes: FloatArray = both(x)[1][:, problem.free] * scaled.slopes(x)
+        return slopes
+
+    found = least_squares(
+        residual,
+        scaled.start,
+        jac=jacobian,
+        bounds=(scaled.lower, scaled.upper),
+        x_scale="jac",
+        ftol=1e-14,
+        xtol=1e-12,
+        gtol=1e-12,
+    )
+    return scaled.law(found.x)
+
+
+def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> Law:
+    """Nelder-Mead (scipy): slow, and independent of every derivative."""
+    scaled = _Scaled(problem, start, bounds)
+    found = scaled.start
+
+    def cost(x: FloatArray) -> float:
+        return float(np.sum(problem.residual(scaled.law(x)) ** 2))
+
+    # A simplex can collapse in a narrow valley (E_u and tau_max are all but collinear): start it again until it stays.
+    for _ in range(8):
+        result = minimize(
+            cost,
+            found,
+            method="Nelder-Mead",
+            bounds=Box(scaled.lower, scaled.upper),
+            options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 4000, "adaptive": True},
+        )
+        moved = float(np.max(np.abs(result.x - found)))
+        found = result.x
+        if moved < 1e-8:
+            break
+    return scaled.law(found)
+
+
+def first_guess(problem: Problem, bounds: Mapping[str, Bounds], progress: Callable[[float], None] | None = None) -> Law:
+    """The global minimum by variable projection; every method starts from it or is it."""
+    name = problem.law.parameter_names[1]
+    low, high = time_bounds(problem)
+    given = bounds.get(name, (0.0, np.inf))
+    return search(problem, (max(low, given[0]), min(high, given[1])), progress)

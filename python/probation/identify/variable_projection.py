@@ -1,0 +1,90 @@
+"""Variable projection: E_u and G enter the law linearly, so that only tau_max (or alpha) needs a search."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import minimize_scalar, nnls
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from probation._arrays import FloatArray
+    from probation.identify.problem import Problem
+    from probation.law import Law
+
+POINTS = 41
+"""Points of the coarse search, evenly spaced in the logarithm."""
+
+
+def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
+    """The best law at one tau_max (or alpha), and its cost.
+
+    The stress is E_u u + G v with unit solves u and v. Where either best fit would be negative it is zero.
+
+    Returns
+    -------
+    law : Law
+    cost : float
+        Weighted sum of squares [-].
+    """
+    base = problem.law.parameters
+    base[1] = nonlinear
+    law = problem.law.with_parameters(base)
+    _, jacobian = problem.residual_and_jacobian(law)
+    data = np.concatenate(
+        [weight * each.record.true_stress for weight, each in zip(problem.weights, problem.records, strict=True)]
+    )
+    columns = jacobian[:, [0, 2]]
+    held = problem.held[[0, 2]]
+    values = base[[0, 2]]
+    target = data - columns[:, held] @ values[held]
+    if not held.all():
+        # Over the normal equations: two columns, thousands of rows. Scaled, so that nnls sees numbers near one.
+        free = columns[:, ~held]
+        size = np.linalg.norm(free, axis=0)
+        size[size == 0.0] = 1.0
+        factor: FloatArray = np.linalg.qr(np.column_stack([free / size, target]))[1]
+        values[~held] = nnls(factor[:, :-1], factor[:, -1])[0] / size
+    base[[0, 2]] = values
+    return problem.law.with_parameters(base), float(np.sum((columns @ values - data) ** 2))
+
+
+def search(problem: Problem, bounds: tuple[float, float], progress: Callable[[float], None] | None = None) -> Law:
+    """The best law over a range of tau_max (or alpha): a coarse search, then Brent's method around its minimum.
+
+    Parameters
+    ----------
+    bounds : (float, float)
+        [s] or [-].
+    progress : callable, optional
+        Called with the fraction done.
+    """
+    if problem.held[1]:
+        return project(problem, float(problem.law.parameters[1]))[0]
+    grid = np.linspace(np.log(bounds[0]), np.log(bounds[1]), POINTS)
+    costs = []
+    for done, point in enumerate(grid):
+        costs.append(project(problem, float(np.exp(point)))[1])
+        if progress:
+            progress((done + 1) / POINTS)
+    best = int(np.argmin(costs))
+    low, high = grid[max(best - 1, 0)], grid[min(best + 1, POINTS - 1)]
+    found = minimize_scalar(
+        lambda point: project(problem, float(np.exp(point)))[1],
+        bounds=(low, high),
+        method="bounded",
+        options={"xatol": 1e-12},
+    )
+    point = found.x if found.fun <= costs[best] else grid[best]
+    return project(problem, float(np.exp(point)))[0]
+
+
+def time_bounds(problem: Problem) -> tuple[float, float]:
+    """Range of tau_max [s] (or alpha [-]) worth searching: from far below a sample to far beyond the record."""
+    if problem.law.companion is not None:
+        return 1e-3, 1e3
+    steps = min(float(np.min(np.diff(each.record.time))) for each in problem.records)
+    longest = max(float(np.ptp(each.record.time)) for each in problem.records)
+    return 1e-3 * steps, 1e3 * longest
