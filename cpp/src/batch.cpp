@@ -11,7 +11,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 /// Calls work(make_scratch(), task) for every task, on several threads; the first failure is thrown to the caller.
 template <class MakeScratch, class Work>

@@ -8,7 +8,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 constexpr int most_iterations = 50;
 constexpr double newton_tolerance = 1e-9;  // of the last correction, relative; Newton's error is its square
 
@@ -134,16 +134,7 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
   RecordInputs<Dual> plain_extra;
   extra_inputs(in, plain_extra);
   if (!extra_.empty()) form_steps(scheme_, start_, history_, plain_extra, extra_steps);
-  const auto pad = [](const Eigen::ArrayXd& samples, Index length) {
-    Eigen::ArrayXd full;
-    if (samples.size() > 0) {
-      full = Eigen::ArrayXd::Zero(length);
-      full.head(samples.size()) = samples;
-    }
-    return full;
-  };
-  for (Index j = 0; j < unit.padded(); ++j)
-    if (unit.weight[j] != 0.0) unit.state[j] /= unit.weight[j];
+  if (!directions.empty()) unit.to_unit_weight(given_start ? -start_relaxed : 0.0);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     Tangent& t = tangents[k];
     const Direction& direction = directions[k];
@@ -152,14 +143,13 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     for (auto* samples : {&t.inputs.fluidity_begin, &t.inputs.fluidity_end})
       if (samples->size() == 1) samples->assign(static_cast<std::size_t>(n - 1), (*samples)[0]);
     t.memory.assign(feedbacks, Dual(0.0));
-    t.state.setZero(unit.padded());
     t.before.setZero(unit.padded());
-    t.weight = pad(direction.modal_weight, unit.padded());
-    t.log_inverse = -pad(direction.log_relaxation_ratio, unit.padded());
+    t.weight = unit.pad(direction.modal_weight);
+    t.log_inverse = -unit.pad(direction.log_relaxation_ratio);
     t.extra_state.setZero(unit_extra.padded());
     t.extra_before.setZero(unit_extra.padded());
-    t.extra_weight = pad(direction.extra_modulus, unit_extra.padded());
-    t.extra_log_inverse = -pad(direction.log_extra_time, unit_extra.padded());
+    t.extra_weight = unit_extra.pad(direction.extra_modulus);
+    t.extra_log_inverse = -unit_extra.pad(direction.log_extra_time);
     if (!extra_.empty()) {
       extra_inputs(t.inputs, extra_dual);
       form_steps(scheme_, start_, history_, extra_dual, t.extra_steps);
@@ -169,30 +159,22 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     const double d_weight = direction.modal_weight.sum();
     const Dual fixed = start_shift(Dual(s), &direction).log_hardening;
     const Dual explicit_relaxed = t.inputs.relaxed_stress[0] * exp(fixed);
-    double ds = 0.0;
-    if (given_start) {
-      ds = direction.initial_modal_stress.sum();
-    } else {
-      ds = (total_weight * explicit_relaxed.slope + d_weight * start_relaxed) /
+    double ds = direction.initial_modal_stress.sum();
+    if (!given_start)
+      ds = (ds + total_weight * explicit_relaxed.slope + d_weight * start_relaxed) /
            (1.0 - total_weight * start_relaxed * begun.log_hardening.slope);
-    }
     const FeedbackShift<Dual> started = start_shift({s, ds}, &direction);
     t.stress = {s, ds};
     t.inputs.relaxed_stress[0] = t.inputs.relaxed_stress[0] * exp(started.log_hardening);
     t.inputs.fluidity_begin[0] = t.inputs.fluidity_begin[0] * exp(-started.log_relaxation_time);
-    if (given_start) {
-      for (Index j = 0; j < modes; ++j) {
-        const double p = unit.weight[j], dp = t.weight.size() ? t.weight[j] : 0.0;
-        if (p == 0.0) continue;
-        const double d_initial = direction.initial_modal_stress.size() ? direction.initial_modal_stress[j] : 0.0;
-        t.state[j] = (d_initial - change_.initial_modal_stress[j] / p * dp) / p - t.inputs.relaxed_stress[0].slope;
-      }
-    }
+    unit.start_slope(change_, direction, start_relaxed, t.inputs.relaxed_stress[0].slope, t.state);
     (*derivatives)(0, static_cast<Index>(k)) = area[0] * ds + stress[0] * Sampled(direction.log_load_bearing_area, 0.0)[0];
   }
 
   std::vector<Dual> memory(feedbacks, Dual(0.0)), memory_next(feedbacks), tangent_memory(feedbacks);
   Dual previous_scale, previous_forcing;
+  ModalGroup unit_before = unit, unit_extra_before = unit_extra;
+  Eigen::ArrayXd next_state(unit.padded()), next_before(unit.padded());
   double s_here = s, s_change = 0.0;
   for (Index m = 0; m < history_.steps(); ++m) {
     const auto i = static_cast<std::size_t>(m);
@@ -202,7 +184,6 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     const Dual modulus = 0.5 * (at(in.unrelaxed_modulus, m) + at(in.unrelaxed_modulus, m + 1));
 
     double extra_stress = 0.0;
-    const ModalGroup unit_extra_before = unit_extra;
     StepForcing<double> extra_forcing{};
     if (!extra_.empty()) {
       extra_forcing = {extra_steps.rule[i], extra_steps.scale[i].value, extra_steps.forcing[i].value, extra_steps.curvature[i].value};
@@ -248,7 +229,10 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     kernel.sweep(main_.view(), one_step(plain, ratio), &modal);
     stress[m + 1] = area[m + 1] * (modal + total_weight * relaxed.value + extra_stress);
 
-    const ModalGroup unit_before = directions.empty() ? ModalGroup{} : unit;
+    if (!directions.empty()) {
+      unit_before = unit;
+      unit_extra_before = unit_extra;
+    }
     for (std::size_t k = 0; k < directions.size(); ++k) {
       Tangent& t = tangents[k];
       const Dual d_rise = t.inputs.true_strain[i + 1] - t.inputs.true_strain[i];
@@ -274,15 +258,16 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
         const StepForcing<Dual> f =
             step_forcing(scheme_, start_, step_data(history_, t.inputs, m, t.previous_scale, t.previous_forcing));
         unit = unit_before;
-        Eigen::ArrayXd state = t.state, before = t.before;
+        next_state = t.state;
+        next_before = t.before;
         const double du = f.forcing.slope, dv = f.curvature.slope, dx = f.scale.slope / f.scale.value;
         double unused = 0.0, slope = 0.0;
         const kernels::TangentDirection view{&du, &dv, &dx, t.log_inverse.size() ? t.log_inverse.data() : nullptr,
-                                             t.weight.size() ? t.weight.data() : nullptr, state.data(), before.data(), &slope};
+                                             t.weight.size() ? t.weight.data() : nullptr, next_state.data(), next_before.data(), &slope};
         kernel.tangent(unit.view(), one_step(plain, ratio), &unused, &view, 1, scratch.data());
         if (take) {
-          t.state = state;
-          t.before = before;
+          t.state = next_state;
+          t.before = next_before;
           t.previous_scale = f.scale;
           t.previous_forcing = f.forcing;
           t.memory = tangent_memory;
@@ -298,7 +283,7 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
       (*derivatives)(m + 1, static_cast<Index>(k)) =
           area[m + 1] * ds + stress[m + 1] * Sampled(t.direction->log_load_bearing_area, 0.0)[m + 1];
     }
-    if (directions.empty() == false && extra_.empty() == false) {
+    if (!directions.empty() && !extra_.empty()) {
       double unused = 0.0;
       unit_extra = unit_extra_before;
       kernel.tangent(unit_extra.view(), one_step(extra_forcing, ratio), &unused, nullptr, 0, scratch.data());

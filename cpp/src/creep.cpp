@@ -12,7 +12,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 Dual haward_thackray(Dual strain) {
   return {haward_thackray_strain(strain.value), haward_thackray_slope(strain.value) * strain.slope};
@@ -40,7 +40,8 @@ bool solve_from(double& strain, Function function) {
     const Dual found = function(strain);
     (found.value < 0.0 ? low : high) = strain;
     double next = strain - found.value / found.slope;
-    if (!(next > std::min(low, high) && next < std::max(low, high))) next = 0.5 * (low + high);
+    const bool inside = next > std::min(low, high) && next < std::max(low, high);
+    if (!inside) next = 0.5 * (low + high);
     const bool done = std::abs(next - strain) <= tolerance * (1.0 + std::abs(next));
     strain = next;
     if (done) {

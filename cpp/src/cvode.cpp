@@ -13,7 +13,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 using State = Eigen::Map<Eigen::ArrayXd>;
 using ConstState = Eigen::Map<const Eigen::ArrayXd>;
 
@@ -128,8 +128,9 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
                              Eigen::Ref<Eigen::ArrayXd> stress) {
   law.validate();
   change.validate(history.size(), law.spectrum.modes());
-  if (!(options.relative_tolerance > 0.0) || !(options.absolute_tolerance > 0.0))
-    throw InputError("relative_tolerance and absolute_tolerance must be positive numbers");
+  for (const double tolerance : {options.relative_tolerance, options.absolute_tolerance})
+    if (!(tolerance > 0.0) || !std::isfinite(tolerance))
+      throw InputError("relative_tolerance and absolute_tolerance must be positive numbers");
   if (options.max_steps < 1) throw InputError("max_steps must be at least 1");
 
   const double begin = history.time()[0];
@@ -179,6 +180,7 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
 
   const Sampled area(change.load_bearing_area, 1.0);
   const auto total = [&] { return problem.stress(ConstState(N_VGetArrayPointer(state.get()), problem.size())); };
+  Eigen::ArrayXd here(problem.size());
   stress[0] = area[0] * total();
   for (Index m = 0; m < history.steps(); ++m) {
     problem.enter(m);
@@ -190,7 +192,17 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
     const double end = history.time()[m + 1];
     require(CVodeSetStopTime(memory.get(), end), end);
     double reached = history.time()[m];
-    const int flag = CVode(memory.get(), end, state.get(), &reached, CV_NORMAL);
+    here = State(N_VGetArrayPointer(state.get()), problem.size());
+    int flag = CVode(memory.get(), end, state.get(), &reached, CV_NORMAL);
+    if ((flag == CV_ERR_FAILURE || flag == CV_CONV_FAILURE) && m > 0 && !history.fresh(m)) {
+      // A kink too sharp for the steps of the past: once more without them.
+      State(N_VGetArrayPointer(state.get()), problem.size()) = here;
+      collect();
+      ++statistics.restarts;
+      require(CVodeReInit(memory.get(), history.time()[m], state.get()), history.time()[m]);
+      require(CVodeSetStopTime(memory.get(), end), end);
+      flag = CVode(memory.get(), end, state.get(), &reached, CV_NORMAL);
+    }
     require(flag, reached);
     stress[m + 1] = area[m + 1] * total();
   }

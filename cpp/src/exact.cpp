@@ -10,7 +10,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 /// int_0^1 e^{k s} e^{-x (1 - s)} ds, with e^k = grown and e^-x = decayed at hand.
 double weighted_exponential(double k, double grown, double x, double decayed) {

@@ -9,7 +9,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 void require(bool good, const char* argument, Index sample, double found, const char* expected) {
   if (good) return;
@@ -19,6 +19,7 @@ void require(bool good, const char* argument, Index sample, double found, const 
 }
 
 void require_finite(const Eigen::ArrayXd& values, const char* argument) {
+  if (values.allFinite()) return;
   for (Index i = 0; i < values.size(); ++i) require(std::isfinite(values[i]), argument, i, values[i], "a finite number is needed");
 }
 
@@ -43,8 +44,11 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
   require_finite(strain_rate_, "strain_rate");
 
   step_ = time_.tail(n - 1) - time_.head(n - 1);
-  for (Index m = 0; m < steps(); ++m) require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
+  const bool increasing = (step_ > 0.0).all();
+  for (Index m = 0; m < steps() && !increasing; ++m) require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
   haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
+  for (Index i = 0; i < n; ++i)
+    require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i], "its stretch is beyond all numbers: is it a strain?");
 
   fresh_.assign(static_cast<std::size_t>(steps()), 0);
   fresh_[0] = 1;
@@ -123,17 +127,26 @@ StepRates History::differentiate(const Samples& values, Differentiator different
 }
 
 StepRates History::rates(Differentiator differentiator) const {
-  if (!rate_given()) return differentiate(true_strain_, differentiator);
+  return move_rates(true_strain_, strain_rate_, differentiator);
+}
+
+StepRates History::move_rates(const Samples& true_strain, const Samples& strain_rate, Differentiator differentiator) const {
+  return rate_given() ? take_given(true_strain, strain_rate) : differentiate(true_strain, differentiator);
+}
+
+/// Linear in its arguments; which side of a jump a given rate belongs to is a matter of the history itself.
+StepRates History::take_given(const Samples& true_strain, const Samples& strain_rate) const {
   const Index steps = this->steps();
-  StepRates rates{strain_rate_.head(steps), strain_rate_.tail(steps)};
+  StepRates rates{strain_rate.head(steps), strain_rate.tail(steps)};
+  const auto secant = [&](const auto& strain, Index m) { return (strain[m + 1] - strain[m]) / step_[m]; };
   for (const Index jump : jumps_) {
     if (jump == 0 || jump >= steps) continue;
     // One sample cannot hold both sides of a jump: it stays with the nearer secant, the other side takes its own.
-    const double before = (true_strain_[jump] - true_strain_[jump - 1]) / step_[jump - 1];
-    const double after = (true_strain_[jump + 1] - true_strain_[jump]) / step_[jump];
     const double given = strain_rate_[jump];
-    if (std::abs(given - before) <= std::abs(given - after)) rates.begin[jump] = after;
-    else rates.end[jump - 1] = before;
+    const double to_before = std::abs(given - secant(true_strain_, jump - 1));
+    const double to_after = std::abs(given - secant(true_strain_, jump));
+    if (to_before <= to_after) rates.begin[jump] = secant(true_strain, jump);
+    else rates.end[jump - 1] = secant(true_strain, jump - 1);
   }
   return rates;
 }

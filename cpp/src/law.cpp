@@ -28,6 +28,12 @@ void require_samples(const Eigen::ArrayXd& samples, Eigen::Index n_times, const 
   }
 }
 
+void require_entries(const Eigen::ArrayXd& values, Eigen::Index expected, const char* name, const char* counted) {
+  if (values.size() == 0 || values.size() == expected) return;
+  throw InputError(std::string("direction.") + name + " has " + std::to_string(values.size()) + " entries; there are " +
+                   std::to_string(expected) + " " + counted);
+}
+
 }  // namespace
 
 void Law::validate() const {
@@ -55,6 +61,29 @@ void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {
   require_samples(extra_modes.modulus, extra_modes.modulus.size(), "extra_modes.modulus", false);
   for (const auto& feedback : feedbacks)
     if (!feedback) throw InputError("feedbacks holds an empty entry");
+}
+
+void Direction::validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes, bool rate_given) const {
+  require_samples(unrelaxed_modulus, n_times, "direction.unrelaxed_modulus", false);
+  require_samples(log_relaxation_time, n_times, "direction.log_relaxation_time", false);
+  require_samples(relaxed_stress, n_times, "direction.relaxed_stress", false);
+  require_samples(log_load_bearing_area, n_times, "direction.log_load_bearing_area", false);
+  require_entries(true_strain, n_times, "true_strain", "instants");
+  require_entries(strain_rate, n_times, "strain_rate", "instants");
+  if (strain_rate.size() > 0 && !rate_given) throw InputError("direction.strain_rate needs a history with its own rates");
+  require_entries(modal_weight, modes, "modal_weight", "modes");
+  require_entries(log_relaxation_ratio, modes, "log_relaxation_ratio", "modes");
+  require_entries(initial_modal_stress, modes, "initial_modal_stress", "modes");
+  require_entries(extra_modulus, change.extra_modes.modulus.size(), "extra_modulus", "extra modes");
+  require_entries(log_extra_time, change.extra_modes.modulus.size(), "log_extra_time", "extra modes");
+  if (feedback < 0) return;
+  const auto k = static_cast<std::size_t>(feedback);
+  if (k >= change.feedbacks.size())
+    throw InputError("direction.feedback is " + std::to_string(feedback) + "; the change has " +
+                     std::to_string(change.feedbacks.size()) + " feedbacks");
+  if (feedback_parameter >= change.feedbacks[k]->parameters())
+    throw InputError("direction.feedback_parameter is " + std::to_string(feedback_parameter) + "; that feedback has " +
+                     std::to_string(change.feedbacks[k]->parameters()) + " parameters");
 }
 
 }  // namespace probation

@@ -2,9 +2,11 @@
 // A group of modes that share a time scale and a forcing, laid out for the kernels.
 
 #include <Eigen/Core>
-#include <vector>
+#include <string>
 
 #include "kernels/kernels.hpp"
+#include "probation/errors.hpp"
+#include "probation/law.hpp"
 
 namespace probation {
 
@@ -23,8 +25,44 @@ struct ModalGroup {
   }
   Eigen::Index padded() const { return weight.size(); }
   bool empty() const { return weight.size() == 0; }
+  /// From z_j = p_j y_j at the start to the unit-weight states y_j of the tangents; a mode of weight 0 has `weightless`.
+  void to_unit_weight(double weightless) {
+    for (Eigen::Index j = 0; j < padded(); ++j) {
+      if (weight[j] == 0.0 && state[j] != 0.0) throw_weightless(j);
+      state[j] = weight[j] == 0.0 ? weightless : state[j] / weight[j];
+    }
+  }
+  /// How the unit-weight states move at the start: y_j = sigma_j(0) / p_j - sigma^r(0), or zero if relaxed.
+  void start_slope(const LawChange& change, const Direction& direction, double relaxed, double d_relaxed,
+                   Eigen::ArrayXd& slope) const {
+    slope.setZero(padded());
+    const bool given = change.initial_modal_stress.size() > 0, moved = direction.initial_modal_stress.size() > 0;
+    if (!given && !moved) return;
+    const Eigen::Index modes = given ? change.initial_modal_stress.size() : direction.initial_modal_stress.size();
+    for (Eigen::Index j = 0; j < modes; ++j) {
+      const double start = moved ? direction.initial_modal_stress[j] : 0.0;
+      if (weight[j] == 0.0 && start != 0.0) throw_weightless(j);
+      if (weight[j] != 0.0) slope[j] = start / weight[j];
+      if (!given) continue;  // the relaxed part follows weights and relaxed stress by itself
+      if (weight[j] != 0.0 && direction.modal_weight.size() > 0)
+        slope[j] -= (state[j] + relaxed) * direction.modal_weight[j] / weight[j];
+      slope[j] -= d_relaxed;
+    }
+  }
+  /// One number per mode (or none) at the length of the kernels' arrays.
+  Eigen::ArrayXd pad(const Eigen::ArrayXd& per_mode) const {
+    if (per_mode.size() == 0) return {};
+    Eigen::ArrayXd full = Eigen::ArrayXd::Zero(padded());
+    full.head(per_mode.size()) = per_mode;
+    return full;
+  }
   kernels::Modes view() {
     return {static_cast<int>(padded()), inverse_ratio.data(), weight.data(), state.data(), before.data()};
+  }
+
+ private:
+  [[noreturn]] static void throw_weightless(Eigen::Index j) {
+    throw InputError("initial_modal_stress[" + std::to_string(j) + "] is not relaxed in a mode of weight 0; no tangent there");
   }
 };
 

@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "probation/errors.hpp"
-
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 Differentiator differentiator_of(Scheme scheme) {
   return scheme == Scheme::be2 ? Differentiator::backward : Differentiator::three_point;
 }
 
 std::size_t length(bool constant, Index n) { return constant ? 1 : static_cast<std::size_t>(n); }
-
-void require_shape(const Eigen::ArrayXd& samples, Index n_times, const char* name) {
-  if (samples.size() > 1 && samples.size() != n_times)
-    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " samples; 1 or " +
-                     std::to_string(n_times) + " are needed");
-}
 
 /// tau_max at one rate; the last one is kept, since a step mostly ends at the rate at which the next begins.
 class CompanionTimes {
@@ -78,20 +70,20 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
     const Index end = m + history.uniform_run(m);
     ++m;
     if (m >= end || std::abs(history.ratio(m) - 1.0) > 1e-9) continue;
-    const auto first = static_cast<std::size_t>(m), last = static_cast<std::size_t>(end);
-    std::fill(out.rule.begin() + first, out.rule.begin() + last, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-    std::fill(out.ratio.begin() + first, out.ratio.begin() + last, 1.0);
-    std::fill(out.scale.begin() + first, out.scale.begin() + last, h * fluidity);
+    const auto fill = [&](auto& samples, auto value) { std::fill(samples.begin() + m, samples.begin() + end, value); };
+    fill(out.rule, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
+    fill(out.ratio, 1.0);
+    fill(out.scale, h * fluidity);
     double* forcing = out.forcing.data();
     double* curvature = out.curvature.data();
     if (scheme == Scheme::be2) {
-      for (Index k = m; k < end; ++k) forcing[k] = 1.5 * f[k + 1] - 2.0 * f[k] + 0.5 * f[k - 1];
+      for (Index k = m; k < end; ++k) forcing[k] = 1.5 * (f[k + 1] - f[k]) - 0.5 * (f[k] - f[k - 1]);
     } else {
       for (Index k = m; k < end; ++k) forcing[k] = f[k + 1] - f[k];
       if (scheme == Scheme::sa3)
         for (Index k = m; k < end; ++k) curvature[k] = 0.5 * (f[k + 1] - 2.0 * f[k] + f[k - 1]);
     }
-    if (scheme != Scheme::sa3) std::fill(out.curvature.begin() + first, out.curvature.begin() + last, 0.0);
+    if (scheme != Scheme::sa3) fill(out.curvature, 0.0);
     m = end;
   }
 }
@@ -138,18 +130,7 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
                  const RecordInputs<double>& base, const Direction& direction, RecordInputs<Dual>& out) {
   const Index n = history.size(), steps = history.steps();
-  require_shape(direction.unrelaxed_modulus, n, "unrelaxed_modulus");
-  require_shape(direction.log_relaxation_time, n, "log_relaxation_time");
-  require_shape(direction.relaxed_stress, n, "relaxed_stress");
-  require_shape(direction.log_load_bearing_area, n, "log_load_bearing_area");
-  const bool strained = direction.true_strain.size() > 0;
-  if (strained && direction.true_strain.size() != n)
-    throw InputError("direction.true_strain has " + std::to_string(direction.true_strain.size()) + " samples; " +
-                     std::to_string(n) + " are needed");
-  const bool rated = direction.strain_rate.size() > 0;
-  if (rated && (direction.strain_rate.size() != n || !history.rate_given()))
-    throw InputError("direction.strain_rate needs a history with its own rates, and one entry per instant");
-
+  const bool strained = direction.true_strain.size() > 0, rated = direction.strain_rate.size() > 0;
   const Sampled d_modulus(direction.unrelaxed_modulus, 0.0), d_time(direction.log_relaxation_time, 0.0);
   const Sampled d_relaxed(direction.relaxed_stress, 0.0), hardening_factor(change.hardening_factor, 1.0);
 
@@ -169,19 +150,19 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
     out.unrelaxed_modulus[i] = {at(base.unrelaxed_modulus, static_cast<Index>(i)), d_modulus[static_cast<Index>(i)]};
 
-  // Rates move with the strain unless the history has its own.
+  // Rates move with the strain; given ones only on that side of a jump where the secant stands in for them.
   StepRates rates, d_rates;
-  const bool rates_move = rated || (strained && !history.rate_given());
+  const bool rates_move = rated || strained;
   if (law.companion || history.rate_given()) rates = history.rates(differentiator_of(scheme));
-  if (rated) {
-    d_rates = {direction.strain_rate.head(steps), direction.strain_rate.tail(steps)};
-  } else if (rates_move) {
-    d_rates = history.differentiate(direction.true_strain, differentiator_of(scheme));
+  if (rates_move) {
+    const Eigen::ArrayXd still = Eigen::ArrayXd::Zero(n);
+    d_rates = history.move_rates(strained ? direction.true_strain : still, rated ? direction.strain_rate : still,
+                                 differentiator_of(scheme));
   }
   out.end_rate.clear();
   if (history.rate_given()) {
     out.end_rate.resize(static_cast<std::size_t>(steps));
-    for (Index m = 0; m < steps; ++m) out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rated ? d_rates.end[m] : 0.0};
+    for (Index m = 0; m < steps; ++m) out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rates_move ? d_rates.end[m] : 0.0};
   }
 
   const bool constant_fluidity = base.fluidity_end.size() == 1 && d_time.constant();

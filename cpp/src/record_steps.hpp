@@ -65,8 +65,7 @@ StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, E
     s.end_rate = rise / s.h;
     if (!s.fresh) {
       const Bdf2Difference difference(s.ratio);
-      s.end_rate = (difference.next * s.true_strain.next + difference.here * s.true_strain.here +
-                    difference.before * s.true_strain.before) / s.h;
+      s.end_rate = difference(s.true_strain.next, s.true_strain.here, s.true_strain.before) / s.h;
     }
   }
   s.previous_scale = previous_scale;

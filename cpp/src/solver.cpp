@@ -12,7 +12,7 @@
 namespace probation {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 
 /// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
 template <class Take>
@@ -155,33 +155,10 @@ struct TangentState {
   }
 };
 
-/// `samples` (one per mode, or none) padded for the kernels.
-Eigen::ArrayXd padded(const Eigen::ArrayXd& samples, Index modes, Index length, const char* name) {
-  if (samples.size() == 0) return {};
-  if (samples.size() != modes)
-    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " entries; there are " +
-                     std::to_string(modes) + " modes");
-  Eigen::ArrayXd full = Eigen::ArrayXd::Zero(length);
-  full.head(modes) = samples;
-  return full;
-}
-
 /// `samples` (n, 1 or none) as inputs of a record; none is zero.
-void assign(const Eigen::ArrayXd& samples, Index n, const char* name, std::vector<double>& to) {
-  if (samples.size() > 1 && samples.size() != n)
-    throw InputError(std::string("direction.") + name + " has " + std::to_string(samples.size()) + " samples; 1 or " +
-                     std::to_string(n) + " are needed");
+void assign(const Eigen::ArrayXd& samples, std::vector<double>& to) {
   if (samples.size() == 0) to.assign(1, 0.0);
   else to.assign(samples.data(), samples.data() + samples.size());
-}
-
-/// From z_j = p_j y_j to the unit-weight state y_j of the tangent kernel.
-void to_unit_weight(ModalGroup& group) {
-  for (Index j = 0; j < group.padded(); ++j) {
-    if (group.weight[j] != 0.0) group.state[j] /= group.weight[j];
-    else if (group.state[j] != 0.0)
-      throw InputError("initial_modal_stress[" + std::to_string(j) + "] is not relaxed in a mode of weight 0; no tangent there");
-  }
 }
 
 }  // namespace
@@ -195,6 +172,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
   Workspace& w = *work_;
   w.prepare(law, change, history_, options_);
+  for (const Direction& direction : directions) direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
   if (!change.feedbacks.empty()) {
     CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
     coupled.solve(w.inputs, directions, stress, &derivatives);
@@ -202,12 +180,11 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   }
 
   const kernels::Kernels& kernel = kernels::best();
-  const Index modes = law.spectrum.modes();
   const double relaxed_start = w.inputs.relaxed_stress[0];
   stress.setZero();
   derivatives.setZero();
   stress[0] = w.main.state.sum();
-  to_unit_weight(w.main);
+  w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
 
   std::vector<TangentState> tangents(directions.size());
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
@@ -244,8 +221,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool strained = direction.true_strain.size() > 0 || direction.strain_rate.size() > 0;
     if (!strained && direction.log_relaxation_time.size() == 0) {
       w.slope_inputs = w.inputs;
-      assign(direction.unrelaxed_modulus, n, "unrelaxed_modulus", w.slope_inputs.unrelaxed_modulus);
-      assign(direction.relaxed_stress, n, "relaxed_stress", w.slope_inputs.relaxed_stress);
+      assign(direction.unrelaxed_modulus, w.slope_inputs.unrelaxed_modulus);
+      assign(direction.relaxed_stress, w.slope_inputs.relaxed_stress);
       for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = at(w.slope_inputs.relaxed_stress, i);
       form_steps(options_.scheme, options_.start, history_, w.slope_inputs, w.slope_steps);
       t.take_linear(w.slope_steps);
@@ -258,27 +235,17 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
       t.take(w.dual_steps);
       for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
     }
-    t.state.setZero(w.main.padded());
     t.before.setZero(w.main.padded());
     t.stress.setZero(n);
-    t.weight = padded(direction.modal_weight, modes, w.main.padded(), "modal_weight");
-    t.log_inverse = -padded(direction.log_relaxation_ratio, modes, w.main.padded(), "log_relaxation_ratio");
-    const Eigen::ArrayXd start = padded(direction.initial_modal_stress, modes, w.main.padded(), "initial_modal_stress");
-    if (change.initial_modal_stress.size() > 0 || start.size() > 0) {
-      // y_j(0) = sigma_j(0) / p_j - sigma^r(0)
-      for (Index j = 0; j < modes; ++j) {
-        const double p = w.main.weight[j], dp = t.weight.size() ? t.weight[j] : 0.0;
-        if (p == 0.0) continue;
-        t.state[j] = ((start.size() ? start[j] : 0.0) - (w.main.state[j] + relaxed_start) * dp) / p - relaxed_slope[k][0];
-      }
-      t.stress[0] = (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
-    }
+    t.weight = w.main.pad(direction.modal_weight);
+    t.log_inverse = -w.main.pad(direction.log_relaxation_ratio);
+    w.main.start_slope(change, direction, relaxed_start, relaxed_slope[k][0], t.state);
+    t.stress[0] = (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
   }
   sweep(w.main, w.inputs, w.steps);
 
   if (!w.extra.empty()) {
     extra_inputs(w.inputs, w.extra_in);
-    const Index extras = change.extra_modes.modulus.size();
     for (std::size_t k = 0; k < directions.size(); ++k) {
       TangentState& t = tangents[k];
       form_inputs(law, change, history_, options_.scheme, w.inputs, directions[k], w.dual_inputs);
@@ -287,8 +254,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
       t.take(w.dual_steps);
       t.state.setZero(w.extra.padded());
       t.before.setZero(w.extra.padded());
-      t.weight = padded(directions[k].extra_modulus, extras, w.extra.padded(), "extra_modulus");
-      t.log_inverse = -padded(directions[k].log_extra_time, extras, w.extra.padded(), "log_extra_time");
+      t.weight = w.extra.pad(directions[k].extra_modulus);
+      t.log_inverse = -w.extra.pad(directions[k].log_extra_time);
     }
     sweep(w.extra, w.extra_in, w.extra_steps);
   }

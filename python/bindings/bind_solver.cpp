@@ -2,7 +2,6 @@
 #include "probation/solver.hpp"
 
 using namespace probation;
-using MutableSamples = Eigen::Ref<Eigen::ArrayXd>;
 
 void bind_solver(py::module_& m) {
   py::enum_<Scheme>(m, "Scheme")
@@ -33,15 +32,10 @@ void bind_solver(py::module_& m) {
       .def_property_readonly("history", &Solver::history)
       .def(
           "stress",
-          [](Solver& solver, const Law& law, const LawChange& change, MutableSamples out) { solver.stress(law, change, out); },
-          "law"_a, "change"_a, "out"_a, py::call_guard<py::gil_scoped_release>())
+          &Solver::stress, "law"_a, "change"_a, "out"_a, py::call_guard<py::gil_scoped_release>())
       .def(
           "tangent",
-          [](Solver& solver, const Law& law, const LawChange& change, const std::vector<Direction>& directions,
-             MutableSamples stress, Eigen::Ref<RowMajorMatrix> derivatives) {
-            solver.tangent(law, change, directions, stress, derivatives);
-          },
-          "law"_a, "change"_a, "directions"_a, "stress"_a, "derivatives"_a, py::call_guard<py::gil_scoped_release>())
+          &Solver::tangent, "law"_a, "change"_a, "directions"_a, "stress"_a, "derivatives"_a, py::call_guard<py::gil_scoped_release>())
       .def("strain_sensitivity", &strain_sensitivity, "law"_a, "change"_a, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("cvode_statistics", &Solver::cvode_statistics);
   m.def("parameter_directions", &parameter_directions, "law"_a, "change"_a, "history"_a);

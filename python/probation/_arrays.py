@@ -24,8 +24,15 @@ def as_samples(values: ArrayLike, name: str, length: int | None = None) -> Float
         Naming the argument, what was found and what was expected.
     """
     try:
-        samples = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+        given = np.asarray(values)
+        if given.dtype.kind not in "biufO":  # text, dates and complex numbers would turn into floats without a word
+            raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
+        if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+            raise InputError(f"{name} has masked samples; leave them out")
+        samples = np.ascontiguousarray(given, dtype=np.float64)
+    except InputError:
+        raise
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name} is not an array of numbers: {error}") from None
     if samples.ndim != 1 or np.ndim(values) == 0:
         raise InputError(f"{name} has the shape {np.shape(values)}; expected (n_times,)")
@@ -47,7 +54,23 @@ def as_number(value: object, name: str) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
         raise InputError(f"{name} is {value!r}; a number is needed")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{name} is too large for a number of double precision") from None
+
+
+def as_whole_number(value: object, name: str) -> int:
+    """`value` as an int that the engine can take.
+
+    Raises
+    ------
+    InputError
+        If it is not a whole number, or beyond 2^31.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or abs(int(value)) >= 2**31:
+        raise InputError(f"{name} is {value!r}; a whole number (below 2^31) is needed")
+    return int(value)
 
 
 def one_of(value: str, name: str, choices: Sequence[str]) -> str:

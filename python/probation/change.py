@@ -22,7 +22,7 @@ SelfHeating = _core.SelfHeating
 """Feedback: plastic work warms; ``SelfHeating(heating, cooling_rate, softening, hardening_loss)``."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # arrays have no single answer to ==
 class Change:
     """What an effect changes in the law along one record; whatever is left out stays as it is.
 
@@ -91,7 +91,7 @@ class Change:
         return change
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # arrays have no single answer to ==
 class Direction:
     """A direction in which the inputs of the law move: what a sensitivity is taken along.
 

@@ -5,7 +5,7 @@ A new form is one class here with its engine part in ``cpp/include/probation/com
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -44,6 +44,12 @@ class Companion:
     form: ClassVar[str]
     rate_floor: float
     calibrated: tuple[float, float] | None
+
+    def __post_init__(self) -> None:
+        for each in fields(self):  # type: ignore[arg-type]
+            if each.name != "calibrated":
+                object.__setattr__(self, each.name, as_number(getattr(self, each.name), each.name))
+        self._engine()
 
     def _engine(self) -> _core.CompanionRelation:
         raise NotImplementedError
@@ -195,6 +201,7 @@ class Table(Companion):
     def __post_init__(self) -> None:
         object.__setattr__(self, "rates", tuple(as_samples(self.rates, "rates").tolist()))
         object.__setattr__(self, "tau_max", tuple(as_samples(self.tau_max, "tau_max").tolist()))
+        object.__setattr__(self, "rate_floor", as_number(self.rate_floor, "rate_floor"))
         self._engine()
         if self.calibrated is None:
             object.__setattr__(self, "calibrated", (self.rates[0], self.rates[-1]))
@@ -230,7 +237,10 @@ class RateFunction(Companion):
         if not 0.0 < low < high:
             raise InputError(f"between is ({low}, {high}); expected two positive rates, the lower one first")
         rates = np.geomspace(low, high, 4001)
-        times = as_samples(np.broadcast_to(self.function(rates), rates.shape), "function(rates)")
+        times = np.asarray(self.function(rates))
+        if times.shape not in ((), rates.shape):
+            raise InputError(f"function(rates) has the shape {times.shape}; expected {rates.shape}, as rates")
+        times = as_samples(np.broadcast_to(times, rates.shape), "function(rates)")
         object.__setattr__(self, "_table", Table(tuple(rates), tuple(times), self.rate_floor))
 
     def _engine(self) -> _core.CompanionRelation:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_number, as_output, as_samples, one_of
+from probation._arrays import FloatArray, as_number, as_output, as_samples, as_whole_number, one_of
 from probation.change import Change, Direction
+from probation.companion import Companion
 from probation.errors import InputError
 from probation.history import Jumps, make_history
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
-
-    from probation.companion import Companion
 
 Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
@@ -56,9 +55,7 @@ class Spectrum:
     @classmethod
     def log_spaced(cls, modes: int = 50, decades: float = 6.0) -> Spectrum:
         """The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5)."""
-        if isinstance(modes, bool) or not isinstance(modes, int | np.integer):
-            raise InputError(f"modes is {modes!r}; a whole number is needed")
-        engine = _core.Spectrum.log_spaced(int(modes), as_number(decades, "decades"))
+        engine = _core.Spectrum.log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
         return cls(engine.relaxation_ratio, engine.modal_weight)
 
     def __eq__(self, other: object) -> bool:
@@ -68,6 +65,9 @@ class Spectrum:
 
     def __hash__(self) -> int:
         return hash(self._key())
+
+    def __reduce__(self) -> tuple[type[Spectrum], tuple[FloatArray, FloatArray]]:
+        return type(self), (self.relaxation_ratio, self.modal_weight)  # through __init__: read-only again
 
     def _key(self) -> tuple[bytes, bytes]:
         return self.relaxation_ratio.tobytes(), self.modal_weight.tobytes()
@@ -127,6 +127,10 @@ class Law:
     spectrum: Spectrum | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
+        for name, kind in (("companion", Companion), ("spectrum", Spectrum)):
+            given = getattr(self, name)
+            if given is not None and not isinstance(given, kind):
+                raise InputError(f"{name} is {given!r}; expected a {kind.__name__}")
         if self.companion is None:
             if self.tau_max is None:
                 raise InputError("tau_max is missing; a law without companion relation needs it")
@@ -139,8 +143,17 @@ class Law:
                 object.__setattr__(self, "alpha", 1.0)
         if self.spectrum is None:
             object.__setattr__(self, "spectrum", Spectrum.log_spaced(self.modes, self.decades))
+        else:
+            object.__setattr__(self, "modes", len(self.spectrum.modal_weight))
         for name in self.parameter_names:
             object.__setattr__(self, name, as_number(getattr(self, name), name))
+        object.__setattr__(self, "_engine", self._make_engine())
+
+    def __getstate__(self) -> dict[str, object]:
+        return {name: value for name, value in self.__dict__.items() if name != "_engine"}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        self.__dict__.update(state)
         object.__setattr__(self, "_engine", self._make_engine())
 
     def _make_engine(self) -> _core.Law:
@@ -172,7 +185,9 @@ class Law:
 
     def with_parameters(self, values: ArrayLike) -> Law:
         """The same law with other values of `parameters`, shape (3,)."""
-        numbers = as_samples(values, "values", 3)
+        numbers = as_samples(values, "values")
+        if len(numbers) != len(self.parameter_names):
+            raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
         return replace(self, **dict(zip(self.parameter_names, numbers.tolist(), strict=True)))
 
     def solver(
@@ -347,5 +362,5 @@ def make_solver(
         getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
         as_number(relative_tolerance, "relative_tolerance"),
         as_number(absolute_tolerance, "absolute_tolerance"),
-        int(max_steps),
+        as_whole_number(max_steps, "max_steps"),
     )

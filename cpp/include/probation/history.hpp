@@ -63,6 +63,8 @@ class History {
   StepRates rates(Differentiator differentiator) const;
   /// The same linear operator on any samples (a change of strain, say), as if no rate had been given.
   StepRates differentiate(const Samples& values, Differentiator differentiator) const;
+  /// How rates() moves when strain samples and given rates do; `strain_rate` has n_times entries only where rates are given.
+  StepRates move_rates(const Samples& true_strain, const Samples& strain_rate, Differentiator differentiator) const;
 
   /// What the companion relation sees in step m: the modulus of the rate, or the floor where noise turned it round.
   double companion_rate(Eigen::Index m, double rate, double floor) const;
@@ -70,6 +72,8 @@ class History {
   double companion_rate_slope(Eigen::Index m, double rate, double floor) const;
 
  private:
+  StepRates take_given(const Samples& true_strain, const Samples& strain_rate) const;
+
   Eigen::ArrayXd time_, true_strain_, strain_rate_, haward_thackray_strain_, step_;
   Indices jumps_;
   std::vector<char> fresh_;

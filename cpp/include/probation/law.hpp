@@ -62,6 +62,9 @@ struct Direction {
   Eigen::ArrayXd log_extra_time;         ///< d ln of the extra modes' times [-]; shape (extra modes)
   Eigen::Index feedback = -1;            ///< which feedback's parameter moves by one unit; -1: none
   std::size_t feedback_parameter = 0;
+
+  /// @throws InputError  naming the array whose shape does not fit the record (`rate_given`: it has rates of its own)
+  void validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes, bool rate_given) const;
 };
 
 }  // namespace probation

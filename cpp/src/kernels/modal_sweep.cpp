@@ -1,5 +1,7 @@
 // The modal recursion: blocks of modes in registers, time innermost. Compiled once per instruction set.
 
+#include <cstddef>
+
 #include "kernels.hpp"
 #include "vector.hpp"
 
@@ -16,7 +18,7 @@ struct Block {
 };
 
 template <class Step>
-PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, int at, double scale, double ratio) {
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale, double ratio) {
   StepCoefficients<Vector> c = Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
   const Vector weight = load(modes.weight + at);
   c.forcing *= weight;
@@ -44,7 +46,7 @@ template <class Step, bool two_step, bool curved, int K>
 void uniform_block(const Modes& modes, const Steps& steps, int at, double* stress) {
   Block<K> b;
   for (int k = 0; k < K; ++k) {
-    const int j = at + k * lanes;
+    const std::ptrdiff_t j = at + k * lanes;
     const StepCoefficients<Vector> c = weighted<Step>(modes, j, steps.scale[0], steps.ratio[0]);
     b.previous[k] = c.previous;
     b.earlier[k] = c.before;
@@ -64,8 +66,9 @@ void uniform_block(const Modes& modes, const Steps& steps, int at, double* stres
   }
   for (; n < steps.count; ++n) stress[n] += sum(advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0));
   for (int k = 0; k < K; ++k) {
-    store(modes.state + at + k * lanes, b.state[k]);
-    if constexpr (two_step) store(modes.before + at + k * lanes, b.before[k]);
+    const std::ptrdiff_t j = at + k * lanes;
+    store(modes.state + j, b.state[k]);
+    if constexpr (two_step) store(modes.before + j, b.before[k]);
   }
 }
 
@@ -138,31 +141,31 @@ void sweep(const Modes& modes, const Steps& steps, double* stress) {
 /// Coefficients and their slopes for every mode, in scratch: previous, before, forcing, curvature, then the slopes.
 template <class Step>
 void tabulate(const Modes& modes, double scale, double ratio, double* scratch) {
-  const int m = modes.padded;
-  for (int at = 0; at < m; at += lanes) {
+  const std::ptrdiff_t m = modes.padded;
+  for (std::ptrdiff_t at = 0; at < m; at += lanes) {
     const Vector x = load(modes.inverse_ratio + at) * scale;
     const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, ratio);
     const StepCoefficients<Vector> d = Step::template log_slopes<Vector>(x, ratio);
     const Vector rows[8] = {c.previous, c.before, c.forcing, c.curvature, d.previous, d.before, d.forcing, d.curvature};
-    for (int row = 0; row < 8; ++row) store(scratch + row * m + at, rows[row]);
+    for (std::ptrdiff_t row = 0; row < 8; ++row) store(scratch + row * m + at, rows[row]);
   }
 }
 
-PROBATION_INLINE Vector combine(const double* rows, int m, int at, Vector y, Vector before, double u, double v) {
+PROBATION_INLINE Vector combine(const double* rows, std::ptrdiff_t m, std::ptrdiff_t at, Vector y, Vector before, double u, double v) {
   return load(rows + at) * y + load(rows + m + at) * before + load(rows + 2 * m + at) * u + load(rows + 3 * m + at) * v;
 }
 
 template <class Step>
 void tangent_run(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions, int count,
                  double* scratch) {
-  const int m = modes.padded;
+  const std::ptrdiff_t m = modes.padded;
   const double* slopes = scratch + 4 * m;
   double* by_log_scale = scratch + 8 * m;
   for (int n = 0; n < steps.count; ++n) {
     if (n == 0 || !steps.uniform) tabulate<Step>(modes, steps.scale[n], steps.ratio[n], scratch);
     const double u = steps.forcing[n], v = steps.curvature ? steps.curvature[n] : 0.0;
     Vector total{};
-    for (int at = 0; at < m; at += lanes) {
+    for (std::ptrdiff_t at = 0; at < m; at += lanes) {
       const Vector y = load(modes.state + at), before = load(modes.before + at);
       const Vector next = combine(scratch, m, at, y, before, u, v);
       store(by_log_scale + at, combine(slopes, m, at, y, before, u, v));
@@ -177,7 +180,7 @@ void tangent_run(const Modes& modes, const Steps& steps, double* stress, const T
       const double du = d.forcing ? d.forcing[n] : 0.0, dv = d.curvature ? d.curvature[n] : 0.0;
       const double dx = d.log_scale ? d.log_scale[n] : 0.0;
       Vector change{};
-      for (int at = 0; at < m; at += lanes) {
+      for (std::ptrdiff_t at = 0; at < m; at += lanes) {
         const Vector y = load(d.state + at);
         const Vector dlnx = d.log_inverse ? load(d.log_inverse + at) + dx : Vector{} + dx;
         const Vector next = combine(scratch, m, at, y, load(d.before + at), du, dv) + load(by_log_scale + at) * dlnx;

@@ -10,8 +10,8 @@
 
 namespace probation {
 
-typedef double Vector __attribute__((vector_size(32)));
-typedef std::int64_t IntegerVector __attribute__((vector_size(32)));
+using Vector = double __attribute__((vector_size(32)));
+using IntegerVector = std::int64_t __attribute__((vector_size(32)));
 
 namespace kernels {
 constexpr int lanes = 4;
@@ -25,9 +25,9 @@ PROBATION_INLINE void store(double* to, Vector v) { __builtin_memcpy(to, &v, siz
 
 /// The four sums a0+a1+a2+a3, b0+..., c0+..., d0+... as one vector.
 PROBATION_INLINE Vector sums(Vector a, Vector b, Vector c, Vector d) {
-  const Vector ab = __builtin_shuffle(a, b, IntegerVector{0, 4, 2, 6}) + __builtin_shuffle(a, b, IntegerVector{1, 5, 3, 7});
-  const Vector cd = __builtin_shuffle(c, d, IntegerVector{0, 4, 2, 6}) + __builtin_shuffle(c, d, IntegerVector{1, 5, 3, 7});
-  return __builtin_shuffle(ab, cd, IntegerVector{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, IntegerVector{2, 3, 6, 7});
+  const Vector ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Vector cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 PROBATION_INLINE double sum(Vector a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 }  // namespace kernels

@@ -1,7 +1,7 @@
 #pragma once
 // Feedback: plastic work warms the specimen (Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995).
 
-#include <limits>
+#include <cmath>
 
 #include "probation/feedback.hpp"
 
@@ -28,6 +28,9 @@ class SelfHeating final : public FormulaFeedback<SelfHeatingForm> {
   SelfHeating(double heating, double cooling_rate, double softening, double hardening_loss)
       : FormulaFeedback({heating, cooling_rate, softening, hardening_loss}) {
     if (!(cooling_rate >= 0.0)) throw InputError("cooling_rate must be zero (adiabatic) or a positive number of 1/s");
+    constexpr const char* names[] = {"heating", "cooling_rate", "softening", "hardening_loss"};
+    for (std::size_t i = 0; i < SelfHeatingForm::parameters; ++i)
+      if (!std::isfinite(values()[i])) throw InputError(std::string(names[i]) + " must be a finite number");
   }
 };
 

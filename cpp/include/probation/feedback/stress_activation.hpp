@@ -1,6 +1,8 @@
 #pragma once
 // Feedback: flow activated by stress (Eyring 1936; Klompen et al. 2005).
 
+#include <cmath>
+
 #include "probation/feedback.hpp"
 
 namespace probation {
@@ -29,7 +31,7 @@ struct StressActivationForm {
 class StressActivation final : public FormulaFeedback<StressActivationForm> {
  public:
   explicit StressActivation(double activation_stress) : FormulaFeedback({activation_stress}) {
-    if (!(activation_stress > 0.0)) throw InputError("activation_stress must be a positive number of MPa");
+    if (!(activation_stress > 0.0) || !std::isfinite(activation_stress)) throw InputError("activation_stress must be a positive number of MPa");
   }
 };
 

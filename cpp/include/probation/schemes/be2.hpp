@@ -17,7 +17,7 @@ PROBATION_INLINE StepForcing<Real> be2_step(const StepData<Real>& s, Start start
   const Three<Real>& relaxed = s.relaxed_stress;
   if (fresh) return {StepRule::backward_euler, scale, stiff - (relaxed.next - relaxed.here), Real{}};
   const Bdf2Difference difference(s.ratio);
-  const Real change = difference.next * relaxed.next + difference.here * relaxed.here + difference.before * relaxed.before;
+  const Real change = difference(relaxed.next, relaxed.here, relaxed.before);
   return {StepRule::bdf2, scale, stiff - change, Real{}};
 }
 

@@ -21,7 +21,7 @@ struct CvodeStatistics {
   long error_test_failures = 0;
   long nonlinear_iterations = 0;
   long nonlinear_failures = 0;
-  long restarts = 0;  ///< at jumps of the strain rate
+  long restarts = 0;  ///< at jumps of the strain rate, and at kinks that CVODE did not get past
   int last_order = 0;
 };
 

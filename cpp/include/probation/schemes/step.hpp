@@ -38,8 +38,10 @@ struct Bdf2Difference {
   PROBATION_INLINE explicit Bdf2Difference(double ratio)
       : next((1.0 + 2.0 * ratio) / (1.0 + ratio)), here(-(1.0 + ratio)), before(ratio * ratio / (1.0 + ratio)) {}
 
-  PROBATION_INLINE double operator()(double f_next, double f_here, double f_before) const {
-    return next * f_next + here * f_here + before * f_before;
+  /// In differences: exactly zero where f does not change.
+  template <class Real>
+  PROBATION_INLINE Real operator()(Real f_next, Real f_here, Real f_before) const {
+    return next * (f_next - f_here) - before * (f_here - f_before);
   }
 };
 

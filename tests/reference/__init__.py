@@ -1,0 +1,1 @@
+"""Independent ways to the numbers that the engine must give; nothing here imports probation."""
