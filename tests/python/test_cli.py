@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from probation import cli
+from probation.commands.progress import shown
 from probation.errors import ConvergenceError, InputError
 
 LAW = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "tau_max_s=5.2", "--set", "hardening_modulus_MPa=2.5"]
@@ -147,3 +148,21 @@ def test_a_reader_that_goes_away_is_no_error_to_speak_of():
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
     assert done.stdout == "time_s,true_strain,true_stress_MPa\n"
     assert done.stderr == ""
+
+
+def test_progress_shows_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
+    with shown("working") as advance:
+        advance(1, 2, "half")
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    with shown("working") as advance:
+        advance(1, 2, "half")
+    assert "working: half" in capsys.readouterr().err
+
+
+def test_the_verdict_is_bold_on_a_terminal(capsys, monkeypatch):
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert cli.main(["simulate", "--history", "ramp:samples=11", *LAW]) == 0
+    assert capsys.readouterr().out.startswith("\x1b[1mSimulated ramp")

@@ -141,6 +141,11 @@ def test_every_plot_labels_its_axes_with_units(figure):
         assert all("[" in axes.get_ylabel() for axes in drawn.axes)
 
 
+def test_a_constant_rate_is_not_magnified_to_its_round_off():
+    axes = strain_rates([("ramp", STRAIN, 0.005 * (1 + 1e-12 * np.sin(99 * STRAIN)))]).axes[0]
+    assert axes.get_ylim() == pytest.approx((0.0, 0.00625))
+
+
 def test_a_long_curve_is_thinned_to_its_outline():
     x = np.arange(100_000.0)
     y = np.zeros_like(x)

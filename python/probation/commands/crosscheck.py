@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import TYPE_CHECKING
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, warn
@@ -68,14 +67,11 @@ def run(options: argparse.Namespace) -> int:
 
 def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
     """The campaign's law, what is neither set nor held identified."""
+    from probation.companion import from_settings  # noqa: PLC0415
     from probation.identify import fit  # noqa: PLC0415
-    from probation.schemes.cases import companion_of  # noqa: PLC0415
 
-    values = {"modes": float(campaign.law.modes), "decades": campaign.law.decades, **campaign.law.fixed, **settings}
-    relation = companion_of(campaign.law.companion)
-    needed = {"unrelaxed_modulus_MPa", "hardening_modulus_MPa", "tau_max_s" if relation is None else "alpha"}
-    if not needed <= set(values):
-        held = {name: value for name, value in values.items() if name in needed}
-        found = json.loads(fit(campaign, hold=held).to_json())["parameters"]
-        values = {**{name: parameter["value"] for name, parameter in found.items()}, **values}
-    return make_law(values, relation)
+    held = {**campaign.law.fixed, **settings}
+    relation = from_settings(campaign.law.companion)
+    if {"unrelaxed_modulus_MPa", "hardening_modulus_MPa", "tau_max_s" if relation is None else "alpha"} <= set(held):
+        return make_law({"modes": float(campaign.law.modes), "decades": campaign.law.decades, **held}, relation)
+    return fit(campaign, hold=settings).law

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, warn
 from probation.commands.progress import shown
-from probation.law import SCHEMES
 
 NAME = "fit"
 
-METHODS = ("least-squares", "variable-projection", "simplex")
+_METHODS = ("least-squares", "variable-projection", "simplex")
+_SCHEMES = ("be2", "sa2", "sa3")  # those that have sensitivities
 
 _DESCRIPTION = """\
 Identify the law on the records of a campaign: E_u, tau_max (or alpha, with a companion relation) and G, what is
@@ -27,8 +26,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
     parser.add_argument("campaign", metavar="CAMPAIGN", help="a folder with a campaign.toml, or that file")
-    parser.add_argument("--scheme", choices=SCHEMES, default="be2", help="time integration (be2)")
-    parser.add_argument("--method", choices=METHODS, default="least-squares", help="of identification (least-squares)")
+    parser.add_argument("--scheme", choices=_SCHEMES, default="be2", help="time integration (be2)")
+    parser.add_argument(
+        "--start",
+        choices=("exponential", "backward_euler"),
+        default="exponential",
+        help="be2's first step; the paper's is backward_euler",
+    )
+    parser.add_argument("--method", choices=_METHODS, default="least-squares", help="of identification (least-squares)")
     parser.add_argument(
         "--hold",
         metavar="NAME=VALUE",
@@ -36,6 +41,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=[],
         help="hold a parameter instead of identifying it: unrelaxed_modulus_MPa, tau_max_s, alpha, "
         "hardening_modulus_MPa; wins over the campaign's law.fixed",
+    )
+    parser.add_argument(
+        "--excitation",
+        choices=("auto", "raw", "spline"),
+        default="auto",
+        help="whether the strain is smoothed: auto does so where it is noisy",
     )
     add_delivery(parser)
     return parser
@@ -50,9 +61,16 @@ def run(options: argparse.Namespace) -> int:
     campaign = Campaign.load(options.campaign)
     for warning in campaign.warnings:
         warn(warning)
-    with shown(f"identifying on {campaign.name}"):
-        answer = fit(campaign, scheme=options.scheme, method=options.method, hold=held)
+    with shown(f"identifying on {campaign.name}") as advance:
+        answer = fit(
+            campaign,
+            options.scheme,
+            method=options.method,
+            hold=held,
+            excitation=options.excitation,
+            start=options.start,
+            progress=lambda part: advance(round(100 * part), 100, ""),
+        )
     deliver(answer, options)
     deliver_report(answer, options)
-    sys.stdout.flush()
     return 0

@@ -37,7 +37,7 @@ LOAD_UNLOAD = NamedHistory(
         Parameter("strain", "-", 0.5, "true strain at the turn"),
         Parameter("dwell", "s", 0.0, "at the turn", least=-1e-300),
         Parameter("unload_rate", "1/s", 0.005, "true strain rate on the way back"),
-        Parameter("unload_to", "-", 0.45, "true strain at the end", least=None),
+        Parameter("unload_to", "-", 0.485, "true strain at the end", least=None),
         samples(),
     ),
     _load_unload,

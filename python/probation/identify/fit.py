@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtrit
 
 from probation._arrays import FloatArray, one_of
 from probation.companion import from_settings
@@ -222,7 +222,7 @@ def _record_fit(each: RecordProblem, law: Law) -> RecordFit:
 def _parameter(name: str, value: float, se: float | None, relative_error: float, degrees: int, unit: str) -> Parameter:
     if se is None:
         return Parameter(name, value, None, None, "not_identifiable", unit)
-    reach = float(stats.t.ppf(0.975, degrees)) * se
+    reach = float(stdtrit(degrees, 0.975)) * se
     return Parameter(name, value, se, (value - reach, value + reach), status_of(relative_error), unit)
 
 

@@ -117,8 +117,12 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
         axes = figure.subplots()
         for at, (name, strain, rate) in enumerate(records):
             axes.plot(*thinned(strain, rate), color=series_colour(at), label=name)
-        if all((rate > 0).all() for _, _, rate in records):
+        lowest = min(float(rate.min()) for _, _, rate in records)
+        highest = max(float(rate.max()) for _, _, rate in records)
+        if 0.0 < 1.5 * lowest < highest:
             axes.set_yscale("log")
+        elif lowest > 0.0:  # constant but for its noise: zero shows how little that is
+            axes.set_ylim(0.0, 1.25 * highest)
         axes.set(xlabel="true strain [–]", ylabel="true strain rate [1/s]")
         axes.legend()
     return figure

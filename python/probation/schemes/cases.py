@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.companion import FORMS
 from probation.law import Law
 from probation.paper.necking import NECKING_SETS
 from probation.paper.twins import GRIP_LAWS, experiment, necking_history
@@ -17,8 +16,7 @@ from probation.schemes.smooth import RampHistory, SmoothHistory
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.companion import Companion
-    from probation.records import CompanionSettings, Record
+    from probation.records import Record
 
 _FINER = 50
 
@@ -82,12 +80,3 @@ def record_case(record: Record, law: Law, *, with_steps: bool) -> Case:
         smooth = replace(stretched, b=stretched.b * reach)
     named = "exact, for the samples as recorded", "necking (A-1) of the record's duration and strain"
     return Case(record.id, law, path, reference, named[0], smooth, named[1], record.sha256)
-
-
-def companion_of(settings: CompanionSettings | None) -> Companion | None:
-    """The companion relation that a campaign names."""
-    if settings is None:
-        return None
-    outside_names = {"tau_max_s": "tau_max"}
-    numbers = {outside_names.get(name, name): value for name, value in settings.parameters.items()}
-    return FORMS[settings.form](**numbers)
