@@ -112,8 +112,9 @@ def test_mypy_finds_the_stub_true():
         check=False,
     )
     said = (run.stdout + run.stderr).splitlines()
-    # Every class of pybind11 has a metaclass that no stub can name.
-    said = [line for line in said if line.strip() and not line.endswith("is inconsistent, metaclass differs")]
+    # Every class of pybind11 has a metaclass that no stub can name, its enums a capsule of their own.
+    own = ("is inconsistent, metaclass differs", ".__pybind11_native_enum__ is not present in stub")
+    said = [line for line in said if line.strip() and not line.endswith(own)]
     assert not said, "\n".join(said)
 
 

@@ -126,7 +126,7 @@ def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1
             candidate.scheme,
             strain_rate=path.strain_rate,
             start=candidate.start,
-            jumps=_jumps(candidate, path),
+            jumps=None if path.smooth else "auto",
             relative_tolerance=tolerance,
             absolute_tolerance=tolerance,
         )
@@ -142,18 +142,6 @@ def _closed_form(law: Law, path: StrainPath) -> Solve | None:
         return None
     rate = path.ramp_rate
     return Solve(ramp_stress(law, rate, path.time), _fastest(lambda: ramp_stress(law, rate, path.time)))
-
-
-def _jumps(candidate: Candidate, path: StrainPath) -> FloatArray | Literal["auto"] | None:
-    """CVODE starts afresh wherever the rate of the piecewise-linear history changes: it cannot step across."""
-    if path.smooth:
-        return None
-    if candidate.scheme == "cvode" and path.strain_rate is None:
-        rate = np.diff(path.true_strain) / np.diff(path.time)
-        changes = np.abs(np.diff(rate)) > 1e-9 * np.abs(rate).max()
-        corners: FloatArray = path.time[1:-1][changes]
-        return corners
-    return "auto"
 
 
 def _fastest(call: Callable[[], object]) -> float:

@@ -21,12 +21,11 @@ struct CvodeStatistics {
   long error_test_failures = 0;
   long nonlinear_iterations = 0;
   long nonlinear_failures = 0;
-  long restarts = 0;  ///< at jumps of the strain rate, and at kinks that CVODE did not get past
+  long restarts = 0;  ///< at jumps and kinks of the strain rate
   int last_order = 0;
 };
 
-/// Integrates eq. (6) through every sample (none is stepped across: the strain rate kinks there) and starts afresh at
-/// jumps. `stress` has shape (n_times).
+/// Integrates eq. (6) through every sample, none stepped across, and starts afresh wherever the strain rate jumps or kinks. `stress` has shape (n_times).
 /// @throws ConvergenceError  with the time and CVODE's reason
 CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const History& history, const CvodeOptions& options,
                              Eigen::Ref<Eigen::ArrayXd> stress);
