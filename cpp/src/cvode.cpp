@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <exception>
+#include <sstream>
 #include <string>
 
 #include "probation/errors.hpp"
@@ -154,10 +155,11 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
     const sundials::Vector errors = sundials::make_vector(static_cast<sunindextype>(problem.size()), context);
     if (CVodeGetEstLocalErrors(memory.get(), errors.get()) == CV_SUCCESS)
       norm = ConstState(N_VGetArrayPointer(errors.get()), problem.size()).matrix().norm();
-    throw ConvergenceError("CVODE stopped at t = " + std::to_string(time) + " s: " + sundials::flag_name(flag) +
-                               (messages.last.empty() ? "" : " (" + messages.last + ")") +
-                               "; looser tolerances or more max_steps may help",
-                           time, norm);
+    std::ostringstream message;
+    message << "CVODE stopped at t = " << time << " s: " << sundials::flag_name(flag);
+    if (!messages.last.empty()) message << " (" << messages.last << ")";
+    message << "; looser tolerances or more max_steps may help";
+    throw ConvergenceError(message.str(), time, norm);
   };
   require(CVodeInit(memory.get(), right_hand_side, begin, state.get()), begin);
   require(CVodeSetUserData(memory.get(), &problem), begin);

@@ -8,6 +8,7 @@
 namespace probation::kernels {
 namespace {
 
+/// A forced build that this processor cannot run is not taken.
 const Kernels& choose() {
 #ifdef PROBATION_HAVE_V3
   const char* forced = std::getenv("PROBATION_KERNELS");

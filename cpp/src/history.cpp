@@ -64,20 +64,33 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
   for (Index m = 0; m < steps();) {
     Index end = m + 1;
     while (end < steps() && !fresh(end) && std::abs(step_[end] - step_[m]) <= 1e-10 * step_[m] + tolerance) ++end;
+    // A clock since 1970 ticks in 2e-7 s: the mean of the stretch knows its step better than any one difference.
+    step_.segment(m, end - m).setConstant((time_[end] - time_[m]) / static_cast<double>(end - m));
     for (; m < end; ++m) uniform_until_[static_cast<std::size_t>(m)] = end;
   }
 }
 
 History::Indices History::find_rate_jumps(const Samples& time, const Samples& true_strain) {
-  constexpr double least_change = 0.1, outstanding = 30.0;
-  constexpr Index nearest = 2, farthest = 5;
+  constexpr double least_change = 0.1, outstanding = 30.0, rare = 0.05;
+  constexpr Index nearest = 2, farthest = 5, fewest_for_rarity = 60;
   const Index n = time.size();
   Indices jumps;
   if (n < 3) return jumps;
   const Eigen::ArrayXd secant =
       (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
   const auto change = [&](Index i) { return std::abs(secant[i] - secant[i - 1]); };
+  // Rounded strains change their secant by one quantum again and again: a jump stands out from what is not rare, too.
+  double common = 0.0;
+  if (n >= fewest_for_rarity) {
+    std::vector<double> changes;
+    changes.reserve(static_cast<std::size_t>(n - 2));
+    for (Index i = 1; i + 1 < n; ++i) changes.push_back(change(i));
+    const auto tail = changes.begin() + static_cast<std::ptrdiff_t>((1.0 - rare) * static_cast<double>(changes.size()));
+    std::nth_element(changes.begin(), tail, changes.end());
+    common = *tail;
+  }
   for (Index i = 1; i + 1 < n; ++i) {
+    if (change(i) < 3.0 * common) continue;
     if (!(change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1])))) continue;
     // The third largest change around: one neighbouring jump (which may take two samples) must not hide this one.
     std::vector<double> around;

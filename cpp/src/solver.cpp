@@ -1,6 +1,7 @@
 #include "probation/solver.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 #include "coupled.hpp"
 #include "kernels/kernels.hpp"
@@ -57,6 +58,7 @@ struct Solver::Workspace {
   RecordSteps<Dual> dual_steps;
   ModalGroup main, extra;
   CvodeStatistics cvode;
+  std::mutex busy;
 
   void prepare(const Law& law, const LawChange& change, const History& history, const SolverOptions& options) {
     law.validate();
@@ -82,6 +84,7 @@ const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_-
 void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
   if (stress.size() != history_.size())
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " + std::to_string(history_.size()) + " are needed");
+  const std::lock_guard<std::mutex> alone(work_->busy);
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -171,6 +174,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   if (options_.scheme == Scheme::exact || options_.scheme == Scheme::cvode)
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
   Workspace& w = *work_;
+  const std::lock_guard<std::mutex> alone(w.busy);
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions) direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
   if (!change.feedbacks.empty()) {
@@ -274,6 +278,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     }
   }
 }
+
+const char* kernel_build() { return kernels::best().name; }
 
 std::vector<Direction> parameter_directions(const Law& law, const LawChange& change, const History& history) {
   std::vector<Direction> directions(3);

@@ -42,5 +42,6 @@ void bind_solver(py::module_& m) {
           &Solver::tangent, "law"_a, "change"_a, "directions"_a, "stress"_a, "derivatives"_a, py::call_guard<py::gil_scoped_release>())
       .def("strain_sensitivity", &strain_sensitivity, "law"_a, "change"_a, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("cvode_statistics", &Solver::cvode_statistics);
+  m.def("kernel_build", &kernel_build);
   m.def("parameter_directions", &parameter_directions, "law"_a, "change"_a, "history"_a);
 }

@@ -9,6 +9,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import as_samples
+from probation.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -67,18 +68,24 @@ class Change:
     _LISTS = ("extra_modulus", "extra_relaxation_time")
 
     def and_(self, other: Change) -> Change:
-        """Both changes at once: factors multiply, stresses add, modes and feedbacks stand side by side."""
+        """Both changes at once: factors multiply, stresses add, modes and feedbacks stand side by side.
+
+        Raises
+        ------
+        InputError
+            If both start from stresses of their own, or their samples do not match.
+        """
+        if self.initial_modal_stress is not None and other.initial_modal_stress is not None:
+            raise InputError("both changes give initial_modal_stress; a record starts once")
         both: dict[str, ArrayLike | None] = {}
         for name in (*self._FACTORS, *self._SUMS, *self._LISTS):
             mine, theirs = getattr(self, name), getattr(other, name)
             if mine is None or theirs is None:
                 both[name] = theirs if mine is None else mine
-            elif name in self._FACTORS:
-                both[name] = np.multiply(mine, theirs)
-            elif name in self._SUMS:
-                both[name] = np.add(mine, theirs)
-            else:
+            elif name in self._LISTS:
                 both[name] = np.concatenate([np.atleast_1d(mine), np.atleast_1d(theirs)])
+            else:
+                both[name] = _combined(np.multiply if name in self._FACTORS else np.add, mine, theirs, name)
         return Change(feedbacks=self.feedbacks + other.feedbacks, **both)
 
     def _engine(self) -> _core.LawChange:
@@ -137,6 +144,31 @@ class Direction:
             elif values is not None:
                 setattr(direction, name, _samples(values, name))
         return direction
+
+
+def _combined(rule: np.ufunc, mine: ArrayLike, theirs: ArrayLike, name: str) -> FloatArray:
+    one, other = as_samples(np.atleast_1d(mine), name), as_samples(np.atleast_1d(theirs), name)
+    if len(one) != len(other) and 1 not in (len(one), len(other)):
+        raise InputError(f"{name} has {len(one)} samples in one change and {len(other)} in the other")
+    return np.asarray(rule(one, other), dtype=np.float64)
+
+
+def as_change(change: Change | None) -> Change:
+    """`change`, or none at all.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    if change is None:
+        return _NONE
+    if not isinstance(change, Change):
+        raise InputError(f"change is {change!r}; a Change is needed")
+    return change
+
+
+_NONE = Change()
 
 
 def _samples(values: ArrayLike, name: str) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, as_number, as_output, as_samples, as_whole_number, one_of
-from probation.change import Change, Direction
+from probation.change import Change, Direction, as_change
 from probation.companion import Companion
 from probation.errors import InputError
 from probation.history import Jumps, make_history
@@ -276,7 +276,7 @@ class Law:
             max_steps=max_steps,
         )
         stress = as_output(out, (len(solver.history),))
-        solver.stress(self.engine, (change or Change())._engine(), stress)
+        solver.stress(self.engine, as_change(change)._engine(), stress)
         return stress
 
     def sensitivity(
@@ -309,7 +309,7 @@ class Law:
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
         )
-        engine_change = (change or Change())._engine()
+        engine_change = as_change(change)._engine()
         if directions is None:
             engine_directions = _core.parameter_directions(self.engine, engine_change, solver.history)
         else:
@@ -344,7 +344,7 @@ class Law:
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
         )
-        return solver.strain_sensitivity(self.engine, (change or Change())._engine())
+        return solver.strain_sensitivity(self.engine, as_change(change)._engine())
 
 
 def make_solver(

@@ -18,6 +18,14 @@ STUB = ROOT / "python" / "probation" / "_core.pyi"
 
 Signatures = dict[str, list[list[str]]]  # dotted name -> argument names of each overload
 
+# What pybind11 adds to a class and no stub needs to repeat.
+MACHINERY = re.compile(
+    r"\.__init__ is inconsistent, stub does not have \*args parameter"  # a class without a constructor
+    r"|\.__init__ is inconsistent, stub does not have \*\*kwargs parameter"
+    r"| is inconsistent, metaclass differs"
+)
+ENUM_MACHINERY = {"__init__", "__index__", "__int__", "__members__", "__pybind11_native_enum__", "name", "value"}
+
 
 def split_arguments(text: str) -> Iterator[str]:
     """Split at the commas that are in no bracket and in no string."""
@@ -49,11 +57,18 @@ def documented(name: str, docstring: str) -> list[list[str]]:
     return [argument_names(line) for line in lines if line != "*args, **kwargs"]
 
 
+def is_machinery(dotted: str) -> bool:
+    owner, _, member = dotted.rpartition(".")
+    return member in ENUM_MACHINERY and hasattr(getattr(_core, owner, None), "__members__")
+
+
 def compiled_signatures() -> Signatures:
     found: Signatures = {}
     for name, thing in public_members(_core):
         if inspect.isclass(thing):
             for method, function in vars(thing).items():
+                if is_machinery(f"{name}.{method}"):
+                    continue
                 if callable(function) and (not method.startswith("_") or method == "__init__"):
                     found[f"{name}.{method}"] = documented(method, function.__doc__ or "")
         elif callable(thing):
@@ -93,13 +108,13 @@ def test_every_public_name_is_in_the_stub_and_back():
 
 
 def test_arguments_have_the_names_that_the_stub_gives_them():
+    """Overloads that differ by type alone may be more or fewer in the stub."""
     stubbed = stub_signatures()
-    wrong = {
-        name: (signatures, stubbed.get(name))
-        for name, signatures in compiled_signatures().items()
-        if stubbed.get(name) != signatures
-    }
-    assert not wrong, "compiled module (left) and _core.pyi (right) differ"
+    wrong = {}
+    for name, signatures in compiled_signatures().items():
+        if set(map(tuple, signatures)) != set(map(tuple, stubbed.get(name, []))):
+            wrong[name] = {"compiled": signatures, "_core.pyi": stubbed.get(name)}
+    assert not wrong
 
 
 def test_mypy_finds_the_stub_true():
@@ -111,10 +126,11 @@ def test_mypy_finds_the_stub_true():
         text=True,
         check=False,
     )
-    said = (run.stdout + run.stderr).splitlines()
-    # Every class of pybind11 has a metaclass that no stub can name, its enums a capsule of their own.
-    own = ("is inconsistent, metaclass differs", ".__pybind11_native_enum__ is not present in stub")
-    said = [line for line in said if line.strip() and not line.endswith(own)]
+    said = []
+    for line in (run.stdout + run.stderr).splitlines():
+        missing = re.match(r"probation\._core\.(\S+) is not present in stub", line)
+        if line.strip() and not MACHINERY.search(line) and not (missing and is_machinery(missing[1])):
+            said.append(line)
     assert not said, "\n".join(said)
 
 

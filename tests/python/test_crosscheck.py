@@ -93,11 +93,14 @@ def test_on_a_rough_record_cvode_still_agrees_with_exact():
 def test_a_scheme_that_fails_is_told_and_the_others_go_on(monkeypatch):
     twin = experiment_3()
 
-    def refuse(candidate, path):
-        if candidate.scheme == "cvode":
-            raise probation.ConvergenceError("stopped at t = 3 s")
+    solver = probation.Law.solver
 
-    monkeypatch.setattr("probation.schemes.candidates._jumps", refuse)
+    def refuse(law, time, true_strain, scheme, **options):
+        if scheme == "cvode":
+            raise probation.ConvergenceError("stopped at t = 3 s")
+        return solver(law, time, true_strain, scheme, **options)
+
+    monkeypatch.setattr(probation.Law, "solver", refuse)
     answer = probation.crosscheck([twin.record()], twin.truth)
     assert schemes(answer, 0)["cvode"].failure == "stopped at t = 3 s"
     assert answer.verdict.startswith("All schemes but cvode, which failed, agree within")

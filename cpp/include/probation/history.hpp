@@ -39,8 +39,8 @@ class History {
   History(const Samples& time, const Samples& true_strain, const Samples& strain_rate = Eigen::ArrayXd(),
           Indices jumps = {}, const Eigen::ArrayXi& direction = Eigen::ArrayXi());
 
-  /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, and thirty times
-  /// more than it does around.
+  /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, thirty times more than
+  /// it does around, and three times more than 95 % of the changes of the whole record (of 60 samples or more).
   static Indices find_rate_jumps(const Samples& time, const Samples& true_strain);
 
   Eigen::Index size() const noexcept { return time_.size(); }

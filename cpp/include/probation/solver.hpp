@@ -22,7 +22,8 @@ struct SolverOptions {
   CvodeOptions cvode;
 };
 
-/// Solves the law along one history, again and again: its arrays are kept between calls. Not for two threads at once.
+/// Solves the law along one history, again and again: its arrays are kept between calls. Two threads may share a solver
+/// (one waits), but each does better with its own.
 class Solver {
  public:
   Solver(History history, SolverOptions options);
@@ -51,6 +52,10 @@ class Solver {
   SolverOptions options_;
   std::unique_ptr<Workspace> work_;
 };
+
+/// Which build of the kernels runs: "v3" (AVX2, FMA) or "baseline"; PROBATION_KERNELS=baseline in the environment, read
+/// once, forces the latter.
+const char* kernel_build();
 
 /// The directions of the law's parameters: E_u [MPa], tau_max [s] (or alpha), G [MPa].
 std::vector<Direction> parameter_directions(const Law& law, const LawChange& change, const History& history);

@@ -55,7 +55,7 @@ struct Kernels {
   Trial (*trial)(const Modes&, const Steps&);
 };
 
-/// The best build for this processor; PROBATION_KERNELS=baseline or v3 in the environment overrides the choice.
+/// The best build for this processor; PROBATION_KERNELS=baseline in the environment overrides the choice.
 const Kernels& best();
 
 namespace baseline {

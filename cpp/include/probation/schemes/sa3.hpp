@@ -1,7 +1,8 @@
 #pragma once
 // SA3 (Sorvari & Hamalainen 2010), read as the exact exponential recursion under the parabola through three instants
 // of the forcing, in reduced time where tau_max varies. The original text was not to be had: this is the most
-// defensible reading. Order 3 on smooth histories; on rough measured strain it is no better than SA2.
+// defensible reading. Order 3 on smooth histories; on rough measured strain it is no better than SA2. Order 2 where
+// tau_max follows rates that are differences of the strain (give the rates for order 3), and under feedbacks.
 
 #include "probation/schemes/sa2.hpp"
 
