@@ -57,7 +57,7 @@ format: $(VENV)/.lint  ## rewrite the sources as lint wants them
 	@$(BIN)/ruff format --quiet .
 	@$(BIN)/clang-format -i $(CPP_FILES)
 
-sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the address and undefined-behaviour sanitizers
+sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verification under address and undefined-behaviour sanitizers
 	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
 	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
 	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
@@ -71,7 +71,7 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests and tests/boundary under the addre
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \
 	PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 \
 	LD_PRELOAD="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys tests/boundary
+	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys $(wildcard tests/boundary tests/verification)
 
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel
