@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Calls work(make_scratch(), task) for every task, on several threads; the first failure is thrown to the caller.
+/// Calls work(make_scratch(), task) for every task, on several threads; the first failure is thrown to the
+/// caller.
 template <class MakeScratch, class Work>
 void in_parallel(Index tasks, int threads, MakeScratch make_scratch, Work work) {
   const auto cores = static_cast<int>(std::thread::hardware_concurrency());
@@ -39,12 +40,14 @@ void in_parallel(Index tasks, int threads, MakeScratch make_scratch, Work work) 
   if (failure) std::rethrow_exception(failure);
 }
 
-void require_parameters(const Eigen::Ref<const RowMajorMatrix>& parameters, const Eigen::Ref<RowMajorMatrix>& out, Index columns) {
+void require_parameters(const Eigen::Ref<const RowMajorMatrix>& parameters,
+                        const Eigen::Ref<RowMajorMatrix>& out, Index columns) {
   if (parameters.cols() != 3)
     throw InputError("parameters has " + std::to_string(parameters.cols()) + " columns; 3 are needed");
   if (out.rows() != parameters.rows() || out.cols() != columns)
-    throw InputError("out has the shape (" + std::to_string(out.rows()) + ", " + std::to_string(out.cols()) + "); (" +
-                     std::to_string(parameters.rows()) + ", " + std::to_string(columns) + ") is needed");
+    throw InputError("out has the shape (" + std::to_string(out.rows()) + ", " + std::to_string(out.cols()) +
+                     "); (" + std::to_string(parameters.rows()) + ", " + std::to_string(columns) +
+                     ") is needed");
 }
 
 }  // namespace
@@ -57,12 +60,15 @@ Law with_parameters(Law law, const Eigen::Ref<const Eigen::Array3d>& parameters)
 }
 
 void batch_stress(const Law& law, const Eigen::Ref<const RowMajorMatrix>& parameters, const History& history,
-                  const LawChange& change, const SolverOptions& options, int threads, Eigen::Ref<RowMajorMatrix> out) {
+                  const LawChange& change, const SolverOptions& options, int threads,
+                  Eigen::Ref<RowMajorMatrix> out) {
   require_parameters(parameters, out, history.size());
-  in_parallel(parameters.rows(), threads, [&] { return Solver(history, options); }, [&](Solver& solver, Index set) {
-    Eigen::Map<Eigen::ArrayXd> stress(out.row(set).data(), out.cols());
-    solver.stress(with_parameters(law, parameters.row(set).transpose().array()), change, stress);
-  });
+  in_parallel(
+      parameters.rows(), threads, [&] { return Solver(history, options); },
+      [&](Solver& solver, Index set) {
+        Eigen::Map<Eigen::ArrayXd> stress(out.row(set).data(), out.cols());
+        solver.stress(with_parameters(law, parameters.row(set).transpose().array()), change, stress);
+      });
 }
 
 void batch_sum_of_squares(const Law& law, const Eigen::Ref<const RowMajorMatrix>& parameters,
@@ -94,10 +100,12 @@ void batch_sum_of_squares(const Law& law, const Eigen::Ref<const RowMajorMatrix>
   });
 }
 
-NormalEquations normal_equations(Solver& solver, const Law& law, const LawChange& change, const Samples& true_stress) {
+NormalEquations normal_equations(Solver& solver, const Law& law, const LawChange& change,
+                                 const Samples& true_stress) {
   const Index n = solver.history().size();
   if (true_stress.size() != n)
-    throw InputError("true_stress has " + std::to_string(true_stress.size()) + " samples; " + std::to_string(n) + " are needed");
+    throw InputError("true_stress has " + std::to_string(true_stress.size()) + " samples; " +
+                     std::to_string(n) + " are needed");
   const std::vector<Direction> directions = parameter_directions(law, change, solver.history());
   Eigen::ArrayXd stress(n);
   RowMajorMatrix sensitivity(n, static_cast<Index>(directions.size()));

@@ -22,7 +22,13 @@ Dual mean_decay_of(Dual a) {
 }
 
 kernels::Steps one_step(const StepForcing<double>& s, const double& ratio) {
-  return {s.rule, 1, false, &s.scale, &ratio, &s.forcing, s.rule == StepRule::exponential ? &s.curvature : nullptr};
+  return {s.rule,
+          1,
+          false,
+          &s.scale,
+          &ratio,
+          &s.forcing,
+          s.rule == StepRule::exponential ? &s.curvature : nullptr};
 }
 
 StepForcing<double> values(const StepForcing<Dual>& s) {
@@ -40,33 +46,40 @@ double moved(const kernels::Trial& trial, const StepForcing<Dual>& s) {
 /// The moving parts of one direction: everything that is kept from step to step, with its slope.
 struct CoupledSolver::Tangent {
   const Direction* direction = nullptr;
-  RecordInputs<Dual> inputs;       // actual ones (shifts included) up to the current instant
+  RecordInputs<Dual> inputs;  // actual ones (shifts included) up to the current instant
   std::vector<Dual> memory;
   Dual stress;
   Dual previous_scale, previous_forcing;
-  Eigen::ArrayXd state, before, log_inverse, weight;                      // main modes, unit weight
+  Eigen::ArrayXd state, before, log_inverse, weight;  // main modes, unit weight
   Eigen::ArrayXd extra_state, extra_before, extra_log_inverse, extra_weight;
   RecordSteps<Dual> extra_steps;
 };
 
-CoupledSolver::CoupledSolver(const Law& law, const LawChange& change, const History& history, Scheme scheme, Start start,
-                             ModalGroup& main, ModalGroup& extra)
-    : law_(law), change_(change), history_(history), scheme_(scheme), start_(start), main_(main), extra_(extra) {}
+CoupledSolver::CoupledSolver(const Law& law, const LawChange& change, const History& history, Scheme scheme,
+                             Start start, ModalGroup& main, ModalGroup& extra)
+    : law_(law),
+      change_(change),
+      history_(history),
+      scheme_(scheme),
+      start_(start),
+      main_(main),
+      extra_(extra) {}
 
 FeedbackShift<Dual> CoupledSolver::start_shift(Dual stress, const Direction* direction) const {
   FeedbackShift<Dual> total;
   for (std::size_t k = 0; k < change_.feedbacks.size(); ++k) {
     const bool moves = direction && direction->feedback == static_cast<Index>(k);
-    const auto shift = change_.feedbacks[k]->shift(stress, Dual(0.0), moves ? direction->feedback_parameter : Feedback::no_parameter);
+    const auto shift = change_.feedbacks[k]->shift(
+        stress, Dual(0.0), moves ? direction->feedback_parameter : Feedback::no_parameter);
     total.log_relaxation_time = total.log_relaxation_time + shift.log_relaxation_time;
     total.log_hardening = total.log_hardening + shift.log_hardening;
   }
   return total;
 }
 
-FeedbackShift<Dual> CoupledSolver::shift(Dual stress_next, Dual stress_here, Dual rise, Dual modulus, double h,
-                                         const std::vector<Dual>& memory, const Direction* direction,
-                                         std::vector<Dual>& memory_next) const {
+FeedbackShift<Dual> CoupledSolver::shift(Dual stress_next, Dual stress_here, Dual rise, Dual modulus,
+                                         double h, const std::vector<Dual>& memory,
+                                         const Direction* direction, std::vector<Dual>& memory_next) const {
   // Plastic work of the step, sigma (de - d sigma / E_u), exact for a stress that is straight in it.
   const Dual mean_stress = 0.5 * (stress_here + stress_next);
   const Dual work = mean_stress * (modulus.value > 0.0 ? rise - (stress_next - stress_here) / modulus : rise);
@@ -106,7 +119,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
   spread(base.fluidity_end, n - 1, in.fluidity_end);
   if (!base.end_rate.empty()) spread(base.end_rate, n - 1, in.end_rate);
 
-  // The start: s = sum of modal stresses, which for a relaxed start depends on s through the shift of the hardening.
+  // The start: s = sum of modal stresses, which for a relaxed start depends on s through the shift of the
+  // hardening.
   const double base_relaxed = at(base.relaxed_stress, 0);
   double s = given_start ? change_.initial_modal_stress.sum() : total_weight * base_relaxed;
   FeedbackShift<Dual> begun = start_shift(slope_at(s), nullptr);
@@ -122,7 +136,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
   const double start_relaxed = base_relaxed * std::exp(begun.log_hardening.value);
   in.relaxed_stress[0] = start_relaxed;
   in.fluidity_begin[0] = in.fluidity_begin[0] * std::exp(-begun.log_relaxation_time.value);
-  if (given_start) main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * start_relaxed;
+  if (given_start)
+    main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * start_relaxed;
   stress[0] = area[0] * s;
 
   // Tangents run beside, in unit-weight states.
@@ -168,7 +183,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     t.inputs.relaxed_stress[0] = t.inputs.relaxed_stress[0] * exp(started.log_hardening);
     t.inputs.fluidity_begin[0] = t.inputs.fluidity_begin[0] * exp(-started.log_relaxation_time);
     unit.start_slope(change_, direction, start_relaxed, t.inputs.relaxed_stress[0].slope, t.state);
-    (*derivatives)(0, static_cast<Index>(k)) = area[0] * ds + stress[0] * Sampled(direction.log_load_bearing_area, 0.0)[0];
+    (*derivatives)(0, static_cast<Index>(k)) =
+        area[0] * ds + stress[0] * Sampled(direction.log_load_bearing_area, 0.0)[0];
   }
 
   std::vector<Dual> memory(feedbacks, Dual(0.0)), memory_next(feedbacks), tangent_memory(feedbacks);
@@ -186,7 +202,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     double extra_stress = 0.0;
     StepForcing<double> extra_forcing{};
     if (!extra_.empty()) {
-      extra_forcing = {extra_steps.rule[i], extra_steps.scale[i].value, extra_steps.forcing[i].value, extra_steps.curvature[i].value};
+      extra_forcing = {extra_steps.rule[i], extra_steps.scale[i].value, extra_steps.forcing[i].value,
+                       extra_steps.curvature[i].value};
       kernel.sweep(extra_.view(), one_step(extra_forcing, ratio), &extra_stress);
     }
 
@@ -197,7 +214,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     Dual relaxed, residual;
     bool converged = false;
     for (int iteration = 0; iteration < most_iterations && !converged; ++iteration) {
-      const FeedbackShift<Dual> now = shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
+      const FeedbackShift<Dual> now =
+          shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
       relaxed = base_next * exp(now.log_hardening);
       in.relaxed_stress[i + 1] = relaxed;
       in.fluidity_end[i] = base_fluidity * exp(-now.log_relaxation_time);
@@ -212,12 +230,14 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
       next += correction;
     }
     if (!converged)
-      throw ConvergenceError("the feedback's stress did not converge at t = " + std::to_string(history_.time()[m + 1]) +
-                                 " s; a finer time grid may help",
+      throw ConvergenceError("the feedback's stress did not converge at t = " +
+                                 std::to_string(history_.time()[m + 1]) + " s; a finer time grid may help",
                              history_.time()[m + 1], std::abs(residual.value));
 
-    // Taken: everything once more at the converged stress (the last correction was below the tolerance), for good.
-    const FeedbackShift<Dual> now = shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
+    // Taken: everything once more at the converged stress (the last correction was below the tolerance), for
+    // good.
+    const FeedbackShift<Dual> now =
+        shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
     relaxed = base_next * exp(now.log_hardening);
     in.relaxed_stress[i + 1] = relaxed;
     in.fluidity_end[i] = base_fluidity * exp(-now.log_relaxation_time);
@@ -236,34 +256,47 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     for (std::size_t k = 0; k < directions.size(); ++k) {
       Tangent& t = tangents[k];
       const Dual d_rise = t.inputs.true_strain[i + 1] - t.inputs.true_strain[i];
-      const Dual d_modulus = 0.5 * (at(t.inputs.unrelaxed_modulus, m) + at(t.inputs.unrelaxed_modulus, m + 1));
+      const Dual d_modulus =
+          0.5 * (at(t.inputs.unrelaxed_modulus, m) + at(t.inputs.unrelaxed_modulus, m + 1));
       const Dual law_relaxed = t.inputs.relaxed_stress[i + 1], law_fluidity = t.inputs.fluidity_end[i];
       double extra_slope = 0.0;
       if (!extra_.empty()) {
         unit_extra = unit_extra_before;
         double unused = 0.0;
         const double du = t.extra_steps.forcing[i].slope, dv = t.extra_steps.curvature[i].slope;
-        const kernels::TangentDirection view{&du, &dv, nullptr,
-                                             t.extra_log_inverse.size() ? t.extra_log_inverse.data() : nullptr,
-                                             t.extra_weight.size() ? t.extra_weight.data() : nullptr,
-                                             t.extra_state.data(), t.extra_before.data(), &extra_slope};
+        const kernels::TangentDirection view{
+            &du,
+            &dv,
+            nullptr,
+            t.extra_log_inverse.size() ? t.extra_log_inverse.data() : nullptr,
+            t.extra_weight.size() ? t.extra_weight.data() : nullptr,
+            t.extra_state.data(),
+            t.extra_before.data(),
+            &extra_slope};
         kernel.tangent(unit_extra.view(), one_step(extra_forcing, ratio), &unused, &view, 1, scratch.data());
       }
 
       // One pass with the stress held gives its slope (implicit function theorem); the second takes the step.
       const auto pass = [&](double ds, bool take) {
-        const FeedbackShift<Dual> moving = shift({next, ds}, t.stress, d_rise, d_modulus, h, t.memory, t.direction, tangent_memory);
+        const FeedbackShift<Dual> moving =
+            shift({next, ds}, t.stress, d_rise, d_modulus, h, t.memory, t.direction, tangent_memory);
         t.inputs.relaxed_stress[i + 1] = law_relaxed * exp(moving.log_hardening);
         t.inputs.fluidity_end[i] = law_fluidity * exp(-moving.log_relaxation_time);
-        const StepForcing<Dual> f =
-            step_forcing(scheme_, start_, step_data(history_, t.inputs, m, t.previous_scale, t.previous_forcing));
+        const StepForcing<Dual> f = step_forcing(
+            scheme_, start_, step_data(history_, t.inputs, m, t.previous_scale, t.previous_forcing));
         unit = unit_before;
         next_state = t.state;
         next_before = t.before;
         const double du = f.forcing.slope, dv = f.curvature.slope, dx = f.scale.slope / f.scale.value;
         double unused = 0.0, slope = 0.0;
-        const kernels::TangentDirection view{&du, &dv, &dx, t.log_inverse.size() ? t.log_inverse.data() : nullptr,
-                                             t.weight.size() ? t.weight.data() : nullptr, next_state.data(), next_before.data(), &slope};
+        const kernels::TangentDirection view{&du,
+                                             &dv,
+                                             &dx,
+                                             t.log_inverse.size() ? t.log_inverse.data() : nullptr,
+                                             t.weight.size() ? t.weight.data() : nullptr,
+                                             next_state.data(),
+                                             next_before.data(),
+                                             &slope};
         kernel.tangent(unit.view(), one_step(plain, ratio), &unused, &view, 1, scratch.data());
         if (take) {
           t.state = next_state;
@@ -272,7 +305,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
           t.previous_forcing = f.forcing;
           t.memory = tangent_memory;
           if (m + 1 < history_.steps())
-            t.inputs.fluidity_begin[i + 1] = t.inputs.fluidity_begin[i + 1] * exp(-moving.log_relaxation_time);
+            t.inputs.fluidity_begin[i + 1] =
+                t.inputs.fluidity_begin[i + 1] * exp(-moving.log_relaxation_time);
         }
         return slope + total_weight * t.inputs.relaxed_stress[i + 1].slope +
                t.direction->modal_weight.sum() * t.inputs.relaxed_stress[i + 1].value + extra_slope;
@@ -292,7 +326,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     for (std::size_t k = 0; k < feedbacks; ++k) memory[k] = memory_next[k].value;
     in.relaxed_stress[i + 1] = relaxed.value;
     in.fluidity_end[i] = in.fluidity_end[i].value;
-    if (m + 1 < history_.steps()) in.fluidity_begin[i + 1] = in.fluidity_begin[i + 1] * std::exp(-now.log_relaxation_time.value);
+    if (m + 1 < history_.steps())
+      in.fluidity_begin[i + 1] = in.fluidity_begin[i + 1] * std::exp(-now.log_relaxation_time.value);
     previous_scale = forcing.scale.value;
     previous_forcing = forcing.forcing.value;
     s_change = next - s_here;

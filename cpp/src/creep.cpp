@@ -18,8 +18,9 @@ Dual haward_thackray(Dual strain) {
   return {haward_thackray_strain(strain.value), haward_thackray_slope(strain.value) * strain.slope};
 }
 
-/// Newton's iteration from `strain`, kept inside a bracket by bisection: where the flow stress falls with the rate, Newton
-/// alone runs away. The bracket opens from the start, so that the nearest root is found. False if there is none.
+/// Newton's iteration from `strain`, kept inside a bracket by bisection: where the flow stress falls with the
+/// rate, Newton alone runs away. The bracket opens from the start, so that the nearest root is found. False
+/// if there is none.
 template <class Function>
 bool solve_from(double& strain, Function function) {
   constexpr int most_openings = 60, most_iterations = 200;
@@ -54,20 +55,23 @@ bool solve_from(double& strain, Function function) {
 
 }  // namespace
 
-Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Samples& time, const Samples& true_stress,
-                            const History::Indices& jumps, Start start) {
+Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Samples& time,
+                            const Samples& true_stress, const History::Indices& jumps, Start start) {
   const Index n = time.size();
   const History grid(time, Eigen::ArrayXd::Zero(n), Eigen::ArrayXd(), jumps);
   if (true_stress.size() != n)
-    throw InputError("true_stress has " + std::to_string(true_stress.size()) + " samples; " + std::to_string(n) + " are needed");
+    throw InputError("true_stress has " + std::to_string(true_stress.size()) + " samples; " +
+                     std::to_string(n) + " are needed");
   if (!true_stress.allFinite()) throw InputError("true_stress has a sample that is not finite");
   law.validate();
   change.validate(n, law.spectrum.modes());
-  if (!(law.unrelaxed_modulus > 0.0)) throw InputError("unrelaxed_modulus must be positive for a stress to be imposed");
+  if (!(law.unrelaxed_modulus > 0.0))
+    throw InputError("unrelaxed_modulus must be positive for a stress to be imposed");
   if (!change.feedbacks.empty() || change.extra_modes.modulus.size() > 0)
     throw InputError("creep does not take feedbacks or extra modes");
 
-  const Sampled time_factor(change.relaxation_time_factor, 1.0), modulus_factor(change.unrelaxed_modulus_factor, 1.0);
+  const Sampled time_factor(change.relaxation_time_factor, 1.0),
+      modulus_factor(change.unrelaxed_modulus_factor, 1.0);
   const Sampled hardening_factor(change.hardening_factor, 1.0), added(change.added_relaxed_stress, 0.0);
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();
@@ -78,7 +82,8 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
     if (!law.companion) return Dual(1.0 / (law.tau_max * time_factor[instant]));
     const double floor = law.companion->rate_floor(), seen = grid.companion_rate(m, rate.value, floor);
     const double value = 1.0 / (law.alpha * law.companion->relaxation_time(seen) * time_factor[instant]);
-    const double log_slope = law.companion->log_slope(seen) * grid.companion_rate_slope(m, rate.value, floor) / seen;
+    const double log_slope =
+        law.companion->log_slope(seen) * grid.companion_rate_slope(m, rate.value, floor) / seen;
     return Dual(value, -value * log_slope * rate.slope);
   };
 
@@ -88,7 +93,8 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
   in.unrelaxed_modulus.resize(static_cast<std::size_t>(n));
   in.fluidity_begin.resize(static_cast<std::size_t>(n - 1));
   in.fluidity_end.resize(static_cast<std::size_t>(n - 1));
-  for (Index i = 0; i < n; ++i) in.unrelaxed_modulus[static_cast<std::size_t>(i)] = law.unrelaxed_modulus * modulus_factor[i];
+  for (Index i = 0; i < n; ++i)
+    in.unrelaxed_modulus[static_cast<std::size_t>(i)] = law.unrelaxed_modulus * modulus_factor[i];
 
   // Loaded at once: no mode has had time to relax, sigma_j = p_j E_u e.
   const double loaded = true_stress[0] / area[0] / in.unrelaxed_modulus[0].value / total_weight;
@@ -113,7 +119,8 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
       if (!grid.fresh(m)) {
         const Bdf2Difference difference(ratio);
         rate = (difference.next * in.true_strain[i + 1] + difference.here * in.true_strain[i] +
-                difference.before * in.true_strain[i - 1]) / h;
+                difference.before * in.true_strain[i - 1]) /
+               h;
       }
       in.fluidity_end[i] = fluidity(m, m + 1, rate);
       if (grid.fresh(m)) in.fluidity_begin[i] = fluidity(m, m, rate);
@@ -127,11 +134,12 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
     };
     const bool converged = solve_from(next, excess);
     if (!converged)
-      throw ConvergenceError("no strain was found that carries the stress at t = " + std::to_string(time[m + 1]) +
-                                 " s; a finer time grid may help",
+      throw ConvergenceError("no strain was found that carries the stress at t = " +
+                                 std::to_string(time[m + 1]) + " s; a finer time grid may help",
                              time[m + 1], std::abs(excess(next).value));
     double stress = 0.0;
-    kernel.sweep(modes.view(), {taken.rule, 1, false, &taken.scale, &ratio, &taken.forcing, nullptr}, &stress);
+    kernel.sweep(modes.view(), {taken.rule, 1, false, &taken.scale, &ratio, &taken.forcing, nullptr},
+                 &stress);
     strain[m + 1] = next;
     in.true_strain[i + 1] = next;
     in.relaxed_stress[i + 1] = in.relaxed_stress[i + 1].value;

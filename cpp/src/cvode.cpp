@@ -18,7 +18,8 @@ using Eigen::Index;
 using State = Eigen::Map<Eigen::ArrayXd>;
 using ConstState = Eigen::Map<const Eigen::ArrayXd>;
 
-/// Eq. (6) as an initial value problem within one step of the history. State: modal stresses, extra modes, memories.
+/// Eq. (6) as an initial value problem within one step of the history. State: modal stresses, extra modes,
+/// memories.
 class StepProblem {
  public:
   StepProblem(const Law& law, const LawChange& change, const History& history)
@@ -37,8 +38,8 @@ class StepProblem {
 
   Index size() const { return modes_ + extra_ + memories_; }
   void enter(Index step) { step_ = step; }
-  /// Whether the rate changes where this step begins: a piecewise-linear history kinks at every sample, and steps of
-  /// the past predict badly across a kink (0.1 MPa on rough strain at a tolerance of 1e-10).
+  /// Whether the rate changes where this step begins: a piecewise-linear history kinks at every sample, and
+  /// steps of the past predict badly across a kink (0.1 MPa on rough strain at a tolerance of 1e-10).
   bool kinks() const { return std::abs(rates_.begin[step_] - rates_.end[step_ - 1]) > 1e-9 * largest_rate_; }
   double stress(const ConstState& state) const { return state.head(modes_ + extra_).sum(); }
 
@@ -49,7 +50,8 @@ class StepProblem {
       return;
     }
     // Relaxed: sigma_j = p_j sigma^r(0), which may itself depend on the stress.
-    const double relaxed = law_.hardening_modulus * hardening_factor_[0] * history_.haward_thackray_strain()[0] + added_[0];
+    const double relaxed =
+        law_.hardening_modulus * hardening_factor_[0] * history_.haward_thackray_strain()[0] + added_[0];
     const double total_weight = law_.spectrum.modal_weight.sum();
     double stress = total_weight * relaxed, factor = 1.0;
     for (int i = 0; i < 200 && memories_ > 0; ++i) {
@@ -67,27 +69,32 @@ class StepProblem {
     const double rise = strain[m + 1] - strain[m], begin = rates_.begin[m], end = rates_.end[m];
     const double bend_begin = h * begin - rise, bend_end = rise - h * end;
     const double now = strain[m] + u * rise + u * (1.0 - u) * ((1.0 - u) * bend_begin + u * bend_end);
-    const double speed =
-        (rise + (1.0 - 2.0 * u) * ((1.0 - u) * bend_begin + u * bend_end) + u * (1.0 - u) * (bend_end - bend_begin)) / h;
+    const double speed = (rise + (1.0 - 2.0 * u) * ((1.0 - u) * bend_begin + u * bend_end) +
+                          u * (1.0 - u) * (bend_end - bend_begin)) /
+                         h;
     const auto sample = [&](const Sampled& s) { return (1.0 - u) * s[m] + u * s[m + 1]; };
 
     const double total = stress(state);
     const FeedbackShift<Dual> moved = shift(total, state.data() + modes_ + extra_);
     double tau_max = law_.tau_max;
     if (law_.companion)
-      tau_max = law_.alpha * law_.companion->relaxation_time(history_.companion_rate(m, speed, law_.companion->rate_floor()));
+      tau_max = law_.alpha * law_.companion->relaxation_time(
+                                 history_.companion_rate(m, speed, law_.companion->rate_floor()));
     tau_max *= sample(time_factor_) * std::exp(moved.log_relaxation_time.value);
     const double modulus = law_.unrelaxed_modulus * sample(modulus_factor_);
-    const double relaxed = (law_.hardening_modulus * sample(hardening_factor_) * haward_thackray_strain(now) + sample(added_)) *
-                           std::exp(moved.log_hardening.value);  // eq. (3)
+    const double relaxed =
+        (law_.hardening_modulus * sample(hardening_factor_) * haward_thackray_strain(now) + sample(added_)) *
+        std::exp(moved.log_hardening.value);  // eq. (3)
 
     rate.head(modes_) = law_.spectrum.modal_weight * (modulus * speed) -
-                        (state.head(modes_) - law_.spectrum.modal_weight * relaxed) / (law_.spectrum.relaxation_ratio * tau_max);  // eq. (6)
-    rate.segment(modes_, extra_) =
-        change_.extra_modes.modulus * speed - state.segment(modes_, extra_) / change_.extra_modes.relaxation_time;
+                        (state.head(modes_) - law_.spectrum.modal_weight * relaxed) /
+                            (law_.spectrum.relaxation_ratio * tau_max);  // eq. (6)
+    rate.segment(modes_, extra_) = change_.extra_modes.modulus * speed -
+                                   state.segment(modes_, extra_) / change_.extra_modes.relaxation_time;
     const double plastic_rate = modulus > 0.0 ? speed - rate.head(modes_ + extra_).sum() / modulus : speed;
     for (Index k = 0; k < memories_; ++k) {
-      const double loss = change_.feedbacks[static_cast<std::size_t>(k)]->loss_rate(Feedback::no_parameter).value;
+      const double loss =
+          change_.feedbacks[static_cast<std::size_t>(k)]->loss_rate(Feedback::no_parameter).value;
       rate[modes_ + extra_ + k] = total * plastic_rate - loss * state[modes_ + extra_ + k];
     }
   }
@@ -98,7 +105,8 @@ class StepProblem {
   FeedbackShift<Dual> shift(double stress, const double* memory) const {
     FeedbackShift<Dual> total;
     for (Index k = 0; k < memories_; ++k) {
-      const auto one = change_.feedbacks[static_cast<std::size_t>(k)]->shift(stress, memory ? memory[k] : 0.0, Feedback::no_parameter);
+      const auto one = change_.feedbacks[static_cast<std::size_t>(k)]->shift(stress, memory ? memory[k] : 0.0,
+                                                                             Feedback::no_parameter);
       total.log_relaxation_time = total.log_relaxation_time + one.log_relaxation_time;
       total.log_hardening = total.log_hardening + one.log_hardening;
     }
@@ -121,7 +129,8 @@ int right_hand_side(sunrealtype t, N_Vector state, N_Vector rate, void* user_dat
   try {
     const Index size = problem.size();
     problem.rate(t, ConstState(N_VGetArrayPointer(state), size), State(N_VGetArrayPointer(rate), size));
-    return ConstState(N_VGetArrayPointer(rate), size).allFinite() ? 0 : 1;  // CVODE may retry with a smaller step
+    return ConstState(N_VGetArrayPointer(rate), size).allFinite() ? 0
+                                                                  : 1;  // CVODE may retry with a smaller step
   } catch (...) {
     problem.failure = std::current_exception();
     return -1;
@@ -130,8 +139,8 @@ int right_hand_side(sunrealtype t, N_Vector state, N_Vector rate, void* user_dat
 
 }  // namespace
 
-CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const History& history, const CvodeOptions& options,
-                             Eigen::Ref<Eigen::ArrayXd> stress) {
+CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const History& history,
+                             const CvodeOptions& options, Eigen::Ref<Eigen::ArrayXd> stress) {
   law.validate();
   change.validate(history.size(), law.spectrum.modes());
   for (const double tolerance : {options.relative_tolerance, options.absolute_tolerance})
@@ -164,7 +173,8 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
   require(CVodeInit(memory.get(), right_hand_side, begin, state.get()), begin);
   require(CVodeSetUserData(memory.get(), &problem), begin);
   require(CVodeSStolerances(memory.get(), options.relative_tolerance, options.absolute_tolerance), begin);
-  require(CVodeSetNonlinConvCoef(memory.get(), 0.01), begin);  // the diagonal Jacobian converges slowly under feedbacks
+  require(CVodeSetNonlinConvCoef(memory.get(), 0.01),
+          begin);  // the diagonal Jacobian converges slowly under feedbacks
   require(CVodeSetMaxNumSteps(memory.get(), options.max_steps), begin);
   require(CVDiag(memory.get()), begin);
 
@@ -186,7 +196,9 @@ CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const Hist
   };
 
   const Sampled area(change.load_bearing_area, 1.0);
-  const auto total = [&] { return problem.stress(ConstState(N_VGetArrayPointer(state.get()), problem.size())); };
+  const auto total = [&] {
+    return problem.stress(ConstState(N_VGetArrayPointer(state.get()), problem.size()));
+  };
   stress[0] = area[0] * total();
   for (Index m = 0; m < history.steps(); ++m) {
     problem.enter(m);

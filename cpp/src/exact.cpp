@@ -20,17 +20,20 @@ double weighted_exponential(double k, double grown, double x, double decayed) {
 
 }  // namespace
 
-void exact_stress(const Law& law, const LawChange& change, const History& history, Eigen::Ref<Eigen::ArrayXd> stress) {
+void exact_stress(const Law& law, const LawChange& change, const History& history,
+                  Eigen::Ref<Eigen::ArrayXd> stress) {
   law.validate();
   change.validate(history.size(), law.spectrum.modes());
   if (!change.feedbacks.empty())
     throw InputError("scheme exact has no closed form for a feedback; use be2, sa2, sa3 or cvode");
 
-  const Sampled time_factor(change.relaxation_time_factor, 1.0), modulus_factor(change.unrelaxed_modulus_factor, 1.0);
+  const Sampled time_factor(change.relaxation_time_factor, 1.0),
+      modulus_factor(change.unrelaxed_modulus_factor, 1.0);
   const Sampled hardening_factor(change.hardening_factor, 1.0), added(change.added_relaxed_stress, 0.0);
   const Sampled area(change.load_bearing_area, 1.0);
   const Eigen::ArrayXd& strain = history.true_strain();
-  const StepRates rates = history.rates(history.rate_given() ? Differentiator::three_point : Differentiator::secant);
+  const StepRates rates =
+      history.rates(history.rate_given() ? Differentiator::three_point : Differentiator::secant);
 
   const Index modes = law.spectrum.modes(), extra = change.extra_modes.modulus.size();
   const Eigen::ArrayXd& weight = law.spectrum.modal_weight;
@@ -39,7 +42,8 @@ void exact_stress(const Law& law, const LawChange& change, const History& histor
   const auto fluidity = [&](Index m, double rate, Index instant) {
     double tau_max = law.tau_max;
     if (law.companion)
-      tau_max = law.alpha * law.companion->relaxation_time(history.companion_rate(m, rate, law.companion->rate_floor()));
+      tau_max = law.alpha *
+                law.companion->relaxation_time(history.companion_rate(m, rate, law.companion->rate_floor()));
     return 1.0 / (tau_max * time_factor[instant]);
   };
 
@@ -55,7 +59,8 @@ void exact_stress(const Law& law, const LawChange& change, const History& histor
     const double scale = 0.5 * h * (fluidity(m, rates.begin[m], m) + fluidity(m, rates.end[m], m + 1));
     const double modulus_begin = law.unrelaxed_modulus * modulus_factor[m];
     const double modulus_end = law.unrelaxed_modulus * modulus_factor[m + 1];
-    // sigma^r = (G0 + (G1 - G0) s) e_HT + added: for G0 = G1 the bend of e_HT is exact, else its product is straight too.
+    // sigma^r = (G0 + (G1 - G0) s) e_HT + added: for G0 = G1 the bend of e_HT is exact, else its product is
+    // straight too.
     const bool even = hardening(m) == hardening(m + 1);
     const double straight = even ? added[m + 1] - added[m] : relaxed(m + 1) - relaxed(m);
     const double twice = std::exp(2.0 * rise), inverse = std::exp(-rise);
@@ -64,7 +69,8 @@ void exact_stress(const Law& law, const LawChange& change, const History& histor
     for (Index j = 0; j < modes; ++j) {
       const double x = scale / law.spectrum.relaxation_ratio[j];
       const double decayed = decay(x), mean = mean_decay(x, decayed);
-      // A straight E_u over a straight strain: E_u e' has its mean and a slope; the slope's part is curvature.
+      // A straight E_u over a straight strain: E_u e' has its mean and a slope; the slope's part is
+      // curvature.
       double drive = (0.5 * (modulus_begin + modulus_end) * rise - straight) * mean;
       drive += 0.5 * (modulus_end - modulus_begin) * rise * curvature_decay(x, mean);
       if (even)

@@ -20,20 +20,25 @@ void require(bool good, const char* argument, Index sample, double found, const 
 
 void require_finite(const Eigen::ArrayXd& values, const char* argument) {
   if (values.allFinite()) return;
-  for (Index i = 0; i < values.size(); ++i) require(std::isfinite(values[i]), argument, i, values[i], "a finite number is needed");
+  for (Index i = 0; i < values.size(); ++i)
+    require(std::isfinite(values[i]), argument, i, values[i], "a finite number is needed");
 }
 
 void require_length(Index found, Index expected, const char* argument) {
   if (found == expected) return;
-  throw InputError(std::string(argument) + " has " + std::to_string(found) + " entries; " + std::to_string(expected) +
-                   " are needed to match time");
+  throw InputError(std::string(argument) + " has " + std::to_string(found) + " entries; " +
+                   std::to_string(expected) + " are needed to match time");
 }
 
 }  // namespace
 
 History::History(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
                  const Eigen::ArrayXi& direction)
-    : time_(time), true_strain_(true_strain), strain_rate_(strain_rate), jumps_(std::move(jumps)), direction_(direction) {
+    : time_(time),
+      true_strain_(true_strain),
+      strain_rate_(strain_rate),
+      jumps_(std::move(jumps)),
+      direction_(direction) {
   const Index n = time_.size();
   if (n < 2) throw InputError("time has " + std::to_string(n) + " samples; at least 2 are needed");
   require_length(true_strain_.size(), n, "true_strain");
@@ -45,16 +50,19 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
 
   step_ = time_.tail(n - 1) - time_.head(n - 1);
   const bool increasing = (step_ > 0.0).all();
-  for (Index m = 0; m < steps() && !increasing; ++m) require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
+  for (Index m = 0; m < steps() && !increasing; ++m)
+    require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
   haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
   for (Index i = 0; i < n; ++i)
-    require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i], "its stretch is beyond all numbers: is it a strain?");
+    require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i],
+            "its stretch is beyond all numbers: is it a strain?");
 
   fresh_.assign(static_cast<std::size_t>(steps()), 0);
   fresh_[0] = 1;
   std::sort(jumps_.begin(), jumps_.end());
   for (const Index jump : jumps_) {
-    if (jump < 0 || jump >= n) throw InputError("jumps holds " + std::to_string(jump) + "; an index of time is needed");
+    if (jump < 0 || jump >= n)
+      throw InputError("jumps holds " + std::to_string(jump) + "; an index of time is needed");
     if (jump < steps()) fresh_[static_cast<std::size_t>(jump)] = 1;
   }
 
@@ -63,8 +71,10 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
   uniform_until_.resize(static_cast<std::size_t>(steps()));
   for (Index m = 0; m < steps();) {
     Index end = m + 1;
-    while (end < steps() && !fresh(end) && std::abs(step_[end] - step_[m]) <= 1e-10 * step_[m] + tolerance) ++end;
-    // A clock since 1970 ticks in 2e-7 s: the mean of the stretch knows its step better than any one difference.
+    while (end < steps() && !fresh(end) && std::abs(step_[end] - step_[m]) <= 1e-10 * step_[m] + tolerance)
+      ++end;
+    // A clock since 1970 ticks in 2e-7 s: the mean of the stretch knows its step better than any one
+    // difference.
     step_.segment(m, end - m).setConstant((time_[end] - time_[m]) / static_cast<double>(end - m));
     for (; m < end; ++m) uniform_until_[static_cast<std::size_t>(m)] = end;
   }
@@ -79,20 +89,23 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   const Eigen::ArrayXd secant =
       (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
   const auto change = [&](Index i) { return std::abs(secant[i] - secant[i - 1]); };
-  // Rounded strains change their secant by one quantum again and again: a jump stands out from what is not rare, too.
+  // Rounded strains change their secant by one quantum again and again: a jump stands out from what is not
+  // rare, too.
   double common = 0.0;
   if (n >= fewest_for_rarity) {
     std::vector<double> changes;
     changes.reserve(static_cast<std::size_t>(n - 2));
     for (Index i = 1; i + 1 < n; ++i) changes.push_back(change(i));
-    const auto tail = changes.begin() + static_cast<std::ptrdiff_t>((1.0 - rare) * static_cast<double>(changes.size()));
+    const auto tail =
+        changes.begin() + static_cast<std::ptrdiff_t>((1.0 - rare) * static_cast<double>(changes.size()));
     std::nth_element(changes.begin(), tail, changes.end());
     common = *tail;
   }
   for (Index i = 1; i + 1 < n; ++i) {
     if (change(i) < 3.0 * common) continue;
     if (!(change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1])))) continue;
-    // The third largest change around: one neighbouring jump (which may take two samples) must not hide this one.
+    // The third largest change around: one neighbouring jump (which may take two samples) must not hide this
+    // one.
     std::vector<double> around;
     for (Index distance = nearest; distance <= farthest; ++distance) {
       if (i - distance >= 1) around.push_back(change(i - distance));
@@ -109,13 +122,19 @@ StepRates History::differentiate(const Samples& values, Differentiator different
   const Index steps = this->steps();
   const Eigen::ArrayXd secant = (values.tail(steps) - values.head(steps)) / step_;
   StepRates rates{secant, secant};
-  const auto starts = [&](Index m) { return m >= steps || fresh(m); };  // a segment ends where the next starts
+  const auto starts = [&](Index m) {
+    return m >= steps || fresh(m);
+  };  // a segment ends where the next starts
   // Slope of the parabola over steps m - 1 and m, at their common instant; and beyond it by half the bend.
   const auto middle = [&](Index m) {
     return (secant[m - 1] * step_[m] + secant[m] * step_[m - 1]) / (step_[m - 1] + step_[m]);
   };
-  const auto at_end = [&](Index m) { return secant[m] + (secant[m] - secant[m - 1]) * step_[m] / (step_[m - 1] + step_[m]); };
-  const auto at_start = [&](Index m) { return secant[m] - (secant[m + 1] - secant[m]) * step_[m] / (step_[m] + step_[m + 1]); };
+  const auto at_end = [&](Index m) {
+    return secant[m] + (secant[m] - secant[m - 1]) * step_[m] / (step_[m - 1] + step_[m]);
+  };
+  const auto at_start = [&](Index m) {
+    return secant[m] - (secant[m + 1] - secant[m]) * step_[m] / (step_[m] + step_[m + 1]);
+  };
 
   switch (differentiator) {
     case Differentiator::secant:
@@ -129,10 +148,14 @@ StepRates History::differentiate(const Samples& values, Differentiator different
       break;
     case Differentiator::three_point:
       for (Index m = 0; m < steps; ++m) {
-        if (!fresh(m)) rates.begin[m] = middle(m);
-        else if (!starts(m + 1)) rates.begin[m] = at_start(m);
-        if (!starts(m + 1)) rates.end[m] = middle(m + 1);
-        else if (!fresh(m)) rates.end[m] = at_end(m);
+        if (!fresh(m))
+          rates.begin[m] = middle(m);
+        else if (!starts(m + 1))
+          rates.begin[m] = at_start(m);
+        if (!starts(m + 1))
+          rates.end[m] = middle(m + 1);
+        else if (!fresh(m))
+          rates.end[m] = at_end(m);
       }
       break;
   }
@@ -143,7 +166,8 @@ StepRates History::rates(Differentiator differentiator) const {
   return move_rates(true_strain_, strain_rate_, differentiator);
 }
 
-StepRates History::move_rates(const Samples& true_strain, const Samples& strain_rate, Differentiator differentiator) const {
+StepRates History::move_rates(const Samples& true_strain, const Samples& strain_rate,
+                              Differentiator differentiator) const {
   return rate_given() ? take_given(true_strain, strain_rate) : differentiate(true_strain, differentiator);
 }
 
@@ -154,12 +178,15 @@ StepRates History::take_given(const Samples& true_strain, const Samples& strain_
   const auto secant = [&](const auto& strain, Index m) { return (strain[m + 1] - strain[m]) / step_[m]; };
   for (const Index jump : jumps_) {
     if (jump == 0 || jump >= steps) continue;
-    // One sample cannot hold both sides of a jump: it stays with the nearer secant, the other side takes its own.
+    // One sample cannot hold both sides of a jump: it stays with the nearer secant, the other side takes its
+    // own.
     const double given = strain_rate_[jump];
     const double to_before = std::abs(given - secant(true_strain_, jump - 1));
     const double to_after = std::abs(given - secant(true_strain_, jump));
-    if (to_before <= to_after) rates.begin[jump] = secant(true_strain, jump);
-    else rates.end[jump - 1] = secant(true_strain, jump - 1);
+    if (to_before <= to_after)
+      rates.begin[jump] = secant(true_strain, jump);
+    else
+      rates.end[jump - 1] = secant(true_strain, jump - 1);
   }
   return rates;
 }

@@ -22,25 +22,30 @@ void require_samples(const Eigen::ArrayXd& samples, Eigen::Index n_times, const 
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     if (std::isfinite(samples[i]) && (!positive || samples[i] > 0.0)) continue;
     std::ostringstream message;
-    message << name << "[" << i << "] is " << samples[i] << "; " << (positive ? "a positive number" : "a finite number")
-            << " is needed";
+    message << name << "[" << i << "] is " << samples[i] << "; "
+            << (positive ? "a positive number" : "a finite number") << " is needed";
     throw InputError(message.str());
   }
 }
 
-void require_entries(const Eigen::ArrayXd& values, Eigen::Index expected, const char* name, const char* counted) {
+void require_entries(const Eigen::ArrayXd& values, Eigen::Index expected, const char* name,
+                     const char* counted) {
   if (values.size() == 0 || values.size() == expected) return;
-  throw InputError(std::string("direction.") + name + " has " + std::to_string(values.size()) + " entries; there are " +
-                   std::to_string(expected) + " " + counted);
+  throw InputError(std::string("direction.") + name + " has " + std::to_string(values.size()) +
+                   " entries; there are " + std::to_string(expected) + " " + counted);
 }
 
 }  // namespace
 
 void Law::validate() const {
-  require(unrelaxed_modulus, unrelaxed_modulus >= 0.0, "unrelaxed_modulus", "a modulus in MPa, not negative, is needed");
-  require(hardening_modulus, hardening_modulus >= 0.0, "hardening_modulus", "a modulus in MPa, not negative, is needed");
-  if (companion) require(alpha, alpha > 0.0, "alpha", "a positive number is needed");
-  else require(tau_max, tau_max > 0.0, "tau_max", "a positive time in s is needed");
+  require(unrelaxed_modulus, unrelaxed_modulus >= 0.0, "unrelaxed_modulus",
+          "a modulus in MPa, not negative, is needed");
+  require(hardening_modulus, hardening_modulus >= 0.0, "hardening_modulus",
+          "a modulus in MPa, not negative, is needed");
+  if (companion)
+    require(alpha, alpha > 0.0, "alpha", "a positive number is needed");
+  else
+    require(tau_max, tau_max > 0.0, "tau_max", "a positive time in s is needed");
   spectrum.validate();
 }
 
@@ -51,26 +56,31 @@ void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {
   require_samples(added_relaxed_stress, n_times, "added_relaxed_stress", false);
   require_samples(load_bearing_area, n_times, "load_bearing_area", true);
   if (initial_modal_stress.size() != 0 && initial_modal_stress.size() != modes)
-    throw InputError("initial_modal_stress has " + std::to_string(initial_modal_stress.size()) + " entries; the spectrum has " +
-                     std::to_string(modes) + " modes");
-  if (!initial_modal_stress.allFinite()) throw InputError("initial_modal_stress has an entry that is not finite");
+    throw InputError("initial_modal_stress has " + std::to_string(initial_modal_stress.size()) +
+                     " entries; the spectrum has " + std::to_string(modes) + " modes");
+  if (!initial_modal_stress.allFinite())
+    throw InputError("initial_modal_stress has an entry that is not finite");
   if (extra_modes.modulus.size() != extra_modes.relaxation_time.size())
     throw InputError("extra_modes has " + std::to_string(extra_modes.modulus.size()) + " moduli and " +
-                     std::to_string(extra_modes.relaxation_time.size()) + " relaxation times; they must match");
-  require_samples(extra_modes.relaxation_time, extra_modes.relaxation_time.size(), "extra_modes.relaxation_time", true);
+                     std::to_string(extra_modes.relaxation_time.size()) +
+                     " relaxation times; they must match");
+  require_samples(extra_modes.relaxation_time, extra_modes.relaxation_time.size(),
+                  "extra_modes.relaxation_time", true);
   require_samples(extra_modes.modulus, extra_modes.modulus.size(), "extra_modes.modulus", false);
   for (const auto& feedback : feedbacks)
     if (!feedback) throw InputError("feedbacks holds an empty entry");
 }
 
-void Direction::validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes, bool rate_given) const {
+void Direction::validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes,
+                         bool rate_given) const {
   require_samples(unrelaxed_modulus, n_times, "direction.unrelaxed_modulus", false);
   require_samples(log_relaxation_time, n_times, "direction.log_relaxation_time", false);
   require_samples(relaxed_stress, n_times, "direction.relaxed_stress", false);
   require_samples(log_load_bearing_area, n_times, "direction.log_load_bearing_area", false);
   require_entries(true_strain, n_times, "true_strain", "instants");
   require_entries(strain_rate, n_times, "strain_rate", "instants");
-  if (strain_rate.size() > 0 && !rate_given) throw InputError("direction.strain_rate needs a history with its own rates");
+  if (strain_rate.size() > 0 && !rate_given)
+    throw InputError("direction.strain_rate needs a history with its own rates");
   require_entries(modal_weight, modes, "modal_weight", "modes");
   require_entries(log_relaxation_ratio, modes, "log_relaxation_ratio", "modes");
   require_entries(initial_modal_stress, modes, "initial_modal_stress", "modes");
@@ -82,8 +92,9 @@ void Direction::validate(const LawChange& change, Eigen::Index n_times, Eigen::I
     throw InputError("direction.feedback is " + std::to_string(feedback) + "; the change has " +
                      std::to_string(change.feedbacks.size()) + " feedbacks");
   if (feedback_parameter >= change.feedbacks[k]->parameters())
-    throw InputError("direction.feedback_parameter is " + std::to_string(feedback_parameter) + "; that feedback has " +
-                     std::to_string(change.feedbacks[k]->parameters()) + " parameters");
+    throw InputError("direction.feedback_parameter is " + std::to_string(feedback_parameter) +
+                     "; that feedback has " + std::to_string(change.feedbacks[k]->parameters()) +
+                     " parameters");
 }
 
 }  // namespace probation

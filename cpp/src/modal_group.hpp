@@ -25,7 +25,8 @@ struct ModalGroup {
   }
   Eigen::Index padded() const { return weight.size(); }
   bool empty() const { return weight.size() == 0; }
-  /// From z_j = p_j y_j at the start to the unit-weight states y_j of the tangents; a mode of weight 0 has `weightless`.
+  /// From z_j = p_j y_j at the start to the unit-weight states y_j of the tangents; a mode of weight 0 has
+  /// `weightless`.
   void to_unit_weight(double weightless) {
     for (Eigen::Index j = 0; j < padded(); ++j) {
       if (weight[j] == 0.0 && state[j] != 0.0) throw_weightless(j);
@@ -36,9 +37,11 @@ struct ModalGroup {
   void start_slope(const LawChange& change, const Direction& direction, double relaxed, double d_relaxed,
                    Eigen::ArrayXd& slope) const {
     slope.setZero(padded());
-    const bool given = change.initial_modal_stress.size() > 0, moved = direction.initial_modal_stress.size() > 0;
+    const bool given = change.initial_modal_stress.size() > 0,
+               moved = direction.initial_modal_stress.size() > 0;
     if (!given && !moved) return;
-    const Eigen::Index modes = given ? change.initial_modal_stress.size() : direction.initial_modal_stress.size();
+    const Eigen::Index modes =
+        given ? change.initial_modal_stress.size() : direction.initial_modal_stress.size();
     for (Eigen::Index j = 0; j < modes; ++j) {
       const double start = moved ? direction.initial_modal_stress[j] : 0.0;
       if (weight[j] == 0.0 && start != 0.0) throw_weightless(j);
@@ -62,7 +65,8 @@ struct ModalGroup {
 
  private:
   [[noreturn]] static void throw_weightless(Eigen::Index j) {
-    throw InputError("initial_modal_stress[" + std::to_string(j) + "] is not relaxed in a mode of weight 0; no tangent there");
+    throw InputError("initial_modal_stress[" + std::to_string(j) +
+                     "] is not relaxed in a mode of weight 0; no tangent there");
   }
 };
 

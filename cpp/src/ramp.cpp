@@ -19,13 +19,15 @@ Eigen::ArrayXd ramp_stress(const Law& law, double strain_rate, const Samples& ti
   if (!std::isfinite(strain_rate)) throw InputError("strain_rate is not finite");
   double tau_max = law.tau_max;
   if (law.companion)
-    tau_max = law.alpha * law.companion->relaxation_time(std::max(std::abs(strain_rate), law.companion->rate_floor()));
+    tau_max = law.alpha *
+              law.companion->relaxation_time(std::max(std::abs(strain_rate), law.companion->rate_floor()));
 
   Eigen::ArrayXd stress = Eigen::ArrayXd::Zero(time.size());
   for (Eigen::Index i = 0; i < time.size(); ++i) {
     const double t = time[i];
     if (!(t >= 0.0) || !std::isfinite(t))
-      throw InputError("time[" + std::to_string(i) + "] is " + std::to_string(t) + "; a ramp starts at time 0");
+      throw InputError("time[" + std::to_string(i) + "] is " + std::to_string(t) +
+                       "; a ramp starts at time 0");
     for (Eigen::Index j = 0; j < law.spectrum.modes(); ++j) {
       const double tau = law.spectrum.relaxation_ratio[j] * tau_max;
       const double elastic = law.unrelaxed_modulus * strain_rate * tau * -std::expm1(-t / tau);

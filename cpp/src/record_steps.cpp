@@ -47,7 +47,8 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
   for (Index m = 0; m < steps;) {
     const auto i = static_cast<std::size_t>(m);
     const double h = history.step()[m], ratio = history.ratio(m);
-    const bool fresh = history.fresh(m), bdf2 = scheme == Scheme::be2 && !fresh && ratio < bdf2_largest_step_ratio;
+    const bool fresh = history.fresh(m),
+               bdf2 = scheme == Scheme::be2 && !fresh && ratio < bdf2_largest_step_ratio;
     const bool euler = scheme == Scheme::be2 && !bdf2 && start == Start::backward_euler;
     out.rule[i] = bdf2 ? StepRule::bdf2 : euler ? StepRule::backward_euler : StepRule::exponential;
     out.ratio[i] = ratio;
@@ -70,7 +71,9 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
     const Index end = m + history.uniform_run(m);
     ++m;
     if (m >= end || std::abs(history.ratio(m) - 1.0) > 1e-9) continue;
-    const auto fill = [&](auto& samples, auto value) { std::fill(samples.begin() + m, samples.begin() + end, value); };
+    const auto fill = [&](auto& samples, auto value) {
+      std::fill(samples.begin() + m, samples.begin() + end, value);
+    };
     fill(out.rule, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
     fill(out.ratio, 1.0);
     fill(out.scale, h * fluidity);
@@ -88,16 +91,19 @@ void form_constant_steps(Scheme scheme, Start start, const History& history, con
   }
 }
 
-void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme, RecordInputs<double>& out) {
+void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
+                 RecordInputs<double>& out) {
   const Index n = history.size(), steps = history.steps();
-  const Sampled time_factor(change.relaxation_time_factor, 1.0), modulus_factor(change.unrelaxed_modulus_factor, 1.0);
+  const Sampled time_factor(change.relaxation_time_factor, 1.0),
+      modulus_factor(change.unrelaxed_modulus_factor, 1.0);
   const Sampled hardening_factor(change.hardening_factor, 1.0), added(change.added_relaxed_stress, 0.0);
 
   out.true_strain.assign(history.true_strain().data(), history.true_strain().data() + n);
   out.relaxed_stress.resize(static_cast<std::size_t>(n));
   const double* haward_thackray = history.haward_thackray_strain().data();
   for (Index i = 0; i < n; ++i)
-    out.relaxed_stress[static_cast<std::size_t>(i)] = law.hardening_modulus * hardening_factor[i] * haward_thackray[i] + added[i];  // eq. (3)
+    out.relaxed_stress[static_cast<std::size_t>(i)] =
+        law.hardening_modulus * hardening_factor[i] * haward_thackray[i] + added[i];  // eq. (3)
 
   out.unrelaxed_modulus.resize(length(modulus_factor.constant(), n));
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
@@ -141,14 +147,16 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
     const double strain = history.true_strain()[i], d_strain = strained ? direction.true_strain[i] : 0.0;
     out.true_strain[k] = {strain, d_strain};
     double d_hardening = 0.0;
-    if (strained) d_hardening = law.hardening_modulus * hardening_factor[i] * haward_thackray_slope(strain) * d_strain;
+    if (strained)
+      d_hardening = law.hardening_modulus * hardening_factor[i] * haward_thackray_slope(strain) * d_strain;
     out.relaxed_stress[k] = {base.relaxed_stress[k], d_relaxed[i] + d_hardening};
   }
 
   const bool constant_modulus = base.unrelaxed_modulus.size() == 1 && d_modulus.constant();
   out.unrelaxed_modulus.resize(length(constant_modulus, n));
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
-    out.unrelaxed_modulus[i] = {at(base.unrelaxed_modulus, static_cast<Index>(i)), d_modulus[static_cast<Index>(i)]};
+    out.unrelaxed_modulus[i] = {at(base.unrelaxed_modulus, static_cast<Index>(i)),
+                                d_modulus[static_cast<Index>(i)]};
 
   // Rates move with the strain; given ones only on that side of a jump where the secant stands in for them.
   StepRates rates, d_rates;
@@ -156,13 +164,14 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
   if (law.companion || history.rate_given()) rates = history.rates(differentiator_of(scheme));
   if (rates_move) {
     const Eigen::ArrayXd still = Eigen::ArrayXd::Zero(n);
-    d_rates = history.move_rates(strained ? direction.true_strain : still, rated ? direction.strain_rate : still,
-                                 differentiator_of(scheme));
+    d_rates = history.move_rates(strained ? direction.true_strain : still,
+                                 rated ? direction.strain_rate : still, differentiator_of(scheme));
   }
   out.end_rate.clear();
   if (history.rate_given()) {
     out.end_rate.resize(static_cast<std::size_t>(steps));
-    for (Index m = 0; m < steps; ++m) out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rates_move ? d_rates.end[m] : 0.0};
+    for (Index m = 0; m < steps; ++m)
+      out.end_rate[static_cast<std::size_t>(m)] = {rates.end[m], rates_move ? d_rates.end[m] : 0.0};
   }
 
   const bool constant_fluidity = base.fluidity_end.size() == 1 && d_time.constant();

@@ -1,5 +1,6 @@
 #pragma once
-// From the law and a history to the steps that a kernel takes: everything that is O(n_times), with or without a slope.
+// From the law and a history to the steps that a kernel takes: everything that is O(n_times), with or without
+// a slope.
 
 #include <type_traits>
 #include <vector>
@@ -45,15 +46,16 @@ Real at(const std::vector<Real>& samples, Eigen::Index i) {
 
 /// What step m looks like to a scheme. `previous_*` are those of step m - 1.
 template <class Real>
-StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, Eigen::Index m, Real previous_scale,
-                         Real previous_forcing) {
+StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, Eigen::Index m,
+                         Real previous_scale, Real previous_forcing) {
   StepData<Real> s{};
   s.fresh = history.fresh(m);
   s.h = history.step()[m];
   s.ratio = history.ratio(m);
   const Eigen::Index earlier = m > 0 ? m - 1 : 0;
   s.true_strain = {at(in.true_strain, m + 1), at(in.true_strain, m), at(in.true_strain, earlier)};
-  s.unrelaxed_modulus = {at(in.unrelaxed_modulus, m + 1), at(in.unrelaxed_modulus, m), at(in.unrelaxed_modulus, earlier)};
+  s.unrelaxed_modulus = {at(in.unrelaxed_modulus, m + 1), at(in.unrelaxed_modulus, m),
+                         at(in.unrelaxed_modulus, earlier)};
   s.relaxed_stress = {at(in.relaxed_stress, m + 1), at(in.relaxed_stress, m), at(in.relaxed_stress, earlier)};
   s.fluidity = {at(in.fluidity_end, m), at(in.fluidity_begin, m), at(in.fluidity_begin, earlier)};
   s.constant_modulus = in.unrelaxed_modulus.size() == 1;
@@ -76,21 +78,26 @@ StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, E
 template <class Real>
 StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>& s) {
   switch (scheme) {
-    case Scheme::sa2: return sa2_step(s);
-    case Scheme::sa3: return sa3_step(s);
-    default: return be2_step(s, start);
+    case Scheme::sa2:
+      return sa2_step(s);
+    case Scheme::sa3:
+      return sa3_step(s);
+    default:
+      return be2_step(s, start);
   }
 }
 
-/// form_steps where E_u and tau_max are constant: the forcing's integral F = E_u e - sigma^r is formed once, and its
-/// differences are all that a step needs. The same numbers as step_forcing to rounding.
+/// form_steps where E_u and tau_max are constant: the forcing's integral F = E_u e - sigma^r is formed once,
+/// and its differences are all that a step needs. The same numbers as step_forcing to rounding.
 void form_constant_steps(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
                          RecordSteps<double>& out);
 
 template <class Real>
-void form_steps(Scheme scheme, Start start, const History& history, const RecordInputs<Real>& in, RecordSteps<Real>& out) {
+void form_steps(Scheme scheme, Start start, const History& history, const RecordInputs<Real>& in,
+                RecordSteps<Real>& out) {
   if constexpr (std::is_same_v<Real, double>) {
-    const bool constant = in.unrelaxed_modulus.size() == 1 && in.fluidity_end.size() == 1 && in.end_rate.empty();
+    const bool constant =
+        in.unrelaxed_modulus.size() == 1 && in.fluidity_end.size() == 1 && in.end_rate.empty();
     if (constant) return form_constant_steps(scheme, start, history, in, out);
   }
   const Eigen::Index steps = history.steps();
@@ -108,7 +115,8 @@ void form_steps(Scheme scheme, Start start, const History& history, const Record
 }
 
 /// The inputs that the law, changed by an effect, gives along a history.
-void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme, RecordInputs<double>& out);
+void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
+                 RecordInputs<double>& out);
 
 /// The same with their slopes along a direction.
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,

@@ -22,7 +22,8 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   const Index steps = history.steps();
   const auto rule_of = [&](Index m) { return rule[static_cast<std::size_t>(m)]; };
   const auto uniform_from = [&](Index m) {
-    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9)) return Index{0};
+    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
+      return Index{0};
     const Index end = m + history.uniform_run(m);
     Index last = m + 1;
     while (last < end && rule_of(last) == rule_of(m)) ++last;
@@ -45,7 +46,12 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
 kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index count, bool uniform) {
   const auto i = static_cast<std::size_t>(first);
   const bool curved = steps.rule[i] == StepRule::exponential;
-  return {steps.rule[i], static_cast<int>(count), uniform, &steps.scale[i], &steps.ratio[i], &steps.forcing[i],
+  return {steps.rule[i],
+          static_cast<int>(count),
+          uniform,
+          &steps.scale[i],
+          &steps.ratio[i],
+          &steps.forcing[i],
           curved ? &steps.curvature[i] : nullptr};
 }
 
@@ -60,7 +66,8 @@ struct Solver::Workspace {
   CvodeStatistics cvode;
   std::mutex busy;
 
-  void prepare(const Law& law, const LawChange& change, const History& history, const SolverOptions& options) {
+  void prepare(const Law& law, const LawChange& change, const History& history,
+               const SolverOptions& options) {
     law.validate();
     change.validate(history.size(), law.spectrum.modes());
     form_inputs(law, change, history, options.scheme, inputs);
@@ -83,7 +90,8 @@ const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_-
 
 void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
   if (stress.size() != history_.size())
-    throw InputError("out has " + std::to_string(stress.size()) + " entries; " + std::to_string(history_.size()) + " are needed");
+    throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
+                     std::to_string(history_.size()) + " are needed");
   const std::lock_guard<std::mutex> alone(work_->busy);
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
@@ -103,9 +111,10 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   stress[0] = w.main.state.sum();
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
-    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
-      kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
-    });
+    for_each_run(
+        history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
+          kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
+        });
   };
   sweep(w.main, w.inputs, w.steps);
   if (!w.extra.empty()) {
@@ -152,16 +161,26 @@ struct TangentState {
   }
   kernels::TangentDirection view(Index first) {
     const auto i = static_cast<std::size_t>(first);
-    const auto from = [i](const std::vector<double>& samples) { return samples.empty() ? nullptr : &samples[i]; };
-    return {from(forcing), from(curvature), from(log_scale), log_inverse.size() ? log_inverse.data() : nullptr,
-            weight.size() ? weight.data() : nullptr, state.data(), before.data(), stress.data() + first + 1};
+    const auto from = [i](const std::vector<double>& samples) {
+      return samples.empty() ? nullptr : &samples[i];
+    };
+    return {from(forcing),
+            from(curvature),
+            from(log_scale),
+            log_inverse.size() ? log_inverse.data() : nullptr,
+            weight.size() ? weight.data() : nullptr,
+            state.data(),
+            before.data(),
+            stress.data() + first + 1};
   }
 };
 
 /// `samples` (n, 1 or none) as inputs of a record; none is zero.
 void assign(const Eigen::ArrayXd& samples, std::vector<double>& to) {
-  if (samples.size() == 0) to.assign(1, 0.0);
-  else to.assign(samples.data(), samples.data() + samples.size());
+  if (samples.size() == 0)
+    to.assign(1, 0.0);
+  else
+    to.assign(samples.data(), samples.data() + samples.size());
 }
 
 }  // namespace
@@ -176,7 +195,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   Workspace& w = *work_;
   const std::lock_guard<std::mutex> alone(w.busy);
   w.prepare(law, change, history_, options_);
-  for (const Direction& direction : directions) direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
+  for (const Direction& direction : directions)
+    direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
   if (!change.feedbacks.empty()) {
     CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
     coupled.solve(w.inputs, directions, stress, &derivatives);
@@ -200,8 +220,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));
-      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1, views.data(),
-                     static_cast<int>(views.size()), scratch.data());
+      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1,
+                     views.data(), static_cast<int>(views.size()), scratch.data());
     });
     for (TangentState& t : tangents) {
       if (!t.linear()) continue;
@@ -230,14 +250,15 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
       for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = at(w.slope_inputs.relaxed_stress, i);
       form_steps(options_.scheme, options_.start, history_, w.slope_inputs, w.slope_steps);
       t.take_linear(w.slope_steps);
-    } else if (!strained && direction.log_relaxation_time.size() == 1 && direction.unrelaxed_modulus.size() == 0 &&
-               direction.relaxed_stress.size() == 0) {
+    } else if (!strained && direction.log_relaxation_time.size() == 1 &&
+               direction.unrelaxed_modulus.size() == 0 && direction.relaxed_stress.size() == 0) {
       t.take_time_shift(static_cast<std::size_t>(history_.steps()), direction.log_relaxation_time[0]);
     } else {
       form_inputs(law, change, history_, options_.scheme, w.inputs, direction, w.dual_inputs);
       form_steps(options_.scheme, options_.start, history_, w.dual_inputs, w.dual_steps);
       t.take(w.dual_steps);
-      for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+      for (Index i = 0; i < n; ++i)
+        relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
     }
     t.before.setZero(w.main.padded());
     t.stress.setZero(n);
@@ -274,7 +295,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     for (Index i = 0; i < n; ++i) {
       const double relaxed = w.inputs.relaxed_stress[static_cast<std::size_t>(i)];
       derivatives(i, static_cast<Index>(k)) =
-          area[i] * (tangents[k].stress[i] + total_weight * relaxed_slope[k][i] + d_weight * relaxed) + stress[i] * log_area[i];
+          area[i] * (tangents[k].stress[i] + total_weight * relaxed_slope[k][i] + d_weight * relaxed) +
+          stress[i] * log_area[i];
     }
   }
 }
@@ -285,7 +307,8 @@ std::vector<Direction> parameter_directions(const Law& law, const LawChange& cha
   std::vector<Direction> directions(3);
   directions[0].unrelaxed_modulus =
       change.unrelaxed_modulus_factor.size() > 0 ? change.unrelaxed_modulus_factor : Eigen::ArrayXd::Ones(1);
-  directions[1].log_relaxation_time = Eigen::ArrayXd::Constant(1, 1.0 / (law.companion ? law.alpha : law.tau_max));
+  directions[1].log_relaxation_time =
+      Eigen::ArrayXd::Constant(1, 1.0 / (law.companion ? law.alpha : law.tau_max));
   const Sampled factor(change.hardening_factor, 1.0);
   directions[2].relaxed_stress = history.haward_thackray_strain();
   for (Index i = 0; i < history.size(); ++i) directions[2].relaxed_stress[i] *= factor[i];

@@ -25,8 +25,8 @@ Spectrum Spectrum::log_spaced(int modes, double decades) {
 void Spectrum::validate() const {
   if (modes() == 0) throw InputError("the spectrum has no modes");
   if (modal_weight.size() != modes())
-    throw InputError("modal_weight has " + std::to_string(modal_weight.size()) + " entries, relaxation_ratio " +
-                     std::to_string(modes()) + "; they must match");
+    throw InputError("modal_weight has " + std::to_string(modal_weight.size()) +
+                     " entries, relaxation_ratio " + std::to_string(modes()) + "; they must match");
   if (!relaxation_ratio.allFinite() || !(relaxation_ratio > 0.0).all())
     throw InputError("relaxation_ratio has an entry that is not a positive number");
   if (!modal_weight.allFinite() || !(modal_weight >= 0.0).all())

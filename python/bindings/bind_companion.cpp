@@ -27,7 +27,8 @@ void bind_companion(py::module_& m) {
       .def_property_readonly("coefficient", &PowerLaw::coefficient)
       .def_property_readonly("exponent", &PowerLaw::exponent);
   py::class_<Table, CompanionRelation, std::shared_ptr<Table>>(m, "Table")
-      .def(py::init<std::vector<double>, std::vector<double>, double>(), "rates"_a, "tau_max"_a, "rate_floor"_a = floor)
+      .def(py::init<std::vector<double>, std::vector<double>, double>(), "rates"_a, "tau_max"_a,
+           "rate_floor"_a = floor)
       .def_property_readonly("rates", &Table::rates)
       .def_property_readonly("tau_max", &Table::tau_max);
 }

@@ -11,8 +11,8 @@ void bind_history(py::module_& m) {
       .value("three_point", Differentiator::three_point)
       .finalize();
   py::class_<History>(m, "History")
-      .def(py::init<const probation::Samples&, const probation::Samples&, const probation::Samples&, History::Indices,
-                    const Eigen::ArrayXi&>(),
+      .def(py::init<const probation::Samples&, const probation::Samples&, const probation::Samples&,
+                    History::Indices, const Eigen::ArrayXi&>(),
            "time"_a, "true_strain"_a, "strain_rate"_a = Eigen::ArrayXd(), "jumps"_a = History::Indices(),
            "direction"_a = Eigen::ArrayXi())
       .def_static("find_rate_jumps", &History::find_rate_jumps, "time"_a, "true_strain"_a)

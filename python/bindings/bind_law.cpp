@@ -37,7 +37,8 @@ void bind_law(py::module_& m) {
           [](const LawChange& change) {
             std::vector<std::shared_ptr<Feedback>> feedbacks;
             feedbacks.reserve(change.feedbacks.size());
-            for (const auto& feedback : change.feedbacks) feedbacks.push_back(std::const_pointer_cast<Feedback>(feedback));
+            for (const auto& feedback : change.feedbacks)
+              feedbacks.push_back(std::const_pointer_cast<Feedback>(feedback));
             return feedbacks;
           },
           [](LawChange& change, const std::vector<std::shared_ptr<Feedback>>& feedbacks) {

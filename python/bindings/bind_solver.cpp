@@ -32,15 +32,14 @@ void bind_solver(py::module_& m) {
            }),
            "history"_a, "scheme"_a = Scheme::be2, "start"_a = Start::exponential,
            "relative_tolerance"_a = CvodeOptions().relative_tolerance,
-           "absolute_tolerance"_a = CvodeOptions().absolute_tolerance, "max_steps"_a = CvodeOptions().max_steps)
+           "absolute_tolerance"_a = CvodeOptions().absolute_tolerance,
+           "max_steps"_a = CvodeOptions().max_steps)
       .def_property_readonly("history", &Solver::history)
-      .def(
-          "stress",
-          &Solver::stress, "law"_a, "change"_a, "out"_a, py::call_guard<py::gil_scoped_release>())
-      .def(
-          "tangent",
-          &Solver::tangent, "law"_a, "change"_a, "directions"_a, "stress"_a, "derivatives"_a, py::call_guard<py::gil_scoped_release>())
-      .def("strain_sensitivity", &strain_sensitivity, "law"_a, "change"_a, py::call_guard<py::gil_scoped_release>())
+      .def("stress", &Solver::stress, "law"_a, "change"_a, "out"_a, py::call_guard<py::gil_scoped_release>())
+      .def("tangent", &Solver::tangent, "law"_a, "change"_a, "directions"_a, "stress"_a, "derivatives"_a,
+           py::call_guard<py::gil_scoped_release>())
+      .def("strain_sensitivity", &strain_sensitivity, "law"_a, "change"_a,
+           py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("cvode_statistics", &Solver::cvode_statistics);
   m.def("kernel_build", &kernel_build);
   m.def("parameter_directions", &parameter_directions, "law"_a, "change"_a, "history"_a);

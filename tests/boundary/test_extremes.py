@@ -14,9 +14,7 @@ STRAIN = 0.005 * TIME
 
 
 def law(**changed):
-    return probation.Law(
-        **({"unrelaxed_modulus": 3220.0, "tau_max": 5.2, "hardening_modulus": 2.5} | changed)
-    )
+    return probation.Law(**({"unrelaxed_modulus": 3220.0, "tau_max": 5.2, "hardening_modulus": 2.5} | changed))
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -54,9 +52,7 @@ def test_a_tiny_time_is_relaxed(scheme, tau):
 def test_sensitivities_stay_finite_with_them(scheme, tau):
     _, found = law(tau_max=tau).sensitivity(TIME, STRAIN, scheme)
     assert np.isfinite(found).all()
-    assert_allclose(
-        found[:, 0] * 3220.0 + found[:, 2] * 2.5, law(tau_max=tau).stress(TIME, STRAIN, scheme), atol=1e-9
-    )
+    assert_allclose(found[:, 0] * 3220.0 + found[:, 2] * 2.5, law(tau_max=tau).stress(TIME, STRAIN, scheme), atol=1e-9)
 
 
 def test_a_hundred_thousand_samples():
@@ -81,9 +77,7 @@ def test_steps_that_grow_tenfold_are_survived(scheme):
 def test_compression_is_taken_like_tension(scheme):
     """The elastic part is odd in the strain; e_HT of compression is e^-2e - e^e."""
     base = law(hardening_modulus=0.0)
-    assert_allclose(
-        base.stress(TIME, -STRAIN, scheme), -base.stress(TIME, STRAIN, scheme), rtol=0.0, atol=1e-8
-    )
+    assert_allclose(base.stress(TIME, -STRAIN, scheme), -base.stress(TIME, STRAIN, scheme), rtol=0.0, atol=1e-8)
     found = law().stress(TIME, -10.0 * STRAIN, scheme)
     atol = {"be2": 0.5, "sa2": 0.02, "sa3": 1e-3, "exact": 1e-10, "cvode": 1e-5}[scheme]
     assert_allclose(found, probation.ramp_stress(law(), -0.05, TIME), rtol=0.0, atol=atol)

@@ -41,9 +41,7 @@ def test_eq_12_errs_by_what_physics_states():
 def test_a_table_passes_through_its_points_and_is_straight_between():
     """Log-log: halfway in ln r is the geometric mean; beyond the end the last segment goes on."""
     table = Table([1e-3, 1e-1], [100.0, 1.0])  # slope -1
-    assert table.relaxation_time([1e-3, 1e-2, 1e-1, 1.0, 1e-4]) == pytest.approx(
-        [100.0, 10.0, 1.0, 0.1, 1000.0]
-    )
+    assert table.relaxation_time([1e-3, 1e-2, 1e-1, 1.0, 1e-4]) == pytest.approx([100.0, 10.0, 1.0, 0.1, 1000.0])
     assert FORMS["table"].relaxation_time(list(paper.TABLE_2)) == pytest.approx(list(paper.TABLE_2.values()))
 
 
@@ -65,9 +63,7 @@ def test_the_modulus_of_the_rate_counts_and_the_floor_below_it(companion):
 def test_a_function_is_as_good_as_the_form_it_states():
     function = RateFunction(lambda rate: (0.00464 * np.log10(rate) + 0.0367) / rate, between=(1e-6, 1.0))
     rates = np.geomspace(2e-6, 0.9, 57)
-    assert function.relaxation_time(rates) == pytest.approx(
-        FORMS["weissenberg"].relaxation_time(rates), rel=1e-6
-    )
+    assert function.relaxation_time(rates) == pytest.approx(FORMS["weissenberg"].relaxation_time(rates), rel=1e-6)
     assert RateFunction(lambda rate: 5.0).relaxation_time([1e-3]) == pytest.approx([5.0])
 
 

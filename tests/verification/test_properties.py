@@ -19,9 +19,7 @@ times = st.floats(0.05, 500.0)
 
 
 def law(E_u, G, tau, **changed):
-    return probation.Law(
-        **({"unrelaxed_modulus": E_u, "hardening_modulus": G, "tau_max": tau, "modes": 20} | changed)
-    )
+    return probation.Law(**({"unrelaxed_modulus": E_u, "hardening_modulus": G, "tau_max": tau, "modes": 20} | changed))
 
 
 def random_history(seed, n=60, duration=30.0, initial=0.0):

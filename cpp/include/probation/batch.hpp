@@ -30,7 +30,8 @@ Law with_parameters(Law law, const Eigen::Ref<const Eigen::Array3d>& parameters)
 /// @param threads     how many to use; 0: all cores
 /// @param out         shape (sets, n_times)
 void batch_stress(const Law& law, const Eigen::Ref<const RowMajorMatrix>& parameters, const History& history,
-                  const LawChange& change, const SolverOptions& options, int threads, Eigen::Ref<RowMajorMatrix> out);
+                  const LawChange& change, const SolverOptions& options, int threads,
+                  Eigen::Ref<RowMajorMatrix> out);
 
 /// Sum of squared fit residuals [MPa^2] of many parameter sets over many records; the stresses are not kept.
 /// @param out  shape (sets, records)
@@ -39,6 +40,7 @@ void batch_sum_of_squares(const Law& law, const Eigen::Ref<const RowMajorMatrix>
                           Eigen::Ref<RowMajorMatrix> out);
 
 /// Normal equations of one record along its parameter directions (E_u, tau_max or alpha, G).
-NormalEquations normal_equations(Solver& solver, const Law& law, const LawChange& change, const Samples& true_stress);
+NormalEquations normal_equations(Solver& solver, const Law& law, const LawChange& change,
+                                 const Samples& true_stress);
 
 }  // namespace probation

@@ -32,7 +32,8 @@ class CompanionRelation {
 
  protected:
   explicit CompanionRelation(double rate_floor) : rate_floor_(rate_floor) {
-    if (!(rate_floor > 0.0) || !std::isfinite(rate_floor)) throw InputError("rate_floor must be a positive number");
+    if (!(rate_floor > 0.0) || !std::isfinite(rate_floor))
+      throw InputError("rate_floor must be a positive number");
   }
 
  private:

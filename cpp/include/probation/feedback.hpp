@@ -1,5 +1,6 @@
 #pragma once
-// Feedbacks: the relaxation times or the hardening depend on what the specimen has become. Forms live in feedback/.
+// Feedbacks: the relaxation times or the hardening depend on what the specimen has become. Forms live in
+// feedback/.
 
 #include <array>
 #include <cstddef>
@@ -37,8 +38,8 @@ class Feedback {
 
 /// A feedback from one formula. `Form` states, for Real = double or Dual,
 ///   static constexpr std::size_t parameters;
-///   template <class Real> static FeedbackShift<Real> shift(const std::array<Real, parameters>&, Real stress, Real memory);
-///   template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
+///   template <class Real> static FeedbackShift<Real> shift(const std::array<Real, parameters>&, Real stress,
+///   Real memory); template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
 template <class Form>
 class FormulaFeedback : public Feedback {
  public:

@@ -23,8 +23,8 @@ struct StepRates {
 
 /// A strain history: instants, true strain, optionally the true strain rate.
 ///
-/// Step m leads from instant m to instant m + 1. Without rates the samples stand for the piecewise-linear history
-/// between them; with rates, for the cubic (Hermite) through both.
+/// Step m leads from instant m to instant m + 1. Without rates the samples stand for the piecewise-linear
+/// history between them; with rates, for the cubic (Hermite) through both.
 class History {
  public:
   using Indices = std::vector<Eigen::Index>;
@@ -33,14 +33,16 @@ class History {
   /// @param true_strain  [-], finite; shape (n_times)
   /// @param strain_rate  [1/s], finite; shape (n_times), or empty
   /// @param jumps        instants (indices) at which the rate jumps: schemes start afresh there
-  /// @param direction    commanded direction of each step, +1, -1 or 0 (unknown); shape (n_times - 1), or empty. A rate
+  /// @param direction    commanded direction of each step, +1, -1 or 0 (unknown); shape (n_times - 1), or
+  /// empty. A rate
   ///                     against it is noise: the companion relation sees the rate floor, never its modulus
   /// @throws InputError  naming the argument and the sample
   History(const Samples& time, const Samples& true_strain, const Samples& strain_rate = Eigen::ArrayXd(),
           Indices jumps = {}, const Eigen::ArrayXi& direction = Eigen::ArrayXi());
 
-  /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, thirty times more than
-  /// it does around, and three times more than 95 % of the changes of the whole record (of 60 samples or more).
+  /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, thirty
+  /// times more than it does around, and three times more than 95 % of the changes of the whole record (of 60
+  /// samples or more).
   static Indices find_rate_jumps(const Samples& time, const Samples& true_strain);
 
   Eigen::Index size() const noexcept { return time_.size(); }
@@ -54,7 +56,9 @@ class History {
   const Indices& jumps() const noexcept { return jumps_; }
 
   bool rate_given() const noexcept { return strain_rate_.size() > 0; }
-  bool fresh(Eigen::Index m) const { return fresh_[static_cast<std::size_t>(m)] != 0; }  ///< first step after the start or a jump
+  bool fresh(Eigen::Index m) const {
+    return fresh_[static_cast<std::size_t>(m)] != 0;
+  }  ///< first step after the start or a jump
   double ratio(Eigen::Index m) const { return m == 0 ? 1.0 : step_[m] / step_[m - 1]; }  ///< h / h0
   /// How many steps from m on have the length of step m and are not fresh (m itself may be).
   Eigen::Index uniform_run(Eigen::Index m) const { return uniform_until_[static_cast<std::size_t>(m)] - m; }
@@ -63,10 +67,13 @@ class History {
   StepRates rates(Differentiator differentiator) const;
   /// The same linear operator on any samples (a change of strain, say), as if no rate had been given.
   StepRates differentiate(const Samples& values, Differentiator differentiator) const;
-  /// How rates() moves when strain samples and given rates do; `strain_rate` has n_times entries only where rates are given.
-  StepRates move_rates(const Samples& true_strain, const Samples& strain_rate, Differentiator differentiator) const;
+  /// How rates() moves when strain samples and given rates do; `strain_rate` has n_times entries only where
+  /// rates are given.
+  StepRates move_rates(const Samples& true_strain, const Samples& strain_rate,
+                       Differentiator differentiator) const;
 
-  /// What the companion relation sees in step m: the modulus of the rate, or the floor where noise turned it round.
+  /// What the companion relation sees in step m: the modulus of the rate, or the floor where noise turned it
+  /// round.
   double companion_rate(Eigen::Index m, double rate, double floor) const;
   /// Its derivative with respect to the rate: +1, -1, or 0 on the floor.
   double companion_rate_slope(Eigen::Index m, double rate, double floor) const;

@@ -11,12 +11,13 @@
 
 namespace probation {
 
-/// The modal (DNLR) law:  sigma_j' = p_j E_u e' - (sigma_j - p_j G e_HT) / tau_j,  sigma = sum_j sigma_j.   eq. (6)
+/// The modal (DNLR) law:  sigma_j' = p_j E_u e' - (sigma_j - p_j G e_HT) / tau_j,  sigma = sum_j sigma_j. eq.
+/// (6)
 struct Law {
-  double unrelaxed_modulus = 0.0;   ///< E_u [MPa]
-  double hardening_modulus = 0.0;   ///< G [MPa]
-  double tau_max = 0.0;             ///< [s], where there is no companion relation
-  double alpha = 1.0;               ///< [-], where there is: tau_max = alpha companion(rate)
+  double unrelaxed_modulus = 0.0;  ///< E_u [MPa]
+  double hardening_modulus = 0.0;  ///< G [MPa]
+  double tau_max = 0.0;            ///< [s], where there is no companion relation
+  double alpha = 1.0;              ///< [-], where there is: tau_max = alpha companion(rate)
   std::shared_ptr<const CompanionRelation> companion;
   Spectrum spectrum = Spectrum::log_spaced();
 
@@ -30,15 +31,15 @@ struct ExtraModes {
   Eigen::ArrayXd relaxation_time;  ///< [s]; shape (extra modes)
 };
 
-/// What an effect changes in the law along one record. Empty arrays change nothing; sampled ones have shape (n_times)
-/// or one entry that holds throughout.
+/// What an effect changes in the law along one record. Empty arrays change nothing; sampled ones have shape
+/// (n_times) or one entry that holds throughout.
 struct LawChange {
   Eigen::ArrayXd relaxation_time_factor;    ///< of tau_max [-]
   Eigen::ArrayXd unrelaxed_modulus_factor;  ///< of E_u [-]
   Eigen::ArrayXd hardening_factor;          ///< of G e_HT [-]
   Eigen::ArrayXd added_relaxed_stress;      ///< on top of it [MPa]
   Eigen::ArrayXd load_bearing_area;         ///< fraction of the section that carries the stress [-]
-  Eigen::ArrayXd initial_modal_stress;      ///< sigma_j(0) [MPa]; shape (modes); empty: relaxed, p_j sigma^r(0)
+  Eigen::ArrayXd initial_modal_stress;  ///< sigma_j(0) [MPa]; shape (modes); empty: relaxed, p_j sigma^r(0)
   ExtraModes extra_modes;
   std::vector<std::shared_ptr<const Feedback>> feedbacks;
 
@@ -46,24 +47,25 @@ struct LawChange {
   void validate(Eigen::Index n_times, Eigen::Index modes) const;
 };
 
-/// A direction in which the inputs of the law move: what a sensitivity is taken along. Empty arrays do not move;
-/// sampled ones have shape (n_times) or one entry.
+/// A direction in which the inputs of the law move: what a sensitivity is taken along. Empty arrays do not
+/// move; sampled ones have shape (n_times) or one entry.
 struct Direction {
   Eigen::ArrayXd unrelaxed_modulus;      ///< d E_u(t) [MPa]
   Eigen::ArrayXd log_relaxation_time;    ///< d ln tau_max(t) [-]
   Eigen::ArrayXd relaxed_stress;         ///< d sigma^r(t) [MPa]
   Eigen::ArrayXd log_load_bearing_area;  ///< d ln A(t) [-]
-  Eigen::ArrayXd true_strain;            ///< d e(t) [-]; moves the rates (unless given), tau_max and sigma^r with it
-  Eigen::ArrayXd strain_rate;            ///< d e'(t) [1/s], where the history has its own rates
-  Eigen::ArrayXd modal_weight;           ///< d p_j [-]; shape (modes)
-  Eigen::ArrayXd log_relaxation_ratio;   ///< d ln(tau_j / tau_max) [-]; shape (modes)
-  Eigen::ArrayXd initial_modal_stress;   ///< d sigma_j(0) [MPa]; shape (modes)
-  Eigen::ArrayXd extra_modulus;          ///< [MPa]; shape (extra modes)
-  Eigen::ArrayXd log_extra_time;         ///< d ln of the extra modes' times [-]; shape (extra modes)
-  Eigen::Index feedback = -1;            ///< which feedback's parameter moves by one unit; -1: none
+  Eigen::ArrayXd true_strain;   ///< d e(t) [-]; moves the rates (unless given), tau_max and sigma^r with it
+  Eigen::ArrayXd strain_rate;   ///< d e'(t) [1/s], where the history has its own rates
+  Eigen::ArrayXd modal_weight;  ///< d p_j [-]; shape (modes)
+  Eigen::ArrayXd log_relaxation_ratio;  ///< d ln(tau_j / tau_max) [-]; shape (modes)
+  Eigen::ArrayXd initial_modal_stress;  ///< d sigma_j(0) [MPa]; shape (modes)
+  Eigen::ArrayXd extra_modulus;         ///< [MPa]; shape (extra modes)
+  Eigen::ArrayXd log_extra_time;        ///< d ln of the extra modes' times [-]; shape (extra modes)
+  Eigen::Index feedback = -1;           ///< which feedback's parameter moves by one unit; -1: none
   std::size_t feedback_parameter = 0;
 
-  /// @throws InputError  naming the array whose shape does not fit the record (`rate_given`: it has rates of its own)
+  /// @throws InputError  naming the array whose shape does not fit the record (`rate_given`: it has rates of
+  /// its own)
   void validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes, bool rate_given) const;
 };
 

@@ -22,8 +22,8 @@ struct SolverOptions {
   CvodeOptions cvode;
 };
 
-/// Solves the law along one history, again and again: its arrays are kept between calls. Two threads may share a solver
-/// (one waits), but each does better with its own.
+/// Solves the law along one history, again and again: its arrays are kept between calls. Two threads may
+/// share a solver (one waits), but each does better with its own.
 class Solver {
  public:
   Solver(History history, SolverOptions options);
@@ -53,15 +53,15 @@ class Solver {
   std::unique_ptr<Workspace> work_;
 };
 
-/// Which build of the kernels runs: "v3" (AVX2, FMA) or "baseline"; PROBATION_KERNELS=baseline in the environment, read
-/// once, forces the latter.
+/// Which build of the kernels runs: "v3" (AVX2, FMA) or "baseline"; PROBATION_KERNELS=baseline in the
+/// environment, read once, forces the latter.
 const char* kernel_build();
 
 /// The directions of the law's parameters: E_u [MPa], tau_max [s] (or alpha), G [MPa].
 std::vector<Direction> parameter_directions(const Law& law, const LawChange& change, const History& history);
 
-/// d stress / d true_strain, lower triangular, [MPa]; shape (n_times, n_times). Rates that follow the strain (and
-/// tau_max with them) are included.
+/// d stress / d true_strain, lower triangular, [MPa]; shape (n_times, n_times). Rates that follow the strain
+/// (and tau_max with them) are included.
 RowMajorMatrix strain_sensitivity(Solver& solver, const Law& law, const LawChange& change);
 
 }  // namespace probation

@@ -1,5 +1,6 @@
 #pragma once
-// The hot loops, built once per instruction set. Everything here is plain pointers: no allocation, no exceptions.
+// The hot loops, built once per instruction set. Everything here is plain pointers: no allocation, no
+// exceptions.
 
 #include "probation/schemes/step_rule.hpp"
 
@@ -50,7 +51,8 @@ struct Kernels {
   /// Advance the modes by steps.count steps, adding sum_j z_j after each to stress[0..count).
   void (*sweep)(const Modes&, const Steps&, double* stress);
   /// The same in unit-weight states y_j, with tangents; scratch has 9 * padded entries.
-  void (*tangent)(const Modes&, const Steps&, double* stress, const TangentDirection*, int directions, double* scratch);
+  void (*tangent)(const Modes&, const Steps&, double* stress, const TangentDirection*, int directions,
+                  double* scratch);
   /// One step (the first of steps) tried, in states z_j; nothing is advanced.
   Trial (*trial)(const Modes&, const Steps&);
 };

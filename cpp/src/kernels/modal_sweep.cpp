@@ -18,8 +18,10 @@ struct Block {
 };
 
 template <class Step>
-PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale, double ratio) {
-  StepCoefficients<Vector> c = Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
+                                                   double ratio) {
+  StepCoefficients<Vector> c =
+      Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
   const Vector weight = load(modes.weight + at);
   c.forcing *= weight;
   c.curvature *= weight;
@@ -61,10 +63,12 @@ void uniform_block(const Modes& modes, const Steps& steps, int at, double* stres
   Vector four[lanes];
   for (; n + lanes <= steps.count; n += lanes) {
 #pragma GCC unroll 4
-    for (int i = 0; i < lanes; ++i) four[i] = advance<Step, two_step, curved>(b, u[n + i], curved ? v[n + i] : 0.0);
+    for (int i = 0; i < lanes; ++i)
+      four[i] = advance<Step, two_step, curved>(b, u[n + i], curved ? v[n + i] : 0.0);
     store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
   }
-  for (; n < steps.count; ++n) stress[n] += sum(advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0));
+  for (; n < steps.count; ++n)
+    stress[n] += sum(advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0));
   for (int k = 0; k < K; ++k) {
     const std::ptrdiff_t j = at + k * lanes;
     store(modes.state + j, b.state[k]);
@@ -77,13 +81,41 @@ void uniform_run(const Modes& modes, const Steps& steps, double* stress) {
   int at = 0;
   for (int left = modes.padded / lanes; left > 0;) {
     switch (left >= largest_block ? largest_block : left) {
-      case 7: uniform_block<Step, two_step, curved, 7>(modes, steps, at, stress); at += 7 * lanes; left -= 7; break;
-      case 6: uniform_block<Step, two_step, curved, 6>(modes, steps, at, stress); at += 6 * lanes; left -= 6; break;
-      case 5: uniform_block<Step, two_step, curved, 5>(modes, steps, at, stress); at += 5 * lanes; left -= 5; break;
-      case 4: uniform_block<Step, two_step, curved, 4>(modes, steps, at, stress); at += 4 * lanes; left -= 4; break;
-      case 3: uniform_block<Step, two_step, curved, 3>(modes, steps, at, stress); at += 3 * lanes; left -= 3; break;
-      case 2: uniform_block<Step, two_step, curved, 2>(modes, steps, at, stress); at += 2 * lanes; left -= 2; break;
-      default: uniform_block<Step, two_step, curved, 1>(modes, steps, at, stress); at += lanes; left -= 1; break;
+      case 7:
+        uniform_block<Step, two_step, curved, 7>(modes, steps, at, stress);
+        at += 7 * lanes;
+        left -= 7;
+        break;
+      case 6:
+        uniform_block<Step, two_step, curved, 6>(modes, steps, at, stress);
+        at += 6 * lanes;
+        left -= 6;
+        break;
+      case 5:
+        uniform_block<Step, two_step, curved, 5>(modes, steps, at, stress);
+        at += 5 * lanes;
+        left -= 5;
+        break;
+      case 4:
+        uniform_block<Step, two_step, curved, 4>(modes, steps, at, stress);
+        at += 4 * lanes;
+        left -= 4;
+        break;
+      case 3:
+        uniform_block<Step, two_step, curved, 3>(modes, steps, at, stress);
+        at += 3 * lanes;
+        left -= 3;
+        break;
+      case 2:
+        uniform_block<Step, two_step, curved, 2>(modes, steps, at, stress);
+        at += 2 * lanes;
+        left -= 2;
+        break;
+      default:
+        uniform_block<Step, two_step, curved, 1>(modes, steps, at, stress);
+        at += lanes;
+        left -= 1;
+        break;
     }
   }
 }
@@ -124,7 +156,12 @@ void run(const Modes& modes, const Steps& steps, double* stress) {
   else
     uniform_run<Step, two_step, false>(modes, most, stress);
   if constexpr (!two_step) {
-    const Steps one{steps.rule, 1, true, steps.scale, steps.ratio, steps.forcing + last,
+    const Steps one{steps.rule,
+                    1,
+                    true,
+                    steps.scale,
+                    steps.ratio,
+                    steps.forcing + last,
                     steps.curvature ? steps.curvature + last : nullptr};
     variable_run<Step, two_step>(modes, one, stress + last);
   }
@@ -132,13 +169,17 @@ void run(const Modes& modes, const Steps& steps, double* stress) {
 
 void sweep(const Modes& modes, const Steps& steps, double* stress) {
   switch (steps.rule) {
-    case StepRule::backward_euler: return run<BackwardEulerStep, false>(modes, steps, stress);
-    case StepRule::bdf2: return run<Bdf2Step, true>(modes, steps, stress);
-    case StepRule::exponential: return run<ExponentialStep, false>(modes, steps, stress);
+    case StepRule::backward_euler:
+      return run<BackwardEulerStep, false>(modes, steps, stress);
+    case StepRule::bdf2:
+      return run<Bdf2Step, true>(modes, steps, stress);
+    case StepRule::exponential:
+      return run<ExponentialStep, false>(modes, steps, stress);
   }
 }
 
-/// Coefficients and their slopes for every mode, in scratch: previous, before, forcing, curvature, then the slopes.
+/// Coefficients and their slopes for every mode, in scratch: previous, before, forcing, curvature, then the
+/// slopes.
 template <class Step>
 void tabulate(const Modes& modes, double scale, double ratio, double* scratch) {
   const std::ptrdiff_t m = modes.padded;
@@ -146,18 +187,21 @@ void tabulate(const Modes& modes, double scale, double ratio, double* scratch) {
     const Vector x = load(modes.inverse_ratio + at) * scale;
     const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, ratio);
     const StepCoefficients<Vector> d = Step::template log_slopes<Vector>(x, ratio);
-    const Vector rows[8] = {c.previous, c.before, c.forcing, c.curvature, d.previous, d.before, d.forcing, d.curvature};
+    const Vector rows[8] = {c.previous, c.before, c.forcing, c.curvature,
+                            d.previous, d.before, d.forcing, d.curvature};
     for (std::ptrdiff_t row = 0; row < 8; ++row) store(scratch + row * m + at, rows[row]);
   }
 }
 
-PROBATION_INLINE Vector combine(const double* rows, std::ptrdiff_t m, std::ptrdiff_t at, Vector y, Vector before, double u, double v) {
-  return load(rows + at) * y + load(rows + m + at) * before + load(rows + 2 * m + at) * u + load(rows + 3 * m + at) * v;
+PROBATION_INLINE Vector combine(const double* rows, std::ptrdiff_t m, std::ptrdiff_t at, Vector y,
+                                Vector before, double u, double v) {
+  return load(rows + at) * y + load(rows + m + at) * before + load(rows + 2 * m + at) * u +
+         load(rows + 3 * m + at) * v;
 }
 
 template <class Step>
-void tangent_run(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions, int count,
-                 double* scratch) {
+void tangent_run(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions,
+                 int count, double* scratch) {
   const std::ptrdiff_t m = modes.padded;
   const double* slopes = scratch + 4 * m;
   double* by_log_scale = scratch + 8 * m;
@@ -183,7 +227,8 @@ void tangent_run(const Modes& modes, const Steps& steps, double* stress, const T
       for (std::ptrdiff_t at = 0; at < m; at += lanes) {
         const Vector y = load(d.state + at);
         const Vector dlnx = d.log_inverse ? load(d.log_inverse + at) + dx : Vector{} + dx;
-        const Vector next = combine(scratch, m, at, y, load(d.before + at), du, dv) + load(by_log_scale + at) * dlnx;
+        const Vector next =
+            combine(scratch, m, at, y, load(d.before + at), du, dv) + load(by_log_scale + at) * dlnx;
         store(d.before + at, y);
         store(d.state + at, next);
         change += load(modes.weight + at) * next;
@@ -194,12 +239,15 @@ void tangent_run(const Modes& modes, const Steps& steps, double* stress, const T
   }
 }
 
-void tangent(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions, int count,
-             double* scratch) {
+void tangent(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions,
+             int count, double* scratch) {
   switch (steps.rule) {
-    case StepRule::backward_euler: return tangent_run<BackwardEulerStep>(modes, steps, stress, directions, count, scratch);
-    case StepRule::bdf2: return tangent_run<Bdf2Step>(modes, steps, stress, directions, count, scratch);
-    case StepRule::exponential: return tangent_run<ExponentialStep>(modes, steps, stress, directions, count, scratch);
+    case StepRule::backward_euler:
+      return tangent_run<BackwardEulerStep>(modes, steps, stress, directions, count, scratch);
+    case StepRule::bdf2:
+      return tangent_run<Bdf2Step>(modes, steps, stress, directions, count, scratch);
+    case StepRule::exponential:
+      return tangent_run<ExponentialStep>(modes, steps, stress, directions, count, scratch);
   }
 }
 
@@ -209,7 +257,8 @@ Trial try_step(const Modes& modes, const Steps& steps) {
   Vector stress{}, by_log_scale{}, by_forcing{}, by_curvature{};
   for (int at = 0; at < modes.padded; at += lanes) {
     const Vector x = load(modes.inverse_ratio + at) * steps.scale[0];
-    const Vector weight = load(modes.weight + at), z = load(modes.state + at), before = load(modes.before + at);
+    const Vector weight = load(modes.weight + at), z = load(modes.state + at),
+                 before = load(modes.before + at);
     const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, steps.ratio[0]);
     const StepCoefficients<Vector> d = Step::template log_slopes<Vector>(x, steps.ratio[0]);
     stress += c.previous * z + c.before * before + weight * (c.forcing * u + c.curvature * v);
@@ -222,9 +271,12 @@ Trial try_step(const Modes& modes, const Steps& steps) {
 
 Trial trial(const Modes& modes, const Steps& steps) {
   switch (steps.rule) {
-    case StepRule::backward_euler: return try_step<BackwardEulerStep>(modes, steps);
-    case StepRule::bdf2: return try_step<Bdf2Step>(modes, steps);
-    case StepRule::exponential: return try_step<ExponentialStep>(modes, steps);
+    case StepRule::backward_euler:
+      return try_step<BackwardEulerStep>(modes, steps);
+    case StepRule::bdf2:
+      return try_step<Bdf2Step>(modes, steps);
+    case StepRule::exponential:
+      return try_step<ExponentialStep>(modes, steps);
   }
   return {};
 }

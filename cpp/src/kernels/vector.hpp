@@ -1,8 +1,9 @@
 #pragma once
 // Four doubles in lockstep, for the files that are compiled once per instruction set.
 //
-// These files must not instantiate library templates that other files use too: the linker keeps one copy of each,
-// and it could be the one that an older processor cannot run. Hence no Eigen and no std:: containers here.
+// These files must not instantiate library templates that other files use too: the linker keeps one copy of
+// each, and it could be the one that an older processor cannot run. Hence no Eigen and no std:: containers
+// here.
 
 #include <cstdint>
 
@@ -35,7 +36,8 @@ PROBATION_INLINE double sum(Vector a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 /// e^-x for x >= 0 to 1 unit in the last place or so; 0 beyond x = 700.
 PROBATION_INLINE Vector decay(Vector x) {
   const Vector limited = x < 700.0 ? x : Vector{} + 700.0;
-  // -x = n ln 2 + r, |r| <= ln 2 / 2; the magic number rounds to the nearest integer and leaves it in the low bits.
+  // -x = n ln 2 + r, |r| <= ln 2 / 2; the magic number rounds to the nearest integer and leaves it in the low
+  // bits.
   const double magic = 6755399441055744.0;  // 1.5 * 2^52
   const Vector rounded = limited * -1.4426950408889634074 + magic;
   const Vector n = rounded - magic;
@@ -61,5 +63,6 @@ PROBATION_INLINE Vector decay(Vector x) {
 
 }  // namespace probation
 
-// After decay(Vector): a template finds an overload for a built-in vector type only where it is declared first.
+// After decay(Vector): a template finds an overload for a built-in vector type only where it is declared
+// first.
 #include "probation/schemes/step.hpp"

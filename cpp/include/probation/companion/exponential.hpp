@@ -17,7 +17,9 @@ class Exponential final : public CompanionRelation {
   double log_slope(double) const override { return exponent_ / std::log(10.0); }
 
  private:
-  double form(double rate) const override { return coefficient_ * std::exp(exponent_ * std::log10(1000.0 * rate)); }
+  double form(double rate) const override {
+    return coefficient_ * std::exp(exponent_ * std::log10(1000.0 * rate));
+  }
 
   double coefficient_;
   double exponent_;

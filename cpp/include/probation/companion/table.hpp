@@ -19,7 +19,8 @@ class Table final : public CompanionRelation {
       : CompanionRelation(rate_floor), rates_(std::move(rates)), tau_max_(std::move(tau_max)) {
     if (rates_.size() < 2 || rates_.size() != tau_max_.size())
       throw InputError("the companion table has " + std::to_string(rates_.size()) + " rates and " +
-                       std::to_string(tau_max_.size()) + " times; at least two of each are needed, one time per rate");
+                       std::to_string(tau_max_.size()) +
+                       " times; at least two of each are needed, one time per rate");
     for (std::size_t i = 0; i < rates_.size(); ++i) {
       const bool positive = rates_[i] > 0.0 && tau_max_[i] > 0.0 && std::isfinite(rates_[i] + tau_max_[i]);
       const bool increasing = i == 0 || rates_[i] > rates_[i - 1];

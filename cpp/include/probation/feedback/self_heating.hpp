@@ -7,10 +7,11 @@
 
 namespace probation {
 
-/// A rise of temperature T = heating w, w the plastic work that has not yet left: tau_max times e^(-softening T),
-/// sigma^r times e^(-hardening_loss T).
+/// A rise of temperature T = heating w, w the plastic work that has not yet left: tau_max times e^(-softening
+/// T), sigma^r times e^(-hardening_loss T).
 struct SelfHeatingForm {
-  static constexpr std::size_t parameters = 4;  // heating [degC/MPa], cooling_rate [1/s], softening, hardening_loss [1/degC]
+  static constexpr std::size_t parameters =
+      4;  // heating [degC/MPa], cooling_rate [1/s], softening, hardening_loss [1/degC]
 
   template <class Real>
   static FeedbackShift<Real> shift(const std::array<Real, parameters>& p, Real, Real memory) {
@@ -27,7 +28,8 @@ class SelfHeating final : public FormulaFeedback<SelfHeatingForm> {
  public:
   SelfHeating(double heating, double cooling_rate, double softening, double hardening_loss)
       : FormulaFeedback({heating, cooling_rate, softening, hardening_loss}) {
-    if (!(cooling_rate >= 0.0)) throw InputError("cooling_rate must be zero (adiabatic) or a positive number of 1/s");
+    if (!(cooling_rate >= 0.0))
+      throw InputError("cooling_rate must be zero (adiabatic) or a positive number of 1/s");
     constexpr const char* names[] = {"heating", "cooling_rate", "softening", "hardening_loss"};
     for (std::size_t i = 0; i < SelfHeatingForm::parameters; ++i)
       if (!std::isfinite(values()[i])) throw InputError(std::string(names[i]) + " must be a finite number");

@@ -18,8 +18,10 @@ struct StressActivationForm {
     const Real x2 = x * x;
     const Real size = x < 0.0 ? -x : x;
     Real shift{};
-    if (size < 0.05) shift = -x2 / 6.0 * (1.0 - x2 / 30.0 * (1.0 - x2 * (4.0 / 63.0)));
-    else shift = log(2.0 * size) - size - log(1.0 - exp(-2.0 * size));
+    if (size < 0.05)
+      shift = -x2 / 6.0 * (1.0 - x2 / 30.0 * (1.0 - x2 * (4.0 / 63.0)));
+    else
+      shift = log(2.0 * size) - size - log(1.0 - exp(-2.0 * size));
     return {shift, Real{}};
   }
   template <class Real>
@@ -31,7 +33,8 @@ struct StressActivationForm {
 class StressActivation final : public FormulaFeedback<StressActivationForm> {
  public:
   explicit StressActivation(double activation_stress) : FormulaFeedback({activation_stress}) {
-    if (!(activation_stress > 0.0) || !std::isfinite(activation_stress)) throw InputError("activation_stress must be a positive number of MPa");
+    if (!(activation_stress > 0.0) || !std::isfinite(activation_stress))
+      throw InputError("activation_stress must be a positive number of MPa");
   }
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The law by CVODE (SUNDIALS): BDF of variable order, diagonal Jacobian. It shares nothing with the other schemes but
-// the law itself, in the form of eq. (6) as it is printed.
+// The law by CVODE (SUNDIALS): BDF of variable order, diagonal Jacobian. It shares nothing with the other
+// schemes but the law itself, in the form of eq. (6) as it is printed.
 
 #include <Eigen/Core>
 
@@ -25,9 +25,10 @@ struct CvodeStatistics {
   int last_order = 0;
 };
 
-/// Integrates eq. (6) through every sample, none stepped across, and starts afresh wherever the strain rate jumps or kinks. `stress` has shape (n_times).
+/// Integrates eq. (6) through every sample, none stepped across, and starts afresh wherever the strain rate
+/// jumps or kinks. `stress` has shape (n_times).
 /// @throws ConvergenceError  with the time and CVODE's reason
-CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const History& history, const CvodeOptions& options,
-                             Eigen::Ref<Eigen::ArrayXd> stress);
+CvodeStatistics cvode_stress(const Law& law, const LawChange& change, const History& history,
+                             const CvodeOptions& options, Eigen::Ref<Eigen::ArrayXd> stress);
 
 }  // namespace probation

@@ -13,8 +13,8 @@ double exponential_difference(double x, double y);
 
 /// True stress [MPa] of the ramp e = rate t, eq. (7), at the times [s]; shape (n_times).
 ///
-/// As printed, eq. (7) is infinite at tau_j = 1 / rate, undefined at rate = 0 and -1 / (2 tau_j), and loses all digits
-/// at small t; this form is the same function without these holes.
+/// As printed, eq. (7) is infinite at tau_j = 1 / rate, undefined at rate = 0 and -1 / (2 tau_j), and loses
+/// all digits at small t; this form is the same function without these holes.
 /// @throws InputError  if a time is negative or the rate is not finite
 Eigen::ArrayXd ramp_stress(const Law& law, double strain_rate, const Samples& time);
 

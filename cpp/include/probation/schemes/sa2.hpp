@@ -11,7 +11,8 @@ PROBATION_INLINE StepForcing<Real> sa2_step(const StepData<Real>& s) {
   const Real rise = s.true_strain.next - s.true_strain.here;
   const Real stiff = s.constant_modulus ? s.unrelaxed_modulus.next * rise
                                         : 0.5 * (s.unrelaxed_modulus.here + s.unrelaxed_modulus.next) * rise;
-  return {StepRule::exponential, trapezoid_reduced_time(s), stiff - (s.relaxed_stress.next - s.relaxed_stress.here), Real{}};
+  return {StepRule::exponential, trapezoid_reduced_time(s),
+          stiff - (s.relaxed_stress.next - s.relaxed_stress.here), Real{}};
 }
 
 }  // namespace probation

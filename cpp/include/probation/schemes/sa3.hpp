@@ -1,8 +1,9 @@
 #pragma once
-// SA3 (Sorvari & Hamalainen 2010), read as the exact exponential recursion under the parabola through three instants
-// of the forcing, in reduced time where tau_max varies. The original text was not to be had: this is the most
-// defensible reading. Order 3 on smooth histories; on rough measured strain it is no better than SA2. Order 2 where
-// tau_max follows rates that are differences of the strain (give the rates for order 3), and under feedbacks.
+// SA3 (Sorvari & Hamalainen 2010), read as the exact exponential recursion under the parabola through three
+// instants of the forcing, in reduced time where tau_max varies. The original text was not to be had: this is
+// the most defensible reading. Order 3 on smooth histories; on rough measured strain it is no better than
+// SA2. Order 2 where tau_max follows rates that are differences of the strain (give the rates for order 3),
+// and under feedbacks.
 
 #include "probation/schemes/sa2.hpp"
 
@@ -13,7 +14,8 @@ template <class Real>
 PROBATION_INLINE Real parabolic_reduced_time(const StepData<Real>& s) {
   if (s.constant_fluidity) return s.h * s.fluidity.next;
   const double h0 = s.h / s.ratio;
-  const Real bend = ((s.fluidity.next - s.fluidity.here) / s.h - (s.fluidity.here - s.fluidity.before) / h0) / (s.h + h0);
+  const Real bend =
+      ((s.fluidity.next - s.fluidity.here) / s.h - (s.fluidity.here - s.fluidity.before) / h0) / (s.h + h0);
   return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - (s.h * s.h / 6.0) * bend);
 }
 
@@ -23,7 +25,8 @@ PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s) {
   Real scale = parabolic_reduced_time(s);
   if (!(scale > 0.0)) return sa2_step(s);  // f fell by more than 13 times: the parabola dips below zero
   const Real change = modulus_work(s) - (s.relaxed_stress.next - s.relaxed_stress.here);
-  const Real curvature = scale * (change - s.previous_forcing * scale / s.previous_scale) / (scale + s.previous_scale);
+  const Real curvature =
+      scale * (change - s.previous_forcing * scale / s.previous_scale) / (scale + s.previous_scale);
   return {StepRule::exponential, scale, change, curvature};
 }
 

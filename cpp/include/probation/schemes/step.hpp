@@ -36,7 +36,9 @@ struct Bdf2Difference {
   double next, here, before;
 
   PROBATION_INLINE explicit Bdf2Difference(double ratio)
-      : next((1.0 + 2.0 * ratio) / (1.0 + ratio)), here(-(1.0 + ratio)), before(ratio * ratio / (1.0 + ratio)) {}
+      : next((1.0 + 2.0 * ratio) / (1.0 + ratio)),
+        here(-(1.0 + ratio)),
+        before(ratio * ratio / (1.0 + ratio)) {}
 
   /// In differences: exactly zero where f does not change.
   template <class Real>
@@ -56,7 +58,8 @@ template <class Real>
 PROBATION_INLINE Real mean_decay(Real x, Real decayed) {
   const Real x2 = x * (1.0 / 2.0), x3 = x * (1.0 / 3.0), x4 = x * (1.0 / 4.0), x5 = x * (1.0 / 5.0);
   const Real x6 = x * (1.0 / 6.0), x7 = x * (1.0 / 7.0), x8 = x * (1.0 / 8.0), x9 = x * (1.0 / 9.0);
-  const Real series = 1.0 - x2 * (1.0 - x3 * (1.0 - x4 * (1.0 - x5 * (1.0 - x6 * (1.0 - x7 * (1.0 - x8 * (1.0 - x9)))))));
+  const Real series =
+      1.0 - x2 * (1.0 - x3 * (1.0 - x4 * (1.0 - x5 * (1.0 - x6 * (1.0 - x7 * (1.0 - x8 * (1.0 - x9)))))));
   return x < 0.1 ? series : (1.0 - decayed) / x;
 }
 
@@ -115,7 +118,8 @@ struct ExponentialStep {
     const Real decayed = decay(x);
     const Real mean = mean_decay(x, decayed);
     const Real curved = curvature_decay(x, mean);
-    // x mean' = e^-x - mean, and x curved = 2 (1 - mean) - x mean differentiated; both free of cancellation at small x.
+    // x mean' = e^-x - mean, and x curved = 2 (1 - mean) - x mean differentiated; both free of cancellation
+    // at small x.
     const Real mean_slope = x * (curved - mean) * 0.5;
     return {-x * decayed, Real{}, mean_slope, -2.0 * curved - mean_slope};
   }
