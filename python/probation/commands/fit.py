@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, warn
+from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
+
+if TYPE_CHECKING:
+    from probation.records import Campaign
 
 NAME = "fit"
 
@@ -19,13 +24,25 @@ known about them, and what is left.
   probation fit hdpe-2020/
   probation fit hdpe-2020/campaign.toml --hold unrelaxed_modulus_MPa=3220 --report fit.html
   probation fit hdpe-2020/ --scheme sa3 --json - > fit.json
+  probation fit 0d01_3d0.csv 0d03_3d0.csv 0d05_3d0.csv --control displacement-rate
 """
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
-    parser.add_argument("campaign", metavar="CAMPAIGN", help="a folder with a campaign.toml, or that file")
+    parser.add_argument(
+        "campaign",
+        metavar="CAMPAIGN",
+        nargs="+",
+        help="a folder with a campaign.toml, or that file; or data files, each specimen of which becomes a record",
+    )
+    parser.add_argument(
+        "--control",
+        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
+        default="other",
+        help="how the tests in data files were driven (other)",
+    )
     parser.add_argument("--scheme", choices=_SCHEMES, default="be2", help="time integration (be2)")
     parser.add_argument(
         "--start",
@@ -55,12 +72,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.identify import fit  # noqa: PLC0415 - see the package
-    from probation.records import Campaign  # noqa: PLC0415
 
     held = named_numbers(options.hold, "--hold")
-    campaign = Campaign.load(options.campaign)
-    for warning in campaign.warnings:
-        warn(warning)
+    campaign = _campaign(options)
     with shown(f"identifying on {campaign.name}") as advance:
         answer = fit(
             campaign,
@@ -74,3 +88,13 @@ def run(options: argparse.Namespace) -> int:
     deliver(answer, options)
     deliver_report(answer, options)
     return 0
+
+
+def _campaign(options: argparse.Namespace) -> Campaign:
+    """A campaign, or data files that stand in for one."""
+    from probation.records import Campaign  # noqa: PLC0415
+
+    first = Path(options.campaign[0])
+    if len(options.campaign) > 1 or (first.is_file() and first.suffix != ".toml"):
+        return Campaign.from_files(options.campaign, control=options.control)
+    return Campaign.load(first)

@@ -151,11 +151,13 @@ class Fit:
     def verdict(self) -> str:
         """One sentence."""
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
+        largest = max(float(np.max(np.abs(each.true_stress))) for each in self.records.values())
+        percent = 100.0 * self.bias_MPa / largest
+        bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({percent:.2g} % of the largest stress)"
         if self.bias_MPa > 2.0 * self.noise_MPa:
-            times = self.bias_MPa / self.noise_MPa
-            quality = f"the law leaves a bias of {self.bias_MPa:.3g} MPa, {times:.0f} times the noise"
+            quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:
-            quality = f"the law leaves a bias of {self.bias_MPa:.3g} MPa, comparable to the noise"
+            quality = f"{bias}, comparable to the noise"
         else:
             quality = "the law describes the records to within their noise"
         if not poor:

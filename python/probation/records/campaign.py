@@ -1,6 +1,7 @@
 """A campaign: the records of one material, and the base law that they put to the test."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 from probation.errors import InputError
 from probation.records.campaign_file import load_campaign_file
 from probation.records.complaint import quoted, suggestion
+from probation.records.reading import read_records
 from probation.records.record import Record
 from probation.records.saving import save_campaign
 from probation.records.settings import LawSettings
@@ -70,6 +72,31 @@ class Campaign:
         """
         read = load_campaign_file(Path(path))
         return cls(name=read.name, records=read.records, law=read.law, path=read.path, file_sha256=read.sha256)
+
+    @classmethod
+    def from_files(
+        cls, paths: Sequence[str | PathLike[str]], *, control: str = "other", name: str | None = None
+    ) -> "Campaign":
+        """Take every specimen of some data files as a record to identify on, with a constant tau_max.
+
+        Parameters
+        ----------
+        paths : sequence of path-like
+            Read as `read_records` does, by the import profiles.
+        control : {"strain-rate", "displacement-rate", "hold", "cyclic", "other"}
+            How the tests were driven.
+        name : str, optional
+            The first file's name if left out.
+
+        Raises
+        ------
+        InputError
+            If there is none, or at the first thing that is wrong in one of them.
+        """
+        if not paths:
+            raise InputError("found no files, expected at least one")
+        records = [record for path in paths for record in read_records(path, control=control)]
+        return cls(name=name or Path(paths[0]).name.split(".")[0], records=tuple(records))
 
     def save(self, folder: str | PathLike[str]) -> Path:
         """Write campaign.toml and one CSV per record, every digit kept.
