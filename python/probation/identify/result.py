@@ -171,10 +171,10 @@ class Fit:
         width = max(len(f"{SYMBOLS[n]} [{p.unit}]" if p.unit else SYMBOLS[n]) for n, p in self.parameters.items())
         for name, parameter in self.parameters.items():
             label = f"{SYMBOLS[name]} [{parameter.unit}]" if parameter.unit else SYMBOLS[name]
-            lines.append(f"  {label:<{width}}  {estimate_text(parameter)}")
+            lines.append(f"  {label:<{width}}  {estimate_text(parameter)}, {parameter.status.replace('_', ' ')}")
         second = self.law.parameter_names[1]
         label = f"E_u·{SYMBOLS[second]}" + (f" [{self.product.unit}]" if self.product.unit else "")
-        lines.append(f"  {label}  {estimate_text(self.product)}")
+        lines.append(f"  {label}  {estimate_text(self.product)}, {self.product.status.replace('_', ' ')}")
         if len(self.names) > 1:
             lines += ["", "  correlations: " + ", ".join(self._correlations())]
         lines.append(f"  condition number of the scaled Jacobian: {self.condition_number:.3g}")
@@ -252,15 +252,12 @@ class Fit:
 
 def estimate_text(parameter: Parameter) -> str:
     """Value, standard error and interval with the digits that mean something."""
-    if parameter.status == "held":
-        return f"{parameter.value:.6g} (held)"
     if parameter.se is None or parameter.interval95 is None:
-        return f"{parameter.value:.4g}, not identifiable"
+        return f"{parameter.value:.6g}"
     digits = max(int(np.ceil(-np.log10(parameter.se))) + 1, 0) if parameter.se > 0.0 else 6
     relative = 100.0 * parameter.se / abs(parameter.value) if parameter.value else np.inf
     low, high = parameter.interval95
-    status = parameter.status.replace("_", " ")
     return (
         f"{parameter.value:.{digits}f} ± {parameter.se:.{digits}f} ({relative:.2g} %), "
-        f"95 % [{low:.{digits}f}, {high:.{digits}f}], {status}"
+        f"95 % [{low:.{digits}f}, {high:.{digits}f}]"
     )
