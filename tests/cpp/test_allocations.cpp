@@ -27,8 +27,8 @@ namespace {
 thread_local long allocations = 0;
 }
 
-extern "C" void* __libc_malloc(
-    std::size_t size);  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming)
+// glibc's own name. NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* malloc(std::size_t size) {
   ++allocations;
   return __libc_malloc(size);
