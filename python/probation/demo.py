@@ -71,8 +71,7 @@ def identification() -> Outcome:
     rows, curves, answers, farthest = [], [], {}, 0.0
     for number in _EXPERIMENTS:
         twin = experiment(number, SEED)
-        # sa3: at this step be2's own error, 0.3 % of E_u, is more than three standard errors.
-        found = fit(twin_campaign((number,), seed=SEED), scheme="sa3")
+        found = fit(twin_campaign((number,), seed=SEED))
         answers[twin.name] = found.to_dict()["parameters"]
         for name, parameter in found.parameters.items():
             if not parameter.se:  # held

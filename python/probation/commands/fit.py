@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
@@ -50,6 +50,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="exponential",
         help="be2's first step; the paper's is backward_euler",
     )
+    parser.add_argument(
+        "--substeps",
+        metavar="N",
+        type=_substeps,
+        default="auto",
+        help="steps of the scheme from sample to sample; auto takes as many as make its own error negligible",
+    )
     parser.add_argument("--method", choices=_METHODS, default="least-squares", help="of identification (least-squares)")
     parser.add_argument(
         "--hold",
@@ -83,6 +90,7 @@ def run(options: argparse.Namespace) -> int:
             hold=held,
             excitation=options.excitation,
             start=options.start,
+            substeps=options.substeps,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer, options)
@@ -98,3 +106,11 @@ def _campaign(options: argparse.Namespace) -> Campaign:
     if len(options.campaign) > 1 or (first.is_file() and first.suffix != ".toml"):
         return Campaign.from_files(options.campaign, control=options.control)
     return Campaign.load(first)
+
+
+def _substeps(text: str) -> int | Literal["auto"]:
+    if text == "auto":
+        return "auto"
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected 'auto' or a whole number of at least 1")
+    return int(text)

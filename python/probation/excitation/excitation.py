@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation import _core
 from probation._arrays import FloatArray, one_of
 from probation.excitation.segments import CLEAN, find_jumps
 from probation.excitation.smoothing import smooth_segments
@@ -15,7 +16,6 @@ from probation.history import make_history
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
-    from probation import _core
     from probation.records import Record
 
 Method = Literal["auto", "raw", "spline"]
@@ -66,6 +66,36 @@ class Excitation:
             direction=self.direction,
         )
 
+    def refined(self, substeps: int) -> Excitation:
+        """The same history at `substeps` times as many instants; every `substeps`-th is one of the samples.
+
+        Between samples it is what the samples stand for: a straight line, or, with rates, the cubic through both.
+        """
+        if substeps == 1:
+            return self
+        part = np.arange(substeps) / substeps
+        step, rise = np.diff(self.time)[:, None], np.diff(self.true_strain)[:, None]
+        time = _spread(self.time[:-1, None] + step * part, self.time[-1])
+        strain = self.true_strain[:-1, None] + rise * part
+        rate = None
+        if self.strain_rate is not None:
+            begin, end = (side[:, None] for side in self.history().rates(_core.Differentiator.backward))
+            bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
+            strain = strain + part * (1.0 - part) * bend
+            slope = (
+                rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))
+            ) / step
+            slope[:, 0] = self.strain_rate[:-1]
+            rate = _spread(slope, self.strain_rate[-1])
+        return replace(
+            self,
+            time=time,
+            true_strain=_spread(strain, self.true_strain[-1]),
+            strain_rate=rate,
+            jumps=tuple(substeps * jump for jump in self.jumps),
+            direction=np.repeat(self.direction, substeps),
+        )
+
     @property
     def rate(self) -> FloatArray:
         """The strain rate that was given or smoothed, else three-point differences; shape (n_times,) [1/s]."""
@@ -103,6 +133,11 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     return Excitation(
         record.time, strain, rate, tuple(jumps), _direction(record, strain, jumps, noise), name, float(noise)
     )
+
+
+def _spread(rows: FloatArray, last: float) -> FloatArray:
+    """Rows of instants within steps as one array, with the last instant of all."""
+    return np.append(rows.ravel(), last)
 
 
 def _rate_is_noisy(record: Record, noise: float) -> bool:

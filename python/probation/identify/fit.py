@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.special import stdtrit
@@ -17,7 +16,7 @@ from probation.identify.parameter import SYMBOLS, UNITS, Parameter, inside_name,
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.result import METHODS, Fit, Method, RecordFit
 from probation.identify.search import by_least_squares, by_simplex, first_guess
-from probation.law import SCHEMES, Law, Scheme, Start, make_solver
+from probation.law import SCHEMES, Law, Scheme, Start
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -29,6 +28,12 @@ if TYPE_CHECKING:
 START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_modulus": 1.0}
 """Placeholders: variable projection needs no start."""
 
+NEGLIGIBLE = 0.1
+"""Shift of a parameter by the scheme's own error that is let pass [standard errors]."""
+
+MOST_SUBSTEPS = 16
+"""Most steps of the scheme from sample to sample that a fit takes by itself."""
+
 
 def fit(
     campaign: Campaign,
@@ -39,6 +44,7 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     excitation: ExcitationMethod = "auto",
     start: Start = "exponential",
+    substeps: int | Literal["auto"] = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
     """Identify the law's parameters on the records with role "identify", which share them.
@@ -58,6 +64,9 @@ def fit(
         Whether the strain is smoothed: "auto" does so where it is noisy.
     start : {"exponential", "backward_euler"}
         bE2's first step.
+    substeps : int or "auto"
+        Steps of the scheme from sample to sample. 1 is the paper's; "auto" takes as many (up to `MOST_SUBSTEPS`) as it
+        needs for its own error to shift no parameter by more than `NEGLIGIBLE` standard errors.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -74,11 +83,14 @@ def fit(
     one_of(method, "method", METHODS)
     if scheme in ("exact", "cvode"):
         raise InputError(f"scheme is {scheme!r}; identification needs sensitivities: use be2, sa2 or sa3")
+    if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
+        raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
     law, held = _base_law(campaign, hold or {})
     limits = _limits(law, bounds or {})
     prepared = []
     for index, record in enumerate(campaign.identify):
-        prepared.append(RecordProblem.prepare(record, excite(record, excitation), scheme, start))
+        steps = 1 if substeps == "auto" else substeps
+        prepared.append(RecordProblem.prepare(record, excite(record, excitation), scheme, start, steps))
         if progress:
             progress(0.3 * (index + 1) / len(campaign.identify))
     problem = Problem(law, prepared, held)
@@ -89,6 +101,11 @@ def fit(
     if len(prepared) > 1:
         problem.reweigh(best)
         best = first_guess(problem, limits)
+    if substeps == "auto" and scheme != "sa3":
+        needed = _needed_substeps(problem, best)
+        if needed > 1:
+            problem.records = tuple(each.with_substeps(needed) for each in problem.records)
+            best = first_guess(problem, limits)
     if method == "least-squares":
         best = by_least_squares(problem, best, limits)
     elif method == "simplex":
@@ -150,7 +167,7 @@ def _describe(
     residual, jacobian = problem.residual_and_jacobian(law)
     free, names = problem.free, law.parameter_names
     values = law.parameters
-    known = covariance(jacobian[:, free], residual, [len(each.record) for each in problem.records], values[free])
+    known = _covariance(problem, law, residual, jacobian)
     degrees = max(len(residual) - len(free), 1)
     parameters: dict[str, Parameter] = {}
     warnings = list(campaign.warnings)
@@ -171,12 +188,13 @@ def _describe(
         if at_bound:
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {values[index]:.6g} {UNITS[name]}".rstrip())
     warnings += _rate_warnings(problem, law)
-    scheme_error, shift = _scheme_error(problem, law, jacobian[:, free], known, scheme, start)
+    scheme_error, shift = _scheme_error(problem, law, jacobian, known)
     return Fit(
         campaign=campaign.name,
         law=law,
         scheme=scheme,
         start=start,
+        substeps=problem.records[0].substeps,
         method=method,
         parameters=parameters,
         product=_product(known, problem, law, degrees),
@@ -192,22 +210,30 @@ def _describe(
     )
 
 
-def _scheme_error(
-    problem: Problem, law: Law, jacobian: FloatArray, known: Covariance, scheme: Scheme, start: Start
-) -> tuple[float, FloatArray]:
+def _covariance(problem: Problem, law: Law, residual: FloatArray, jacobian: FloatArray) -> Covariance:
+    free = problem.free
+    lengths = [len(each.record) for each in problem.records]
+    return covariance(jacobian[:, free], residual, lengths, law.parameters[free])
+
+
+def _scheme_error(problem: Problem, law: Law, jacobian: FloatArray, known: Covariance) -> tuple[float, FloatArray]:
     """How far the scheme is from SA3 [MPa], and what that does to the parameters, in standard errors."""
-    if scheme == "sa3":
-        return 0.0, np.zeros(len(problem.free))
-    errors = []
-    for each in problem.records:
-        finer = replace(each, solver=make_solver(each.solver.history, "sa3", start))
-        errors.append(each.stress(law) - finer.stress(law))
+    free = problem.free
+    errors = [each.stress(law) - each.reference().stress(law) for each in problem.records]
     weighted = np.concatenate([weight * error for weight, error in zip(problem.weights, errors, strict=True)])
-    size = np.where(law.parameters[problem.free] != 0.0, np.abs(law.parameters[problem.free]), 1.0)
-    moved = -np.linalg.lstsq(jacobian * size, weighted, rcond=1e-12)[0] * size
-    error = np.sqrt(np.diag(known.matrix))
-    shift = np.divide(moved, error, out=np.zeros_like(moved), where=error > 0.0)
+    size = np.where(law.parameters[free] != 0.0, np.abs(law.parameters[free]), 1.0)
+    moved = -np.linalg.lstsq(jacobian[:, free] * size, weighted, rcond=1e-12)[0] * size
+    deviation = np.sqrt(np.diag(known.matrix))
+    shift = np.divide(moved, deviation, out=np.zeros_like(moved), where=deviation > 0.0)
     return max(float(np.max(np.abs(error))) for error in errors), shift
+
+
+def _needed_substeps(problem: Problem, law: Law) -> int:
+    """Steps from sample to sample that make the scheme's own error, of order 2, negligible for every parameter."""
+    residual, jacobian = problem.residual_and_jacobian(law)
+    shift = _scheme_error(problem, law, jacobian, _covariance(problem, law, residual, jacobian))[1]
+    worst = float(np.max(np.abs(shift), initial=0.0))
+    return int(np.clip(np.ceil(np.sqrt(worst / NEGLIGIBLE)), 1, MOST_SUBSTEPS))
 
 
 def _record_fit(each: RecordProblem, law: Law) -> RecordFit:

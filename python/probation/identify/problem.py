@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,35 +35,54 @@ class RecordProblem:
     solver : Solver
     noise : float
         Standard deviation of the stress noise [MPa]: given with the record, else by robust differences.
+    scheme, start : str
+    substeps : int
+        Steps of the scheme from sample to sample.
     """
 
     record: Record
     excitation: Excitation
     solver: _core.Solver
     noise: float
+    scheme: Scheme
+    start: Start
+    substeps: int
 
     @classmethod
-    def prepare(cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start) -> RecordProblem:
+    def prepare(
+        cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start, substeps: int = 1
+    ) -> RecordProblem:
         """Estimate the noise and set up the solver."""
         noise = record.noise.stress_MPa
         if noise is None:
             noise = scatter(record.time, record.true_stress)
         noise = max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)
-        return cls(record, excitation, make_solver(excitation.history(), scheme, start), noise)
+        solver = make_solver(excitation.refined(substeps).history(), scheme, start)
+        return cls(record, excitation, solver, noise, scheme, start, substeps)
+
+    def with_substeps(self, substeps: int) -> RecordProblem:
+        """The same with other steps of the scheme."""
+        solver = make_solver(self.excitation.refined(substeps).history(), self.scheme, self.start)
+        return replace(self, solver=solver, substeps=substeps)
+
+    def reference(self) -> RecordProblem:
+        """The same by SA3 on the same steps, whose own error is far smaller."""
+        return replace(self, solver=make_solver(self.solver.history, "sa3", self.start), scheme="sa3")
 
     def stress(self, law: Law) -> FloatArray:
         """Model stress, shape (n_times,) [MPa]."""
-        stress = np.empty(len(self.record))
+        stress = np.empty(len(self.solver.history))
         self.solver.stress(law.engine, _core.LawChange(), stress)
-        return stress
+        return stress[:: self.substeps]
 
     def sensitivity(self, law: Law) -> tuple[FloatArray, FloatArray]:
         """Model stress (n_times,) [MPa] and its derivatives (n_times, 3) along `law.parameters`."""
-        stress, sensitivity = np.empty(len(self.record)), np.empty((len(self.record), 3))
+        count = len(self.solver.history)
+        stress, sensitivity = np.empty(count), np.empty((count, 3))
         change = _core.LawChange()
         directions = _core.parameter_directions(law.engine, change, self.solver.history)
         self.solver.tangent(law.engine, change, directions, stress, sensitivity)
-        return stress, sensitivity
+        return stress[:: self.substeps], sensitivity[:: self.substeps]
 
 
 class Problem:

@@ -94,6 +94,8 @@ class Fit:
     law : Law
         With the identified parameters.
     scheme, start, method : str
+    substeps : int
+        Steps of the scheme from sample to sample.
     parameters : dict of str to Parameter
         By name: unrelaxed_modulus, tau_max or alpha, hardening_modulus.
     product : Parameter
@@ -118,6 +120,7 @@ class Fit:
     law: Law
     scheme: Scheme
     start: Start
+    substeps: int
     method: Method
     parameters: dict[str, Parameter]
     product: Parameter
@@ -196,7 +199,8 @@ class Fit:
                 + ("; use sa3, or sample more finely" if abs(shift) > 0.5 else "")
             )
         how = "autocorrelated fit residuals (Newey-West)" if self.autocorrelated else "white fit residuals"
-        lines += ["", f"  {self.method}, scheme {self.scheme}, start {self.start}; standard errors for {how}"]
+        steps = f", {self.substeps} steps from sample to sample" if self.substeps > 1 else ""
+        lines += ["", f"  {self.method}, scheme {self.scheme}{steps}, start {self.start}; standard errors for {how}"]
         lines += [f"  warning: {warning}" for warning in self.warnings]
         return "\n".join(lines)
 
@@ -217,6 +221,7 @@ class Fit:
             "verdict": self.verdict,
             "scheme": self.scheme,
             "start": self.start,
+            "substeps": self.substeps,
             "method": self.method,
             "parameters": {outside_name(name): p.to_json() for name, p in identified.items()},
             "fixed": {outside_name(n): p.value for n, p in self.parameters.items() if p.status == "held"},

@@ -110,7 +110,7 @@ def _sensitivities(fit: Fit) -> Section:
 def _how(fit: Fit) -> Section:
     errors = "autocorrelated (Newey-West)" if fit.autocorrelated else "white"
     text = (
-        f"Method {fit.method}; scheme {fit.scheme}, start {fit.start}; "
+        f"Method {fit.method}; scheme {fit.scheme} with {fit.substeps} steps from sample to sample, start {fit.start}; "
         f"{fit.law.spectrum.modal_weight.size if fit.law.spectrum else fit.law.modes} modes. "
         f"Standard errors take the fit residuals as {errors}."
     )

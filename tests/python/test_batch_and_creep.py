@@ -1,0 +1,92 @@
+"""Batches against single solves; creep against the law itself."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import probation
+from probation import Change, Law, PowerLaw, Weissenberg, batch, creep
+from probation.history import make_history
+
+TIME = np.linspace(0.0, 100.0, 201)
+STRAIN = 0.005 * TIME
+LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
+SETS = np.array([[3220.0, 5.2, 2.5], [3000.0, 6.0, 2.0], [3500.0, 4.0, 3.0]])
+
+
+@pytest.mark.parametrize("threads", [1, 2, 0])
+def test_a_batch_is_many_single_solves(threads):
+    history = make_history(TIME, STRAIN)
+    found = batch.stresses(LAW, SETS, history, "sa3", threads=threads)
+    assert_allclose(found, [LAW.with_parameters(one).stress(TIME, STRAIN, "sa3") for one in SETS], rtol=1e-14)
+
+
+def test_a_batch_writes_where_it_is_told():
+    out = np.empty((3, 201))
+    assert batch.stresses(LAW, SETS, make_history(TIME, STRAIN), out=out) is out
+
+
+def test_sums_of_squares_are_those_of_the_stresses():
+    history, data = make_history(TIME, STRAIN), 0.3 * TIME
+    records = [batch.Observed(history, data), batch.Observed(history, data, Change(load_bearing_area=0.9))]
+    found = batch.sums_of_squares(LAW, SETS, records)
+    stress = batch.stresses(LAW, SETS, history)
+    assert_allclose(found[:, 0], ((stress - data) ** 2).sum(axis=1), rtol=1e-12)
+    assert_allclose(found[:, 1], ((0.9 * stress - data) ** 2).sum(axis=1), rtol=1e-12)
+
+
+def test_normal_equations_are_those_of_the_sensitivities():
+    data = 0.3 * TIME
+    matrix, gradient, squares = batch.normal_equations(LAW, batch.Observed(make_history(TIME, STRAIN), data))
+    stress, sensitivity = LAW.sensitivity(TIME, STRAIN)
+    assert_allclose(matrix, sensitivity.T @ sensitivity, rtol=1e-10)
+    assert_allclose(gradient, sensitivity.T @ (stress - data), rtol=1e-9)
+    assert squares == pytest.approx(((stress - data) ** 2).sum(), rel=1e-12)
+
+
+def test_a_bad_set_of_parameters_is_named():
+    history = make_history(TIME, STRAIN)
+    with pytest.raises(probation.InputError, match="tau_max"):
+        batch.stresses(LAW, [[3220.0, -1.0, 2.5]], history)
+    with pytest.raises(probation.InputError, match=r"\(sets, 3\)"):
+        batch.stresses(LAW, [1.0, 2.0, 3.0], history)
+    with pytest.raises(probation.InputError, match=r"parameters\[1\]"):
+        batch.stresses(LAW, [[1.0, 1.0, 1.0], [1.0, np.nan, 1.0]], history)
+    with pytest.raises(probation.InputError, match="true_stress"):
+        batch.sums_of_squares(LAW, SETS, [batch.Observed(history, TIME[:-1])])
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        LAW,
+        Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=Weissenberg(0.00464, 0.0367)),
+        Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=PowerLaw(0.05, -0.9)),
+    ],
+    ids=["constant", "weissenberg", "power"],
+)
+def test_the_strain_of_creep_carries_the_stress(law):
+    """Loaded in 20 s, then held: bE2 run on the strain gives the stress back."""
+    time = np.linspace(0.0, 200.0, 401)
+    stress = np.minimum(time, 20.0)
+    strain = creep(law, time, stress, jumps=[20.0])
+    assert_allclose(law.stress(time, strain, jumps=[20.0]), stress, atol=1e-7)
+    assert np.all(np.diff(strain) > 0.0)
+
+
+def test_a_load_put_on_at_once_starts_elastic():
+    """e(0) = s / E_u."""
+    assert creep(LAW, TIME, np.full(201, 10.0))[0] == pytest.approx(10.0 / 3220.0, rel=1e-12)
+
+
+def test_creep_of_one_mode_without_hardening_is_maxwells():
+    """One mode, G = 0: e = (s / E_u) (1 + t / tau)."""
+    law = Law(unrelaxed_modulus=1000.0, tau_max=10.0, hardening_modulus=0.0, modes=1)
+    assert_allclose(creep(law, TIME, np.full(201, 5.0)), 5e-3 * (1.0 + TIME / 10.0), rtol=1e-9)
+
+
+def test_creep_refuses_what_it_cannot_do():
+    with pytest.raises(probation.InputError, match="unrelaxed_modulus"):
+        creep(Law(unrelaxed_modulus=0.0, tau_max=1.0, hardening_modulus=1.0), TIME, STRAIN)
+    with pytest.raises(probation.InputError, match="feedbacks"):
+        creep(LAW, TIME, STRAIN, change=Change(feedbacks=(probation.StressActivation(10.0),)))

@@ -1,0 +1,91 @@
+"""From measured strain to what drives the law."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from probation import Record
+from probation.excitation import excite
+from probation.excitation.segments import find_jumps
+
+
+def record(time, strain, control="displacement-rate", **more):
+    return Record("a", time, strain, np.zeros_like(time), control=control, **more)
+
+
+def jump_history(noise, seed=0):
+    """Rate 1e-3, ten times more from 100 s on; 2000 samples to 200 s."""
+    time = np.linspace(0.0, 200.0, 2001)
+    strain = np.where(time < 100.0, 1e-3 * time, 0.1 + 1e-2 * (time - 100.0))
+    return time, strain + noise * np.random.default_rng(seed).normal(size=time.size)
+
+
+@pytest.mark.parametrize("noise", [0.0, 2e-5, 1e-4])
+def test_a_commanded_jump_is_found_where_it_is(noise):
+    time, strain = jump_history(noise)
+    jumps = find_jumps(time, strain, noise)
+    assert len(jumps) == 1
+    assert abs(time[jumps[0]] - 100.0) <= 0.3
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_smooth_noisy_history_has_no_jumps(seed):
+    time = np.linspace(0.0, 200.0, 1501)
+    strain = 0.9 * (1.0 - np.cos(np.pi * time / 200.0)) + 1e-4 * np.random.default_rng(seed).normal(size=1501)
+    assert find_jumps(time, strain, 1e-4) == []
+
+
+def test_smoothing_recovers_the_rate_on_both_sides_of_a_jump():
+    """Noise 2e-5: three-point differences err by 70 % of the slow rate; 95 % of the spline's rates are within 2 %."""
+    time, strain = jump_history(2e-5)
+    found = excite(record(time, strain))
+    truth = np.where(time < found.time[found.jumps[0]], 1e-3, 1e-2)
+    error = np.abs(found.strain_rate / truth - 1.0)
+    assert np.quantile(error, 0.95) < 0.02
+    assert found.differentiator.startswith("cubic smoothing spline")
+
+
+def test_a_clean_history_is_left_alone():
+    time = np.linspace(0.0, 10.0, 101)
+    found = excite(record(time, 0.01 * time))
+    assert found.strain_rate is None
+    assert_allclose(found.true_strain, 0.01 * time)
+
+
+def test_a_given_rate_is_used():
+    time = np.linspace(0.0, 10.0, 101)
+    found = excite(record(time, 0.01 * time, strain_rate=np.full(101, 0.01)))
+    assert_allclose(found.strain_rate, 0.01)
+    assert found.differentiator == "rate given with the record"
+
+
+def test_loading_and_unloading_have_their_directions():
+    time = np.linspace(0.0, 20.0, 401)
+    strain = 0.01 * np.minimum(time, 20.0 - time)
+    found = excite(record(time, strain))
+    assert set(found.direction[:200]) == {1.0}
+    assert set(found.direction[200:]) == {-1.0}
+
+
+def test_a_smooth_reversal_has_no_single_direction():
+    time = np.linspace(0.0, 20.0, 401)
+    assert set(excite(record(time, 0.1 * np.sin(np.pi * time / 20.0))).direction) == {0.0}
+    assert set(excite(record(time, 0.01 * time, control="cyclic")).direction) == {0.0}
+
+
+def test_refining_keeps_the_samples_and_the_straight_lines():
+    time, strain = np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.2, 0.3])
+    time, strain = np.concatenate([time, 3 + np.arange(1.0, 9)]), np.concatenate([strain, 0.3 + 0.01 * np.arange(1, 9)])
+    fine = excite(record(time, strain), "raw").refined(4)
+    assert_allclose(fine.time[::4], time)
+    assert_allclose(fine.true_strain[::4], strain)
+    assert_allclose(fine.true_strain, np.interp(fine.time, time, strain), atol=1e-15)
+    assert len(fine.direction) == len(fine.time) - 1
+
+
+def test_refining_with_rates_follows_a_cubic_exactly():
+    """e = t^3 / 1000, e' = 3 t^2 / 1000 at the samples: the Hermite cubic is the history itself."""
+    time = np.linspace(0.0, 10.0, 21)
+    fine = excite(record(time, time**3 / 1000.0, strain_rate=3 * time**2 / 1000.0), "raw").refined(5)
+    assert_allclose(fine.true_strain, fine.time**3 / 1000.0, atol=1e-15)
+    assert_allclose(fine.strain_rate, 3 * fine.time**2 / 1000.0, atol=1e-14)
