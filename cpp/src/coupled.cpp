@@ -1,8 +1,10 @@
 #include "coupled.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <string>
+#include <sstream>
 
+#include "coupled_tangent.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
@@ -12,48 +14,44 @@ using Eigen::Index;
 constexpr int most_iterations = 50;
 constexpr double newton_tolerance = 1e-9;  // of the last correction, relative; Newton's error is its square
 
-Dual slope_at(double value) { return {value, 1.0}; }
+bool small(double correction, double stress) {
+  return std::abs(correction) <= newton_tolerance * (1e-3 + std::abs(stress));
+}
 
-/// e^-a and (1 - e^-a) / a with slopes.
-Dual decay_of(Dual a) { return exp(-a); }
+/// (1 - e^-a) / a with its slope.
 Dual mean_decay_of(Dual a) {
   const double decayed = std::exp(-a.value), mean = mean_decay(a.value, decayed);
   return {mean, 0.5 * (curvature_decay(a.value, mean) - mean) * a.slope};
 }
 
-kernels::Steps one_step(const StepForcing<double>& s, const double& ratio) {
-  return {s.rule,
-          1,
-          false,
-          &s.scale,
-          &ratio,
-          &s.forcing,
-          s.rule == StepRule::exponential ? &s.curvature : nullptr};
+template <class Real>
+StepForcing<double> values(const StepForcing<Real>& s) {
+  return {s.rule, value(s.scale), value(s.forcing), value(s.curvature)};
 }
 
-StepForcing<double> values(const StepForcing<Dual>& s) {
-  return {s.rule, s.scale.value, s.forcing.value, s.curvature.value};
+StepForcing<double> values(const RecordSteps<Dual>& steps, std::size_t i) {
+  return {steps.rule[i], steps.scale[i].value, steps.forcing[i].value, steps.curvature[i].value};
 }
 
-/// What a step's stress does when its inputs move: the trial's sums by the slopes of the inputs.
-double moved(const kernels::Trial& trial, const StepForcing<Dual>& s) {
-  return trial.by_log_scale * s.scale.slope / s.scale.value + trial.by_forcing * s.forcing.slope +
-         trial.by_curvature * s.curvature.slope;
+/// Samples of the law, one per instant (or per step), that feedbacks may change one by one.
+std::vector<Dual> spread(const std::vector<double>& samples, Index length) {
+  std::vector<Dual> all(static_cast<std::size_t>(length));
+  for (Index i = 0; i < length; ++i) all[static_cast<std::size_t>(i)] = at(samples, i);
+  return all;
+}
+
+void add(FeedbackShift<Dual>& total, const FeedbackShift<Dual>& shift) {
+  total.log_relaxation_time = total.log_relaxation_time + shift.log_relaxation_time;
+  total.log_hardening = total.log_hardening + shift.log_hardening;
+}
+
+/// Which parameter of feedback k moves along the direction.
+std::size_t moving_parameter(const Direction* direction, std::size_t k) {
+  const bool moves = direction && direction->feedback == static_cast<Index>(k);
+  return moves ? direction->feedback_parameter : Feedback::no_parameter;
 }
 
 }  // namespace
-
-/// The moving parts of one direction: everything that is kept from step to step, with its slope.
-struct CoupledSolver::Tangent {
-  const Direction* direction = nullptr;
-  RecordInputs<Dual> inputs;  // actual ones (shifts included) up to the current instant
-  std::vector<Dual> memory;
-  Dual stress;
-  Dual previous_scale, previous_forcing;
-  Eigen::ArrayXd state, before, log_inverse, weight;  // main modes, unit weight
-  Eigen::ArrayXd extra_state, extra_before, extra_log_inverse, extra_weight;
-  RecordSteps<Dual> extra_steps;
-};
 
 CoupledSolver::CoupledSolver(const Law& law, const LawChange& change, const History& history, Scheme scheme,
                              Start start, ModalGroup& main, ModalGroup& extra)
@@ -63,17 +61,14 @@ CoupledSolver::CoupledSolver(const Law& law, const LawChange& change, const Hist
       scheme_(scheme),
       start_(start),
       main_(main),
-      extra_(extra) {}
+      extra_(extra),
+      kernel_(kernels::best()),
+      total_weight_(law.spectrum.modal_weight.sum()) {}
 
 FeedbackShift<Dual> CoupledSolver::start_shift(Dual stress, const Direction* direction) const {
   FeedbackShift<Dual> total;
-  for (std::size_t k = 0; k < change_.feedbacks.size(); ++k) {
-    const bool moves = direction && direction->feedback == static_cast<Index>(k);
-    const auto shift = change_.feedbacks[k]->shift(
-        stress, Dual(0.0), moves ? direction->feedback_parameter : Feedback::no_parameter);
-    total.log_relaxation_time = total.log_relaxation_time + shift.log_relaxation_time;
-    total.log_hardening = total.log_hardening + shift.log_hardening;
-  }
+  for (std::size_t k = 0; k < change_.feedbacks.size(); ++k)
+    add(total, change_.feedbacks[k]->shift(stress, Dual(0.0), moving_parameter(direction, k)));
   return total;
 }
 
@@ -86,253 +81,156 @@ FeedbackShift<Dual> CoupledSolver::shift(Dual stress_next, Dual stress_here, Dua
   FeedbackShift<Dual> total;
   for (std::size_t k = 0; k < change_.feedbacks.size(); ++k) {
     const Feedback& feedback = *change_.feedbacks[k];
-    const bool moves = direction && direction->feedback == static_cast<Index>(k);
-    const std::size_t parameter = moves ? direction->feedback_parameter : Feedback::no_parameter;
+    const std::size_t parameter = moving_parameter(direction, k);
     const Dual loss = feedback.loss_rate(parameter) * h;
-    memory_next[k] = decay_of(loss) * memory[k] + mean_decay_of(loss) * work;
-    const auto shift = feedback.shift(stress_next, memory_next[k], parameter);
-    total.log_relaxation_time = total.log_relaxation_time + shift.log_relaxation_time;
-    total.log_hardening = total.log_hardening + shift.log_hardening;
+    memory_next[k] = exp(-loss) * memory[k] + mean_decay_of(loss) * work;
+    add(total, feedback.shift(stress_next, memory_next[k], parameter));
   }
   return total;
 }
 
 void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Direction>& directions,
                           Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix>* derivatives) {
-  const kernels::Kernels& kernel = kernels::best();
-  const Index n = history_.size(), modes = law_.spectrum.modes();
-  const double total_weight = law_.spectrum.modal_weight.sum();
-  const std::size_t feedbacks = change_.feedbacks.size();
   const Sampled area(change_.load_bearing_area, 1.0);
-  const bool given_start = change_.initial_modal_stress.size() > 0;
+  begin(base);
+  stress[0] = area[0] * stress_here_;
 
-  // Actual inputs: those of the law times what the feedbacks make of them, filled in as the pass goes on.
-  RecordInputs<Dual> in;
-  const auto spread = [](const std::vector<double>& from, Index length, std::vector<Dual>& to) {
-    to.resize(static_cast<std::size_t>(length));
-    for (Index i = 0; i < length; ++i) to[static_cast<std::size_t>(i)] = at(from, i);
-  };
-  spread(base.true_strain, n, in.true_strain);
-  spread(base.relaxed_stress, n, in.relaxed_stress);
-  spread(base.unrelaxed_modulus, static_cast<Index>(base.unrelaxed_modulus.size()), in.unrelaxed_modulus);
-  spread(base.fluidity_begin, n - 1, in.fluidity_begin);
-  spread(base.fluidity_end, n - 1, in.fluidity_end);
-  if (!base.end_rate.empty()) spread(base.end_rate, n - 1, in.end_rate);
-
-  // The start: s = sum of modal stresses, which for a relaxed start depends on s through the shift of the
-  // hardening.
-  const double base_relaxed = at(base.relaxed_stress, 0);
-  double s = given_start ? change_.initial_modal_stress.sum() : total_weight * base_relaxed;
-  FeedbackShift<Dual> begun = start_shift(slope_at(s), nullptr);
-  if (!given_start) {
-    for (int i = 0; i < most_iterations; ++i) {
-      const Dual relaxed = total_weight * base_relaxed * exp(begun.log_hardening);
-      const double correction = (relaxed.value - s) / (1.0 - relaxed.slope);
-      s += correction;
-      begun = start_shift(slope_at(s), nullptr);
-      if (std::abs(correction) <= newton_tolerance * (1e-3 + std::abs(s))) break;
-    }
-  }
-  const double start_relaxed = base_relaxed * std::exp(begun.log_hardening.value);
-  in.relaxed_stress[0] = start_relaxed;
-  in.fluidity_begin[0] = in.fluidity_begin[0] * std::exp(-begun.log_relaxation_time.value);
-  if (given_start)
-    main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * start_relaxed;
-  stress[0] = area[0] * s;
-
-  // Tangents run beside, in unit-weight states.
+  // Tangents run beside, in unit-weight states that the pass itself does not need.
   ModalGroup unit = main_, unit_extra = extra_;
-  Eigen::ArrayXd scratch(9 * std::max(main_.padded(), extra_.padded()));
-  std::vector<Tangent> tangents(directions.size());
-  RecordInputs<Dual> extra_in, extra_dual;
-  RecordSteps<Dual> extra_steps;
-  RecordInputs<Dual> plain_extra;
-  extra_inputs(in, plain_extra);
-  if (!extra_.empty()) form_steps(scheme_, start_, history_, plain_extra, extra_steps);
-  if (!directions.empty()) unit.to_unit_weight(given_start ? -start_relaxed : 0.0);
+  if (!directions.empty()) unit.to_unit_weight(given_start() ? -inputs_.relaxed_stress[0].value : 0.0);
+  std::vector<CoupledTangent> tangents;
+  tangents.reserve(directions.size());
+  const auto put = [&](std::size_t k, Index instant, double slope) {
+    const Sampled log_area(directions[k].log_load_bearing_area, 0.0);
+    (*derivatives)(instant, static_cast<Index>(k)) =
+        area[instant] * slope + stress[instant] * log_area[instant];
+  };
   for (std::size_t k = 0; k < directions.size(); ++k) {
-    Tangent& t = tangents[k];
-    const Direction& direction = directions[k];
-    t.direction = &direction;
-    form_inputs(law_, change_, history_, scheme_, base, direction, t.inputs);
-    for (auto* samples : {&t.inputs.fluidity_begin, &t.inputs.fluidity_end})
-      if (samples->size() == 1) samples->assign(static_cast<std::size_t>(n - 1), (*samples)[0]);
-    t.memory.assign(feedbacks, Dual(0.0));
-    t.before.setZero(unit.padded());
-    t.weight = unit.pad(direction.modal_weight);
-    t.log_inverse = -unit.pad(direction.log_relaxation_ratio);
-    t.extra_state.setZero(unit_extra.padded());
-    t.extra_before.setZero(unit_extra.padded());
-    t.extra_weight = unit_extra.pad(direction.extra_modulus);
-    t.extra_log_inverse = -unit_extra.pad(direction.log_extra_time);
-    if (!extra_.empty()) {
-      extra_inputs(t.inputs, extra_dual);
-      form_steps(scheme_, start_, history_, extra_dual, t.extra_steps);
-    }
-
-    // The start moves too: s and sigma^r(0) together.
-    const double d_weight = direction.modal_weight.sum();
-    const Dual fixed = start_shift(Dual(s), &direction).log_hardening;
-    const Dual explicit_relaxed = t.inputs.relaxed_stress[0] * exp(fixed);
-    double ds = direction.initial_modal_stress.sum();
-    if (!given_start)
-      ds = (ds + total_weight * explicit_relaxed.slope + d_weight * start_relaxed) /
-           (1.0 - total_weight * start_relaxed * begun.log_hardening.slope);
-    const FeedbackShift<Dual> started = start_shift({s, ds}, &direction);
-    t.stress = {s, ds};
-    t.inputs.relaxed_stress[0] = t.inputs.relaxed_stress[0] * exp(started.log_hardening);
-    t.inputs.fluidity_begin[0] = t.inputs.fluidity_begin[0] * exp(-started.log_relaxation_time);
-    unit.start_slope(change_, direction, start_relaxed, t.inputs.relaxed_stress[0].slope, t.state);
-    (*derivatives)(0, static_cast<Index>(k)) =
-        area[0] * ds + stress[0] * Sampled(direction.log_load_bearing_area, 0.0)[0];
+    tangents.emplace_back(*this, directions[k], unit);
+    put(k, 0, tangents[k].start_slope());
   }
 
-  std::vector<Dual> memory(feedbacks, Dual(0.0)), memory_next(feedbacks), tangent_memory(feedbacks);
-  Dual previous_scale, previous_forcing;
-  ModalGroup unit_before = unit, unit_extra_before = unit_extra;
-  Eigen::ArrayXd next_state(unit.padded()), next_before(unit.padded());
-  double s_here = s, s_change = 0.0;
+  Eigen::ArrayXd scratch(9 * std::max(main_.padded(), extra_.padded()));
   for (Index m = 0; m < history_.steps(); ++m) {
-    const auto i = static_cast<std::size_t>(m);
-    const double h = history_.step()[m], ratio = history_.ratio(m);
-    const double base_fluidity = at(base.fluidity_end, m), base_next = at(base.relaxed_stress, m + 1);
-    const Dual rise = in.true_strain[i + 1] - in.true_strain[i];
-    const Dual modulus = 0.5 * (at(in.unrelaxed_modulus, m) + at(in.unrelaxed_modulus, m + 1));
-
-    double extra_stress = 0.0;
-    StepForcing<double> extra_forcing{};
-    if (!extra_.empty()) {
-      extra_forcing = {extra_steps.rule[i], extra_steps.scale[i].value, extra_steps.forcing[i].value,
-                       extra_steps.curvature[i].value};
-      kernel.sweep(extra_.view(), one_step(extra_forcing, ratio), &extra_stress);
-    }
-
-    // Newton on the stress at the end of the step, from a straight continuation.
-    double next = s_here + (history_.fresh(m) ? 0.0 : s_change * ratio);
-    StepForcing<Dual> forcing;
-    kernels::Trial trial{};
-    Dual relaxed, residual;
-    bool converged = false;
-    for (int iteration = 0; iteration < most_iterations && !converged; ++iteration) {
-      const FeedbackShift<Dual> now =
-          shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
-      relaxed = base_next * exp(now.log_hardening);
-      in.relaxed_stress[i + 1] = relaxed;
-      in.fluidity_end[i] = base_fluidity * exp(-now.log_relaxation_time);
-      forcing = step_forcing(scheme_, start_, step_data(history_, in, m, previous_scale, previous_forcing));
-      const StepForcing<double> plain = values(forcing);
-      trial = kernel.trial(main_.view(), one_step(plain, ratio));
-      residual = {trial.stress + total_weight * relaxed.value + extra_stress - next,
-                  moved(trial, forcing) + total_weight * relaxed.slope - 1.0};
-      const double correction = -residual.value / residual.slope;
-      if (!std::isfinite(correction)) break;
-      converged = std::abs(correction) <= newton_tolerance * (1e-3 + std::abs(next));
-      next += correction;
-    }
-    if (!converged)
-      throw ConvergenceError("the feedback's stress did not converge at t = " +
-                                 std::to_string(history_.time()[m + 1]) + " s; a finer time grid may help",
-                             history_.time()[m + 1], std::abs(residual.value));
-
-    // Taken: everything once more at the converged stress (the last correction was below the tolerance), for
-    // good.
-    const FeedbackShift<Dual> now =
-        shift(slope_at(next), Dual(s_here), rise, modulus, h, memory, nullptr, memory_next);
-    relaxed = base_next * exp(now.log_hardening);
-    in.relaxed_stress[i + 1] = relaxed;
-    in.fluidity_end[i] = base_fluidity * exp(-now.log_relaxation_time);
-    forcing = step_forcing(scheme_, start_, step_data(history_, in, m, previous_scale, previous_forcing));
-    const StepForcing<double> plain = values(forcing);
-    if (!directions.empty()) trial = kernel.trial(main_.view(), one_step(plain, ratio));
-    const double by_stress = moved(trial, forcing) + total_weight * relaxed.slope - 1.0;
-    double modal = 0.0;
-    kernel.sweep(main_.view(), one_step(plain, ratio), &modal);
-    stress[m + 1] = area[m + 1] * (modal + total_weight * relaxed.value + extra_stress);
-
-    if (!directions.empty()) {
-      unit_before = unit;
-      unit_extra_before = unit_extra;
-    }
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-      Tangent& t = tangents[k];
-      const Dual d_rise = t.inputs.true_strain[i + 1] - t.inputs.true_strain[i];
-      const Dual d_modulus =
-          0.5 * (at(t.inputs.unrelaxed_modulus, m) + at(t.inputs.unrelaxed_modulus, m + 1));
-      const Dual law_relaxed = t.inputs.relaxed_stress[i + 1], law_fluidity = t.inputs.fluidity_end[i];
-      double extra_slope = 0.0;
-      if (!extra_.empty()) {
-        unit_extra = unit_extra_before;
-        double unused = 0.0;
-        const double du = t.extra_steps.forcing[i].slope, dv = t.extra_steps.curvature[i].slope;
-        const kernels::TangentDirection view{
-            &du,
-            &dv,
-            nullptr,
-            t.extra_log_inverse.size() ? t.extra_log_inverse.data() : nullptr,
-            t.extra_weight.size() ? t.extra_weight.data() : nullptr,
-            t.extra_state.data(),
-            t.extra_before.data(),
-            &extra_slope};
-        kernel.tangent(unit_extra.view(), one_step(extra_forcing, ratio), &unused, &view, 1, scratch.data());
-      }
-
-      // One pass with the stress held gives its slope (implicit function theorem); the second takes the step.
-      const auto pass = [&](double ds, bool take) {
-        const FeedbackShift<Dual> moving =
-            shift({next, ds}, t.stress, d_rise, d_modulus, h, t.memory, t.direction, tangent_memory);
-        t.inputs.relaxed_stress[i + 1] = law_relaxed * exp(moving.log_hardening);
-        t.inputs.fluidity_end[i] = law_fluidity * exp(-moving.log_relaxation_time);
-        const StepForcing<Dual> f = step_forcing(
-            scheme_, start_, step_data(history_, t.inputs, m, t.previous_scale, t.previous_forcing));
-        unit = unit_before;
-        next_state = t.state;
-        next_before = t.before;
-        const double du = f.forcing.slope, dv = f.curvature.slope, dx = f.scale.slope / f.scale.value;
-        double unused = 0.0, slope = 0.0;
-        const kernels::TangentDirection view{&du,
-                                             &dv,
-                                             &dx,
-                                             t.log_inverse.size() ? t.log_inverse.data() : nullptr,
-                                             t.weight.size() ? t.weight.data() : nullptr,
-                                             next_state.data(),
-                                             next_before.data(),
-                                             &slope};
-        kernel.tangent(unit.view(), one_step(plain, ratio), &unused, &view, 1, scratch.data());
-        if (take) {
-          t.state = next_state;
-          t.before = next_before;
-          t.previous_scale = f.scale;
-          t.previous_forcing = f.forcing;
-          t.memory = tangent_memory;
-          if (m + 1 < history_.steps())
-            t.inputs.fluidity_begin[i + 1] =
-                t.inputs.fluidity_begin[i + 1] * exp(-moving.log_relaxation_time);
-        }
-        return slope + total_weight * t.inputs.relaxed_stress[i + 1].slope +
-               t.direction->modal_weight.sum() * t.inputs.relaxed_stress[i + 1].value + extra_slope;
-      };
-      const double ds = -pass(0.0, false) / by_stress;
-      pass(ds, true);
-      t.stress = {next, ds};
-      (*derivatives)(m + 1, static_cast<Index>(k)) =
-          area[m + 1] * ds + stress[m + 1] * Sampled(t.direction->log_load_bearing_area, 0.0)[m + 1];
-    }
-    if (!directions.empty() && !extra_.empty()) {
+    const Step step = solve_step(m);
+    stress[m + 1] = area[m + 1] * step.stress;
+    for (std::size_t k = 0; k < tangents.size(); ++k)
+      put(k, m + 1, tangents[k].take(step, unit, unit_extra, scratch));
+    if (!tangents.empty()) {
       double unused = 0.0;
-      unit_extra = unit_extra_before;
-      kernel.tangent(unit_extra.view(), one_step(extra_forcing, ratio), &unused, nullptr, 0, scratch.data());
+      kernel_.tangent(unit.view(), one_step(step.forcing, step.ratio), &unused, nullptr, 0, scratch.data());
+      if (!extra_.empty())
+        kernel_.tangent(unit_extra.view(), one_step(step.extra, step.ratio), &unused, nullptr, 0,
+                        scratch.data());
     }
-
-    for (std::size_t k = 0; k < feedbacks; ++k) memory[k] = memory_next[k].value;
-    in.relaxed_stress[i + 1] = relaxed.value;
-    in.fluidity_end[i] = in.fluidity_end[i].value;
-    if (m + 1 < history_.steps())
-      in.fluidity_begin[i + 1] = in.fluidity_begin[i + 1] * std::exp(-now.log_relaxation_time.value);
-    previous_scale = forcing.scale.value;
-    previous_forcing = forcing.forcing.value;
-    s_change = next - s_here;
-    s_here = next;
+    take(step);
   }
+}
+
+void CoupledSolver::begin(const RecordInputs<double>& base) {
+  const Index n = history_.size(), modes = law_.spectrum.modes();
+  base_ = &base;
+  inputs_.true_strain = spread(base.true_strain, n);
+  inputs_.relaxed_stress = spread(base.relaxed_stress, n);
+  inputs_.unrelaxed_modulus =
+      spread(base.unrelaxed_modulus, static_cast<Index>(base.unrelaxed_modulus.size()));
+  inputs_.fluidity_begin = spread(base.fluidity_begin, n - 1);
+  inputs_.fluidity_end = spread(base.fluidity_end, n - 1);
+  if (!base.end_rate.empty()) inputs_.end_rate = spread(base.end_rate, n - 1);
+  if (!extra_.empty()) {
+    RecordInputs<Dual> extra;
+    extra_inputs(inputs_, extra);
+    form_steps(scheme_, start_, history_, extra, extra_steps_);
+  }
+  memory_.assign(change_.feedbacks.size(), Dual(0.0));
+  memory_next_ = memory_;
+
+  // s = sum of the modal stresses; for a relaxed start it depends on s through the shift of the hardening.
+  const double base_relaxed = at(base.relaxed_stress, 0);
+  double s = given_start() ? change_.initial_modal_stress.sum() : total_weight_ * base_relaxed;
+  begun_ = start_shift({s, 1.0}, nullptr);
+  for (int i = 0; i < most_iterations && !given_start(); ++i) {
+    const Dual relaxed = total_weight_ * base_relaxed * exp(begun_.log_hardening);
+    const double correction = (relaxed.value - s) / (1.0 - relaxed.slope);
+    s += correction;
+    begun_ = start_shift({s, 1.0}, nullptr);
+    if (small(correction, s)) break;
+  }
+  const double relaxed = base_relaxed * std::exp(begun_.log_hardening.value);
+  inputs_.relaxed_stress[0] = relaxed;
+  inputs_.fluidity_begin[0] = inputs_.fluidity_begin[0] * std::exp(-begun_.log_relaxation_time.value);
+  if (given_start())
+    main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * relaxed;
+  stress_here_ = s;
+}
+
+Dual CoupledSolver::residual(Index m, double stress, double extra_stress, StepForcing<Dual>& forcing,
+                             FeedbackShift<Dual>& now) {
+  const auto i = static_cast<std::size_t>(m);
+  const Dual rise = inputs_.true_strain[i + 1] - inputs_.true_strain[i];
+  const Dual modulus = 0.5 * (at(inputs_.unrelaxed_modulus, m) + at(inputs_.unrelaxed_modulus, m + 1));
+  now = shift({stress, 1.0}, stress_here_, rise, modulus, history_.step()[m], memory_, nullptr, memory_next_);
+  const Dual relaxed = at(base_->relaxed_stress, m + 1) * exp(now.log_hardening);
+  inputs_.relaxed_stress[i + 1] = relaxed;
+  inputs_.fluidity_end[i] = at(base_->fluidity_end, m) * exp(-now.log_relaxation_time);
+  forcing =
+      step_forcing(scheme_, start_, step_data(history_, inputs_, m, previous_scale_, previous_forcing_));
+  const StepForcing<double> plain = values(forcing);
+  const double ratio = history_.ratio(m);
+  const kernels::Trial trial = kernel_.trial(main_.view(), one_step(plain, ratio));
+  return {trial.stress + total_weight_ * relaxed.value + extra_stress - stress,
+          trial.by_log_scale * forcing.scale.slope / forcing.scale.value +
+              trial.by_forcing * forcing.forcing.slope + trial.by_curvature * forcing.curvature.slope +
+              total_weight_ * relaxed.slope - 1.0};
+}
+
+CoupledSolver::Step CoupledSolver::solve_step(Index m) {
+  Step step{};
+  step.m = m;
+  step.ratio = history_.ratio(m);
+  if (!extra_.empty()) {
+    step.extra = values(extra_steps_, static_cast<std::size_t>(m));
+    kernel_.sweep(extra_.view(), one_step(step.extra, step.ratio), &step.extra_stress);
+  }
+  // Newton on the stress at the end of the step, from a straight continuation. The last evaluation is at the
+  // converged stress, so that the step's inputs are those of the solution.
+  step.stress = stress_here_ + (history_.fresh(m) ? 0.0 : stress_change_ * step.ratio);
+  StepForcing<Dual> forcing;
+  bool converged = false;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Dual found = residual(m, step.stress, step.extra_stress, forcing, step.shift);
+    step.by_stress = found.slope;
+    if (converged) {
+      step.forcing = values(forcing);
+      return step;
+    }
+    const double correction = -found.value / found.slope;
+    if (!std::isfinite(correction)) break;
+    converged = small(correction, step.stress);
+    step.stress += correction;
+  }
+  std::ostringstream message;
+  message << "the feedback's stress did not converge at t = " << history_.time()[m + 1]
+          << " s; a finer time grid may help";
+  throw ConvergenceError(message.str(), history_.time()[m + 1],
+                         std::abs(residual(m, step.stress, step.extra_stress, forcing, step.shift).value));
+}
+
+void CoupledSolver::take(const Step& step) {
+  const auto i = static_cast<std::size_t>(step.m);
+  double unused = 0.0;
+  kernel_.sweep(main_.view(), one_step(step.forcing, step.ratio), &unused);
+  memory_.swap(memory_next_);
+  for (Dual& memory : memory_) memory.slope = 0.0;
+  inputs_.relaxed_stress[i + 1].slope = 0.0;
+  inputs_.fluidity_end[i].slope = 0.0;
+  if (step.m + 1 < history_.steps())
+    inputs_.fluidity_begin[i + 1] =
+        inputs_.fluidity_begin[i + 1] * std::exp(-step.shift.log_relaxation_time.value);
+  previous_scale_ = step.forcing.scale;
+  previous_forcing_ = step.forcing.forcing;
+  stress_change_ = step.stress - stress_here_;
+  stress_here_ = step.stress;
 }
 
 }  // namespace probation

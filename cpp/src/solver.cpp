@@ -92,7 +92,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   if (stress.size() != history_.size())
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
                      std::to_string(history_.size()) + " are needed");
-  const std::lock_guard<std::mutex> alone(work_->busy);
+  const std::lock_guard<std::mutex> lock(work_->busy);
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -193,7 +193,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   if (options_.scheme == Scheme::exact || options_.scheme == Scheme::cvode)
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
   Workspace& w = *work_;
-  const std::lock_guard<std::mutex> alone(w.busy);
+  const std::lock_guard<std::mutex> lock(w.busy);
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions)
     direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
