@@ -89,3 +89,13 @@ def test_refining_with_rates_follows_a_cubic_exactly():
     fine = excite(record(time, time**3 / 1000.0, strain_rate=3 * time**2 / 1000.0), "raw").refined(5)
     assert_allclose(fine.true_strain, fine.time**3 / 1000.0, atol=1e-15)
     assert_allclose(fine.strain_rate, 3 * fine.time**2 / 1000.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("samples", [101, 1001, 8001])
+def test_a_noisy_ramp_is_smoothed_to_a_straight_line(samples):
+    """Six degrees of freedom or so are left of the noise: sqrt(6 / n) of it, three times that at the ends."""
+    time = np.linspace(0.0, 400.0, samples)
+    noise = 1e-4 * np.random.default_rng(2).normal(size=samples)
+    found = excite(record(time, 0.005 * time + noise), "spline")
+    assert np.sqrt(np.mean((found.true_strain - 0.005 * time) ** 2)) < 3e-4 * np.sqrt(6.0 / samples)
+    assert np.quantile(np.abs(found.strain_rate / 0.005 - 1.0), 0.95) < 0.01

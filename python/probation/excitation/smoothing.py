@@ -18,6 +18,12 @@ SHORTEST_SEGMENT = 6
 COARSE = 15
 """Points of the coarse search for the smoothness."""
 
+STIFFEST = 1e10
+"""Largest penalty: beyond it the equations lose their digits, and a few degrees of freedom cost nothing."""
+
+FEW = 1500
+"""Samples that the coarse search looks at, at most."""
+
 PRUDENCE = 1.4
 """Each degree of freedom counts this often in the cross-validation, which otherwise follows the noise now and then."""
 
@@ -67,26 +73,34 @@ def _smooth(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def _smoothness(time: FloatArray, values: FloatArray) -> float:
-    """The penalty that generalised cross-validation (Craven & Wahba 1979) prefers; unit mean spacing.
+    """The penalty that generalised cross-validation (Craven & Wahba 1979) prefers; unit mean spacing."""
+    stride = -(-len(time) // FEW)
+    coarse = _Score(time[::stride] / stride, values[::stride])
+    # The same curve on every k-th sample, in units of k samples, has its penalty divided by k^4.
+    grid = np.linspace(np.log(1e-2), np.log(min(float(len(time)) ** 4, STIFFEST)), COARSE)
+    scores = [coarse(point - 4.0 * np.log(stride)) for point in grid]
+    best = int(np.argmin(scores))
+    ends = (grid[max(best - 1, 0)], grid[min(best + 1, COARSE - 1)])
+    found = minimize_scalar(_Score(time, values), bounds=ends, method="bounded", options={"xatol": 0.1})
+    return float(np.exp(found.x))
+
+
+class _Score:
+    """Generalised cross-validation of a smoothing spline, as a function of the logarithm of its penalty.
 
     The degrees of freedom come from the spectrum of the cubic smoothing spline on an even grid, whose k-th penalty is
     (pi (k - 3/2) / n)^4.
     """
-    count = len(time)
-    penalties = (np.pi * (np.arange(2, count) - 0.5) / count) ** 4
 
-    def score(log_penalty: float) -> float:
+    def __init__(self, time: FloatArray, values: FloatArray) -> None:
+        self.time, self.values = time, values
+        self.penalties = (np.pi * (np.arange(2, len(time)) - 0.5) / len(time)) ** 4
+
+    def __call__(self, log_penalty: float) -> float:
         penalty = float(np.exp(log_penalty))
-        freedom = 2.0 + float(np.sum(1.0 / (1.0 + penalty * penalties)))
-        left = 1.0 - PRUDENCE * freedom / count
+        freedom = 2.0 + float(np.sum(1.0 / (1.0 + penalty * self.penalties)))
+        left = 1.0 - PRUDENCE * freedom / len(self.time)
         if left <= 0.0:
             return np.inf
-        residual = values - make_smoothing_spline(time, values, lam=penalty)(time)
+        residual = self.values - make_smoothing_spline(self.time, self.values, lam=penalty)(self.time)
         return float(np.mean(residual**2)) / left**2
-
-    grid = np.linspace(np.log(1e-2), np.log(float(count) ** 4), COARSE)
-    scores = [score(point) for point in grid]
-    best = int(np.argmin(scores))
-    ends = (grid[max(best - 1, 0)], grid[min(best + 1, COARSE - 1)])
-    found = minimize_scalar(score, bounds=ends, method="bounded", options={"xatol": 0.1})
-    return float(np.exp(found.x if found.fun < scores[best] else grid[best]))

@@ -133,9 +133,12 @@ def _bandwidth(residual: FloatArray) -> int:
 
 
 def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:
-    """Long-run covariance of the scores, Bartlett weights."""
-    total: FloatArray = scores.T @ scores
-    for lag in range(1, bandwidth + 1):
-        cross = scores[lag:].T @ scores[:-lag]
-        total = total + (1.0 - lag / (bandwidth + 1.0)) * (cross + cross.T)
-    return total
+    """Long-run covariance of the scores, Bartlett weights; all lags at once by Fourier transform."""
+    count = len(scores)
+    spectrum = np.fft.rfft(scores, 2 * count, axis=0)
+    # lagged[k, a, b] = sum over i of scores[i, a] scores[i + k, b]
+    lagged = np.fft.irfft(spectrum.conj()[:, :, None] * spectrum[:, None, :], 2 * count, axis=0)
+    lags = np.arange(1, bandwidth + 1)
+    weights = 1.0 - lags / (bandwidth + 1.0)
+    cross = np.tensordot(weights, lagged[lags], axes=1)
+    return np.asarray(lagged[0] + cross + cross.T, dtype=np.float64)
