@@ -216,7 +216,14 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool constant = inputs.fluidity_end.size() == 1;
     Eigen::ArrayXd scratch(9 * group.padded());
     std::vector<kernels::TangentDirection> views;
+    const bool coupled =
+        std::any_of(tangents.begin(), tangents.end(), [](const TangentState& t) { return !t.linear(); });
+    if (!coupled) group.state *= group.weight;
     for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+      if (!coupled) {
+        kernel.sweep(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1);
+        return;
+      }
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));
