@@ -206,7 +206,6 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   const kernels::Kernels& kernel = kernels::best();
   const double relaxed_start = w.inputs.relaxed_stress[0];
   stress.setZero();
-  derivatives.setZero();
   stress[0] = w.main.state.sum();
   w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
 

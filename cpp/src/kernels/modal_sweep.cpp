@@ -23,15 +23,17 @@ struct Block {
   Vector previous[K], earlier[K], forcing[K], curvature[K];
 };
 
-template <class Step>
-PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
-                                                   double ratio) {
-  StepCoefficients<Vector> c =
-      Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
-  const Vector weight = load(modes.weight + at);
+PROBATION_INLINE StepCoefficients<Vector> weighted(StepCoefficients<Vector> c, Vector weight) {
   c.forcing *= weight;
   c.curvature *= weight;
   return c;
+}
+
+template <class Step>
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
+                                                   double ratio) {
+  return weighted(Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio),
+                  load(modes.weight + at));
 }
 
 template <class Step, bool two_step, bool curved, int K>
@@ -213,10 +215,10 @@ void tangent_run(const Modes& modes, const Steps& steps, double* stress, const T
   }
 }
 
-/// K vectors of modes and of their slopes where only the time scale moves; states of unit weight.
+/// K vectors of modes and of their slopes where only the time scale moves; weights included, as in Block.
 template <int K>
 struct TangentBlock {
-  Vector state[K], before[K], slope[K], slope_before[K], weight[K];
+  Vector state[K], before[K], slope[K], slope_before[K];
   StepCoefficients<Vector> c[K], by_log_scale[K];
 };
 
@@ -245,8 +247,8 @@ PROBATION_INLINE StressAndSlope advance(TangentBlock<K>& b, double u, double v, 
     }
     b.state[k] = next;
     b.slope[k] = change;
-    total.stress += b.weight[k] * next;
-    total.slope += b.weight[k] * change;
+    total.stress += next;
+    total.slope += change;
   }
   return total;
 }
@@ -258,13 +260,13 @@ void time_tangent_block(const Modes& modes, const Steps& steps, int at, double* 
   for (int k = 0; k < K; ++k) {
     const std::ptrdiff_t j = at + k * lanes;
     const Vector x = load(modes.inverse_ratio + j) * steps.scale[0];
-    b.c[k] = Step::template coefficients<Vector>(x, steps.ratio[0]);
-    b.by_log_scale[k] = Step::template log_slopes<Vector>(x, steps.ratio[0]);
-    b.weight[k] = load(modes.weight + j);
-    b.state[k] = load(modes.state + j);
-    b.before[k] = load(modes.before + j);
-    b.slope[k] = load(d.state + j);
-    b.slope_before[k] = load(d.before + j);
+    const Vector weight = load(modes.weight + j);
+    b.c[k] = weighted(Step::template coefficients<Vector>(x, steps.ratio[0]), weight);
+    b.by_log_scale[k] = weighted(Step::template log_slopes<Vector>(x, steps.ratio[0]), weight);
+    b.state[k] = load(modes.state + j) * weight;
+    b.before[k] = load(modes.before + j) * weight;
+    b.slope[k] = load(d.state + j) * weight;
+    b.slope_before[k] = load(d.before + j) * weight;
   }
   const auto step = [&](int n) {
     return advance<two_step, curved>(b, steps.forcing[n], curved ? steps.curvature[n] : 0.0, d.log_scale[n]);
@@ -286,11 +288,14 @@ void time_tangent_block(const Modes& modes, const Steps& steps, int at, double* 
   }
   for (int k = 0; k < K; ++k) {
     const std::ptrdiff_t j = at + k * lanes;
-    store(modes.state + j, b.state[k]);
-    store(d.state + j, b.slope[k]);
+    const Vector weight = load(modes.weight + j);
+    // A mode of weight zero is nobody's: no direction here has weights of its own.
+    const auto put = [&](double* to, Vector z) { store(to + j, weight == 0.0 ? Vector{} : z / weight); };
+    put(modes.state, b.state[k]);
+    put(d.state, b.slope[k]);
     if constexpr (two_step) {
-      store(modes.before + j, b.before[k]);
-      store(d.before + j, b.slope_before[k]);
+      put(modes.before, b.before[k]);
+      put(d.before, b.slope_before[k]);
     }
   }
 }
