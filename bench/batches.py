@@ -5,13 +5,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-import probation
 from bench import cases
 from bench.forward import row
 from bench.python import engine
 from bench.rows import Findings, Progress
 from bench.timing import take_turns
-from probation import _core
+from probation import _core, batch
+from probation.history import make_history
 
 SOLVES = 10_000
 
@@ -23,16 +23,7 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     spread = np.random.default_rng(4).uniform(0.8, 1.25, (SOLVES, 3))
     parameters = engine.law_of(case).parameters * spread
     progress(f"{SOLVES} solves")
-    calls: dict[str, Callable[[], object]] = {"one by one": _one_by_one(case, parameters)}
-    if not hasattr(probation, "batch"):
-        found.skipped.append("the batch of 10^4 solves: this build has no probation.batch")
-    else:
-        try:
-            calls["batch"] = _batch(case, parameters)
-            calls["batch"]()
-        except (AttributeError, TypeError) as error:
-            calls.pop("batch", None)
-            found.skipped.append(f"the batch of 10^4 solves: bench/batches.py does not know how to call it ({error})")
+    calls = {"one by one": _one_by_one(case, parameters), "batch": _batch(case, parameters)}
     # Processor time of all threads.
     for key, timing in take_turns(calls, 3, clock=time.process_time_ns).items():
         label = f"engine bE2, {SOLVES} solves {'as a batch' if key == 'batch' else key}"
@@ -54,4 +45,5 @@ def _one_by_one(case: cases.Case, parameters: np.ndarray) -> Callable[[], object
 def _batch(case: cases.Case, parameters: np.ndarray) -> Callable[[], object]:
     """Into an output that is used again: first touch of a new one costs more than computing it."""
     law, out = engine.law_of(case), np.empty((len(parameters), len(case.time)))
-    return lambda: probation.batch.stress(law, parameters, case.time, case.true_strain, scheme="be2", out=out)
+    history = make_history(case.time, case.true_strain)
+    return lambda: batch.stresses(law, parameters, history, "be2", out=out)

@@ -7,6 +7,8 @@ import subprocess
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from probation import _core
+
 ROOT = Path(__file__).resolve().parent.parent
 
 PACKAGES = ("probation", "numpy", "scipy", "numba", "scikit-sundae", "pybind11")
@@ -35,11 +37,9 @@ def cpu() -> str:
 
 
 def kernels() -> str:
-    """Which build of the kernels the engine chooses here: by the same rule as its dispatch.cpp."""
-    if os.environ.get("PROBATION_KERNELS") == "baseline":
-        return "baseline (forced)"
-    flags = _cpu_fields().get("flags", "").split()
-    return "v3" if {"avx2", "fma"} <= set(flags) else "baseline"
+    """Which build of the kernels the engine chose here."""
+    forced = " (forced)" if os.environ.get("PROBATION_KERNELS") == "baseline" else ""
+    return f"{_core.kernel_build()}{forced}"
 
 
 def _cpu_fields() -> dict[str, str]:

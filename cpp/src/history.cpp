@@ -53,7 +53,8 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
   for (Index m = 0; m < steps() && !increasing; ++m)
     require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
   haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
-  for (Index i = 0; i < n; ++i)
+  const bool stretched = haward_thackray_strain_.allFinite();
+  for (Index i = 0; i < n && !stretched; ++i)
     require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i],
             "its stretch is beyond all numbers: is it a strain?");
 
@@ -89,6 +90,12 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   const Eigen::ArrayXd secant =
       (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
   const auto change = [&](Index i) { return std::abs(secant[i] - secant[i - 1]); };
+  const auto large = [&](Index i) {
+    return change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1]));
+  };
+  Index first = 1;
+  while (first + 1 < n && !large(first)) ++first;
+  if (first + 1 >= n) return jumps;
   // Rounded strains change their secant by one quantum again and again: a jump stands out from what is not
   // rare, too.
   double common = 0.0;
@@ -101,9 +108,8 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
     std::nth_element(changes.begin(), tail, changes.end());
     common = *tail;
   }
-  for (Index i = 1; i + 1 < n; ++i) {
-    if (change(i) < 3.0 * common) continue;
-    if (!(change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1])))) continue;
+  for (Index i = first; i + 1 < n; ++i) {
+    if (change(i) < 3.0 * common || !large(i)) continue;
     // The third largest change around: one neighbouring jump (which may take two samples) must not hide this
     // one.
     std::vector<double> around;

@@ -206,7 +206,6 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   const kernels::Kernels& kernel = kernels::best();
   const double relaxed_start = w.inputs.relaxed_stress[0];
   stress.setZero();
-  derivatives.setZero();
   stress[0] = w.main.state.sum();
   w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
 
@@ -216,7 +215,14 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool constant = inputs.fluidity_end.size() == 1;
     Eigen::ArrayXd scratch(9 * group.padded());
     std::vector<kernels::TangentDirection> views;
+    const bool coupled =
+        std::any_of(tangents.begin(), tangents.end(), [](const TangentState& t) { return !t.linear(); });
+    if (!coupled) group.state *= group.weight;
     for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+      if (!coupled) {
+        kernel.sweep(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1);
+        return;
+      }
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));

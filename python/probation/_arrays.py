@@ -34,8 +34,8 @@ def as_samples(values: ArrayLike, name: str, length: int | None = None) -> Float
         raise
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name} is not an array of numbers: {error}") from None
-    if samples.ndim != 1 or np.ndim(values) == 0:
-        raise InputError(f"{name} has the shape {np.shape(values)}; expected (n_times,)")
+    if samples.ndim != 1 or given.ndim == 0:
+        raise InputError(f"{name} has the shape {given.shape}; expected (n_times,)")
     if length is not None and len(samples) != length:
         raise InputError(f"{name} has {len(samples)} samples; expected {length}, as in time")
     if not np.isfinite(samples).all():

@@ -9,7 +9,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, as_output, as_samples, one_of
-from probation.change import Change, as_change
+from probation.change import Change, engine_change
 from probation.errors import InputError
 from probation.law import SCHEMES, Law, Scheme, Start, make_solver
 
@@ -73,8 +73,7 @@ def stresses(
     """
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(history)))
-    engine_change = as_change(change)._engine()
-    _core.batch_stress(law.engine, sets, history, engine_change, _options(scheme, start), threads, found)
+    _core.batch_stress(law.engine, sets, history, engine_change(change), _options(scheme, start), threads, found)
     return found
 
 

@@ -153,8 +153,8 @@ def _combined(rule: np.ufunc, mine: ArrayLike, theirs: ArrayLike, name: str) -> 
     return np.asarray(rule(one, other), dtype=np.float64)
 
 
-def as_change(change: Change | None) -> Change:
-    """`change`, or none at all.
+def engine_change(change: Change | None) -> _core.LawChange:
+    """`change` as the engine takes it; no change is one object for all.
 
     Raises
     ------
@@ -165,10 +165,10 @@ def as_change(change: Change | None) -> Change:
         return _NONE
     if not isinstance(change, Change):
         raise InputError(f"change is {change!r}; a Change is needed")
-    return change
+    return change._engine()
 
 
-_NONE = Change()
+_NONE = Change()._engine()
 
 
 def _samples(values: ArrayLike, name: str) -> FloatArray:

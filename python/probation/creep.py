@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation import _core
 from probation._arrays import FloatArray, as_samples, one_of
-from probation.change import Change, as_change
+from probation.change import Change, engine_change
 from probation.history import Jumps, jump_indices
 
 if TYPE_CHECKING:
@@ -59,4 +59,4 @@ def creep(
     stress = as_samples(true_stress, "true_stress", len(times))
     rule = getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler")))
     at = jump_indices(jumps, times, stress)
-    return _core.creep_strain(law.engine, as_change(change)._engine(), times, stress, at, rule)
+    return _core.creep_strain(law.engine, engine_change(change), times, stress, at, rule)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, as_number, as_output, as_samples, as_whole_number, one_of
-from probation.change import Change, Direction, as_change
+from probation.change import Change, Direction, engine_change
 from probation.companion import Companion
 from probation.errors import InputError
 from probation.history import Jumps, make_history
@@ -50,13 +51,12 @@ class Spectrum:
             samples = as_samples(getattr(self, name), name).copy()
             samples.flags.writeable = False
             object.__setattr__(self, name, samples)
-        self._engine()
+        object.__setattr__(self, "_built", _core.Spectrum(self.relaxation_ratio, self.modal_weight))
 
     @classmethod
     def log_spaced(cls, modes: int = 50, decades: float = 6.0) -> Spectrum:
         """The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5)."""
-        engine = _core.Spectrum.log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
-        return cls(engine.relaxation_ratio, engine.modal_weight)
+        return _log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Spectrum):
@@ -73,7 +73,14 @@ class Spectrum:
         return self.relaxation_ratio.tobytes(), self.modal_weight.tobytes()
 
     def _engine(self) -> _core.Spectrum:
-        return _core.Spectrum(self.relaxation_ratio, self.modal_weight)
+        built: _core.Spectrum = self.__dict__["_built"]
+        return built
+
+
+@lru_cache(maxsize=16)  # of immutable values: most laws have the same modes
+def _log_spaced(modes: int, decades: float) -> Spectrum:
+    engine = _core.Spectrum.log_spaced(modes, decades)
+    return Spectrum(engine.relaxation_ratio, engine.modal_weight)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -276,7 +283,7 @@ class Law:
             max_steps=max_steps,
         )
         stress = as_output(out, (len(solver.history),))
-        solver.stress(self.engine, as_change(change)._engine(), stress)
+        solver.stress(self.engine, engine_change(change), stress)
         return stress
 
     def sensitivity(
@@ -309,14 +316,14 @@ class Law:
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
         )
-        engine_change = as_change(change)._engine()
+        changed = engine_change(change)
         if directions is None:
-            engine_directions = _core.parameter_directions(self.engine, engine_change, solver.history)
+            engine_directions = _core.parameter_directions(self.engine, changed, solver.history)
         else:
             engine_directions = [each._engine() for each in directions]
         stress = np.empty(len(solver.history))
         sensitivity = np.empty((len(stress), len(engine_directions)))
-        solver.tangent(self.engine, engine_change, engine_directions, stress, sensitivity)
+        solver.tangent(self.engine, changed, engine_directions, stress, sensitivity)
         return stress, sensitivity
 
     def strain_sensitivity(
@@ -344,7 +351,7 @@ class Law:
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
         )
-        return solver.strain_sensitivity(self.engine, as_change(change)._engine())
+        return solver.strain_sensitivity(self.engine, engine_change(change))
 
 
 def make_solver(

@@ -8,7 +8,13 @@
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-constexpr int largest_block = 7;  // vectors of four modes whose states fit the registers
+// Vectors of four modes whose states fit the registers: of a sweep, and of a tangent with it.
+constexpr int largest_block = 7, largest_tangent_block = 3;
+
+template <int K>
+struct Size {
+  static constexpr int value = K;
+};
 
 /// K vectors of modes, their coefficients fixed over the run.
 template <int K>
@@ -17,15 +23,17 @@ struct Block {
   Vector previous[K], earlier[K], forcing[K], curvature[K];
 };
 
-template <class Step>
-PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
-                                                   double ratio) {
-  StepCoefficients<Vector> c =
-      Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio);
-  const Vector weight = load(modes.weight + at);
+PROBATION_INLINE StepCoefficients<Vector> weighted(StepCoefficients<Vector> c, Vector weight) {
   c.forcing *= weight;
   c.curvature *= weight;
   return c;
+}
+
+template <class Step>
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
+                                                   double ratio) {
+  return weighted(Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio),
+                  load(modes.weight + at));
 }
 
 template <class Step, bool two_step, bool curved, int K>
@@ -76,48 +84,18 @@ void uniform_block(const Modes& modes, const Steps& steps, int at, double* stres
   }
 }
 
+/// Calls body(Size<K>, at) for blocks of K vectors of modes, then for ever smaller ones of what is left.
+template <int K, class Body>
+PROBATION_INLINE void in_blocks(const Modes& modes, int at, Body body) {
+  for (; modes.padded - at >= K * lanes; at += K * lanes) body(Size<K>{}, at);
+  if constexpr (K > 1) in_blocks<K - 1>(modes, at, body);
+}
+
 template <class Step, bool two_step, bool curved>
 void uniform_run(const Modes& modes, const Steps& steps, double* stress) {
-  int at = 0;
-  for (int left = modes.padded / lanes; left > 0;) {
-    switch (left >= largest_block ? largest_block : left) {
-      case 7:
-        uniform_block<Step, two_step, curved, 7>(modes, steps, at, stress);
-        at += 7 * lanes;
-        left -= 7;
-        break;
-      case 6:
-        uniform_block<Step, two_step, curved, 6>(modes, steps, at, stress);
-        at += 6 * lanes;
-        left -= 6;
-        break;
-      case 5:
-        uniform_block<Step, two_step, curved, 5>(modes, steps, at, stress);
-        at += 5 * lanes;
-        left -= 5;
-        break;
-      case 4:
-        uniform_block<Step, two_step, curved, 4>(modes, steps, at, stress);
-        at += 4 * lanes;
-        left -= 4;
-        break;
-      case 3:
-        uniform_block<Step, two_step, curved, 3>(modes, steps, at, stress);
-        at += 3 * lanes;
-        left -= 3;
-        break;
-      case 2:
-        uniform_block<Step, two_step, curved, 2>(modes, steps, at, stress);
-        at += 2 * lanes;
-        left -= 2;
-        break;
-      default:
-        uniform_block<Step, two_step, curved, 1>(modes, steps, at, stress);
-        at += lanes;
-        left -= 1;
-        break;
-    }
-  }
+  in_blocks<largest_block>(modes, 0, [&](auto size, int at) {
+    uniform_block<Step, two_step, curved, decltype(size)::value>(modes, steps, at, stress);
+  });
 }
 
 /// One step of one vector of modes; the states z+ are returned, nothing is stored.
@@ -144,6 +122,13 @@ void variable_run(const Modes& modes, const Steps& steps, double* stress) {
   }
 }
 
+/// The last one of even steps.
+Steps last_of(const Steps& steps) {
+  const int last = steps.count - 1;
+  const double* curvature = steps.curvature ? steps.curvature + last : nullptr;
+  return {steps.rule, 1, true, steps.scale, steps.ratio, steps.forcing + last, curvature};
+}
+
 /// A one-step rule leaves `before` one instant behind `state` too, so that bE2 can go on from it.
 template <class Step, bool two_step>
 void run(const Modes& modes, const Steps& steps, double* stress) {
@@ -155,16 +140,7 @@ void run(const Modes& modes, const Steps& steps, double* stress) {
     uniform_run<Step, two_step, true>(modes, most, stress);
   else
     uniform_run<Step, two_step, false>(modes, most, stress);
-  if constexpr (!two_step) {
-    const Steps one{steps.rule,
-                    1,
-                    true,
-                    steps.scale,
-                    steps.ratio,
-                    steps.forcing + last,
-                    steps.curvature ? steps.curvature + last : nullptr};
-    variable_run<Step, two_step>(modes, one, stress + last);
-  }
+  if constexpr (!two_step) variable_run<Step, two_step>(modes, last_of(steps), stress + last);
 }
 
 void sweep(const Modes& modes, const Steps& steps, double* stress) {
@@ -239,15 +215,131 @@ void tangent_run(const Modes& modes, const Steps& steps, double* stress, const T
   }
 }
 
+/// K vectors of modes and of their slopes where only the time scale moves; weights included, as in Block.
+template <int K>
+struct TangentBlock {
+  Vector state[K], before[K], slope[K], slope_before[K];
+  StepCoefficients<Vector> c[K], by_log_scale[K];
+};
+
+struct StressAndSlope {
+  Vector stress, slope;
+};
+
+template <bool two_step, bool curved, int K>
+PROBATION_INLINE StressAndSlope advance(TangentBlock<K>& b, double u, double v, double log_scale) {
+  StressAndSlope total{};
+  const auto apply = [u, v](const StepCoefficients<Vector>& c, Vector y, Vector before, Vector more) {
+    more = c.forcing * u + more;
+    if constexpr (curved) more = c.curvature * v + more;
+    if constexpr (two_step) more = c.before * before + more;
+    return c.previous * y + more;
+  };
+#pragma GCC unroll 8
+  for (int k = 0; k < K; ++k) {
+    const Vector next = apply(b.c[k], b.state[k], b.before[k], Vector{});
+    Vector change = apply(b.by_log_scale[k], b.state[k], b.before[k], Vector{}) * log_scale;
+    if constexpr (two_step) change = b.c[k].before * b.slope_before[k] + change;
+    change = b.c[k].previous * b.slope[k] + change;
+    if constexpr (two_step) {
+      b.before[k] = b.state[k];
+      b.slope_before[k] = b.slope[k];
+    }
+    b.state[k] = next;
+    b.slope[k] = change;
+    total.stress += next;
+    total.slope += change;
+  }
+  return total;
+}
+
+template <class Step, bool two_step, bool curved, int K>
+void time_tangent_block(const Modes& modes, const Steps& steps, int at, double* stress,
+                        const TangentDirection& d) {
+  TangentBlock<K> b;
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    const Vector x = load(modes.inverse_ratio + j) * steps.scale[0];
+    const Vector weight = load(modes.weight + j);
+    b.c[k] = weighted(Step::template coefficients<Vector>(x, steps.ratio[0]), weight);
+    b.by_log_scale[k] = weighted(Step::template log_slopes<Vector>(x, steps.ratio[0]), weight);
+    b.state[k] = load(modes.state + j) * weight;
+    b.before[k] = load(modes.before + j) * weight;
+    b.slope[k] = load(d.state + j) * weight;
+    b.slope_before[k] = load(d.before + j) * weight;
+  }
+  const auto step = [&](int n) {
+    return advance<two_step, curved>(b, steps.forcing[n], curved ? steps.curvature[n] : 0.0, d.log_scale[n]);
+  };
+  int n = 0;
+  StressAndSlope four[lanes];
+  for (; n + lanes <= steps.count; n += lanes) {
+#pragma GCC unroll 4
+    for (int i = 0; i < lanes; ++i) four[i] = step(n + i);
+    store(stress + n,
+          load(stress + n) + sums(four[0].stress, four[1].stress, four[2].stress, four[3].stress));
+    store(d.stress + n,
+          load(d.stress + n) + sums(four[0].slope, four[1].slope, four[2].slope, four[3].slope));
+  }
+  for (; n < steps.count; ++n) {
+    const StressAndSlope one = step(n);
+    stress[n] += sum(one.stress);
+    d.stress[n] += sum(one.slope);
+  }
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    const Vector weight = load(modes.weight + j);
+    // A mode of weight zero is nobody's: no direction here has weights of its own.
+    const auto put = [&](double* to, Vector z) { store(to + j, weight == 0.0 ? Vector{} : z / weight); };
+    put(modes.state, b.state[k]);
+    put(d.state, b.slope[k]);
+    if constexpr (two_step) {
+      put(modes.before, b.before[k]);
+      put(d.before, b.slope_before[k]);
+    }
+  }
+}
+
+/// As tangent_run, for even steps along one direction in which only the time scale moves.
+template <class Step, bool two_step, bool curved>
+void time_tangent_run(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d) {
+  in_blocks<largest_tangent_block>(modes, 0, [&](auto size, int at) {
+    time_tangent_block<Step, two_step, curved, decltype(size)::value>(modes, steps, at, stress, d);
+  });
+}
+
+template <class Step, bool two_step>
+void tangent_by_rule(const Modes& modes, const Steps& steps, double* stress,
+                     const TangentDirection* directions, int count, double* scratch) {
+  const TangentDirection& d = directions[0];
+  const bool time_only =
+      count == 1 && d.log_scale && !(d.forcing || d.curvature || d.log_inverse || d.weight);
+  const int last = steps.count - 1;
+  if (!steps.uniform || last < 1 || !time_only)
+    return tangent_run<Step>(modes, steps, stress, directions, count, scratch);
+  Steps most = steps;
+  most.count = two_step ? steps.count : last;
+  if (steps.curvature)
+    time_tangent_run<Step, two_step, true>(modes, most, stress, d);
+  else
+    time_tangent_run<Step, two_step, false>(modes, most, stress, d);
+  if constexpr (!two_step) {  // the last step leaves `before` behind, as in run()
+    TangentDirection end = d;
+    end.log_scale += last;
+    end.stress += last;
+    tangent_run<Step>(modes, last_of(steps), stress + last, &end, 1, scratch);
+  }
+}
+
 void tangent(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions,
              int count, double* scratch) {
   switch (steps.rule) {
     case StepRule::backward_euler:
-      return tangent_run<BackwardEulerStep>(modes, steps, stress, directions, count, scratch);
+      return tangent_by_rule<BackwardEulerStep, false>(modes, steps, stress, directions, count, scratch);
     case StepRule::bdf2:
-      return tangent_run<Bdf2Step>(modes, steps, stress, directions, count, scratch);
+      return tangent_by_rule<Bdf2Step, true>(modes, steps, stress, directions, count, scratch);
     case StepRule::exponential:
-      return tangent_run<ExponentialStep>(modes, steps, stress, directions, count, scratch);
+      return tangent_by_rule<ExponentialStep, false>(modes, steps, stress, directions, count, scratch);
   }
 }
 
