@@ -35,12 +35,6 @@ class CoupledSolver {
  private:
   friend class CoupledTangent;
 
-  /// A single step as the kernels take it; `s` and `ratio` must outlive it.
-  inline kernels::Steps one_step(const StepForcing<double>& s, const double& ratio) {
-    const double* curvature = s.rule == StepRule::exponential ? &s.curvature : nullptr;
-    return {s.rule, 1, false, &s.scale, &ratio, &s.forcing, curvature};
-  }
-
   /// A step that has been solved.
   struct Step {
     Eigen::Index m;
@@ -59,7 +53,7 @@ class CoupledSolver {
 
   /// Newton's residual of step m at a stress, with its slope; leaves the step's actual inputs in inputs_.
   Dual residual(Eigen::Index m, double stress, double extra_stress, StepForcing<Dual>& forcing,
-                FeedbackShift<Dual>& shift);
+                FeedbackShift<Dual>& now);
   FeedbackShift<Dual> start_shift(Dual stress, const Direction* direction) const;
   /// Shift at the end of a step of h seconds, and the memories there.
   FeedbackShift<Dual> shift(Dual stress_next, Dual stress_here, Dual rise, Dual modulus, double h,
