@@ -8,8 +8,8 @@
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-// Vectors of four modes whose states fit the registers: of a sweep, and of a tangent with it.
-constexpr int largest_block = 7, largest_tangent_block = 3;
+// Vectors of four modes whose states fit the registers: of even steps, of uneven ones, of a tangent.
+constexpr int largest_block = 7, largest_variable_block = 4, largest_tangent_block = 3;
 
 template <int K>
 struct Size {
@@ -52,6 +52,19 @@ PROBATION_INLINE Vector advance(Block<K>& b, double forcing, double curvature) {
   return total;
 }
 
+/// Adds the sum of what advance(n) returns to stress[n], four steps at a time.
+template <class Advance>
+PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
+  int n = 0;
+  Vector four[lanes];
+  for (; n + lanes <= count; n += lanes) {
+#pragma GCC unroll 4
+    for (int i = 0; i < lanes; ++i) four[i] = advance(n + i);
+    store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
+  }
+  for (; n < count; ++n) stress[n] += sum(advance(n));
+}
+
 template <class Step, bool two_step, bool curved, int K>
 void uniform_block(const Modes& modes, const Steps& steps, int at, double* stress) {
   Block<K> b;
@@ -67,16 +80,8 @@ void uniform_block(const Modes& modes, const Steps& steps, int at, double* stres
   }
   const double* u = steps.forcing;
   const double* v = steps.curvature;
-  int n = 0;
-  Vector four[lanes];
-  for (; n + lanes <= steps.count; n += lanes) {
-#pragma GCC unroll 4
-    for (int i = 0; i < lanes; ++i)
-      four[i] = advance<Step, two_step, curved>(b, u[n + i], curved ? v[n + i] : 0.0);
-    store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
-  }
-  for (; n < steps.count; ++n)
-    stress[n] += sum(advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0));
+  add_sums(steps.count, stress,
+           [&](int n) { return advance<Step, two_step, curved>(b, u[n], curved ? v[n] : 0.0); });
   for (int k = 0; k < K; ++k) {
     const std::ptrdiff_t j = at + k * lanes;
     store(modes.state + j, b.state[k]);
@@ -98,28 +103,51 @@ void uniform_run(const Modes& modes, const Steps& steps, double* stress) {
   });
 }
 
-/// One step of one vector of modes; the states z+ are returned, nothing is stored.
-template <class Step, bool two_step>
-PROBATION_INLINE Vector next_state(const Modes& modes, const Steps& steps, int n, int at) {
-  const StepCoefficients<Vector> c = weighted<Step>(modes, at, steps.scale[n], steps.ratio[n]);
-  Vector next = c.previous * load(modes.state + at) + c.forcing * steps.forcing[n];
-  if constexpr (two_step) next += c.before * load(modes.before + at);
-  if (steps.curvature) next += c.curvature * steps.curvature[n];
-  return next;
+/// K vectors of modes whose coefficients are formed anew in every step.
+template <class Step, bool two_step, bool curved, int K>
+void variable_block(const Modes& modes, const Steps& steps, int at, double* stress) {
+  Vector state[K], before[K];
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    state[k] = load(modes.state + j);
+    before[k] = load(modes.before + j);
+  }
+  add_sums(steps.count, stress, [&](int n) {
+    Vector total{};
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) {
+      const StepCoefficients<Vector> c =
+          weighted<Step>(modes, at + k * lanes, steps.scale[n], steps.ratio[n]);
+      Vector next = c.forcing * steps.forcing[n];
+      if constexpr (curved) next = c.curvature * steps.curvature[n] + next;
+      if constexpr (two_step) next = c.before * before[k] + next;
+      next = c.previous * state[k] + next;
+      before[k] = state[k];
+      state[k] = next;
+      total += next;
+    }
+    return total;
+  });
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    store(modes.state + j, state[k]);
+    store(modes.before + j, before[k]);
+  }
+}
+
+template <class Step, bool two_step, bool curved>
+void variable_run(const Modes& modes, const Steps& steps, double* stress) {
+  in_blocks<largest_variable_block>(modes, 0, [&](auto size, int at) {
+    variable_block<Step, two_step, curved, decltype(size)::value>(modes, steps, at, stress);
+  });
 }
 
 template <class Step, bool two_step>
 void variable_run(const Modes& modes, const Steps& steps, double* stress) {
-  for (int n = 0; n < steps.count; ++n) {
-    Vector total{};
-    for (int at = 0; at < modes.padded; at += lanes) {
-      const Vector next = next_state<Step, two_step>(modes, steps, n, at);
-      store(modes.before + at, load(modes.state + at));
-      store(modes.state + at, next);
-      total += next;
-    }
-    stress[n] += sum(total);
-  }
+  if (steps.curvature)
+    variable_run<Step, two_step, true>(modes, steps, stress);
+  else
+    variable_run<Step, two_step, false>(modes, steps, stress);
 }
 
 /// The last one of even steps.

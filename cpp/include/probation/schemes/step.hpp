@@ -35,16 +35,18 @@ struct StepCoefficients {
 struct Bdf2Difference {
   double next, here, before;
 
-  PROBATION_INLINE explicit Bdf2Difference(double ratio)
-      : next((1.0 + 2.0 * ratio) / (1.0 + ratio)),
-        here(-(1.0 + ratio)),
-        before(ratio * ratio / (1.0 + ratio)) {}
+  PROBATION_INLINE explicit Bdf2Difference(double ratio) : Bdf2Difference(ratio, ratio / (1.0 + ratio)) {}
 
   /// In differences: exactly zero where f does not change.
   template <class Real>
   PROBATION_INLINE Real operator()(Real f_next, Real f_here, Real f_before) const {
     return next * (f_next - f_here) - before * (f_here - f_before);
   }
+
+ private:
+  /// share = ratio / (1 + ratio): one division for (1 + 2 ratio) / (1 + ratio) and ratio^2 / (1 + ratio).
+  PROBATION_INLINE Bdf2Difference(double ratio, double share)
+      : next(1.0 + share), here(-(1.0 + ratio)), before(ratio * share) {}
 };
 
 /// Above this ratio of two successive steps BDF2 is no longer zero-stable (1 + sqrt 2); it starts afresh.
