@@ -7,8 +7,15 @@
 
 namespace probation {
 
+namespace {
+constexpr int most_modes = 10000;
+}
+
 Spectrum Spectrum::log_spaced(int modes, double decades) {
   if (modes < 1) throw InputError("modes is " + std::to_string(modes) + "; at least 1 is needed");
+  if (modes > most_modes)
+    throw InputError("modes is " + std::to_string(modes) + "; at most " + std::to_string(most_modes) +
+                     " make sense");
   if (!(decades > 0.0) || !std::isfinite(decades))
     throw InputError("decades is " + std::to_string(decades) + "; a positive number is needed");
 
