@@ -339,11 +339,11 @@ void time_tangent_run(const Modes& modes, const Steps& steps, double* stress, co
 template <class Step, bool two_step>
 void tangent_by_rule(const Modes& modes, const Steps& steps, double* stress,
                      const TangentDirection* directions, int count, double* scratch) {
-  const TangentDirection& d = directions[0];
-  const bool time_only =
-      count == 1 && d.log_scale && !(d.forcing || d.curvature || d.log_inverse || d.weight);
   const int last = steps.count - 1;
-  if (!steps.uniform || last < 1 || !time_only)
+  if (count != 1 || !steps.uniform || last < 1)
+    return tangent_run<Step>(modes, steps, stress, directions, count, scratch);
+  const TangentDirection& d = directions[0];
+  if (!d.log_scale || d.forcing || d.curvature || d.log_inverse || d.weight)
     return tangent_run<Step>(modes, steps, stress, directions, count, scratch);
   Steps most = steps;
   most.count = two_step ? steps.count : last;
