@@ -94,6 +94,9 @@ class Change:
             values = getattr(self, name)
             if values is not None:
                 setattr(change, name, as_samples(np.atleast_1d(values), name))
+        for feedback in self.feedbacks:
+            if not isinstance(feedback, _core.Feedback):
+                raise InputError(f"feedbacks holds {feedback!r}; a StressActivation or SelfHeating is needed")
         change.feedbacks = list(self.feedbacks)
         return change
 

@@ -128,6 +128,7 @@ def test_a_bad_option_is_named(options, message):
         ({"extra_modulus": [1.0, 2.0], "extra_relaxation_time": [1.0]}, r"2 moduli and 1 relaxation times"),
         ({"extra_modulus": [1.0], "extra_relaxation_time": [0.0]}, r"relaxation_time\[0\] is 0"),
         ({"extra_modulus": [1.0]}, r"1 moduli and 0 relaxation times"),
+        ({"feedbacks": (3,)}, r"feedbacks holds 3; a StressActivation"),
     ],
 )
 @pytest.mark.parametrize("scheme", ["be2", "exact", "cvode"])
