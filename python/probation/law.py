@@ -240,8 +240,8 @@ class Law:
         true_strain : array_like, shape (n_times,) [-]
             The start is relaxed: sigma_j(0) = p_j G e_HT(true_strain[0]).
         scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
-            be2 has order 2, sa3 order 3 on smooth histories (on rough measured strain it is no better than sa2);
-            exact and cvode integrate the piecewise-linear history.
+            be2 has order 2, sa3 order 3 on smooth histories (2 with a companion relation unless `strain_rate` is given;
+            on rough measured strain it is no better than sa2); exact and cvode integrate the piecewise-linear history.
         strain_rate : array_like, shape (n_times,) [1/s], optional
             If given, the history between samples is the cubic through strains and rates.
         change : Change, optional
