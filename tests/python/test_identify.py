@@ -89,6 +89,14 @@ def test_bE2_takes_substeps_until_its_own_error_is_negligible():
     assert "use sa3" in paper.summary()
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_coarse_record_is_not_led_astray_by_the_error_of_bE2(seed):
+    """Ten samples, 44 s apart at tau_max = 5.2 s: bE2 alone fits them best with another law."""
+    campaign = Campaign("x", (ramp_record(seed, samples=10),))
+    by_be2, by_sa3 = fit(campaign), fit(campaign, "sa3")
+    assert_allclose(values(by_be2), values(by_sa3), atol=errors(by_sa3).max(), rtol=0.0)
+
+
 def test_records_share_their_parameters():
     """Two rates, one law with companion: alpha = 1, G = 1.8 back within three standard errors."""
     truth = Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=Weissenberg(0.00464, 0.0367))

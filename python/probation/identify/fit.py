@@ -20,7 +20,7 @@ from probation.law import SCHEMES, Law, Scheme, Start
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from probation.excitation import Method as ExcitationMethod
     from probation.records import Campaign
@@ -32,7 +32,10 @@ NEGLIGIBLE = 0.1
 """Shift of a parameter by the scheme's own error that is let pass [standard errors]."""
 
 MOST_SUBSTEPS = 16
-"""Most steps of the scheme from sample to sample that a fit takes by itself."""
+"""Most steps of the scheme from sample to sample that a fit takes by itself, on long records."""
+
+ENOUGH_INSTANTS = 4000
+"""On short records it may take more, up to this many instants in all: they cost next to nothing."""
 
 
 def fit(
@@ -65,8 +68,8 @@ def fit(
     start : {"exponential", "backward_euler"}
         bE2's first step.
     substeps : int or "auto"
-        Steps of the scheme from sample to sample. 1 is the paper's; "auto" takes as many (up to `MOST_SUBSTEPS`) as it
-        needs for its own error to shift no parameter by more than `NEGLIGIBLE` standard errors.
+        Steps of the scheme from sample to sample. 1 is the paper's; "auto" takes as many as it needs for its own error
+        to shift no parameter by more than `NEGLIGIBLE` standard errors, up to `MOST_SUBSTEPS` (more on short records).
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -97,15 +100,17 @@ def fit(
     if problem.held.all():
         raise InputError("all parameters are held; nothing is left to identify")
 
+    adapting = substeps == "auto" and scheme != "sa3"
+    if adapting:  # a coarse record's best fit by the scheme may be far off, where its error says nothing
+        problem.records = tuple(each.reference() for each in prepared)
     best = first_guess(problem, limits, None if progress is None else lambda part: progress(0.3 + 0.5 * part))
     if len(prepared) > 1:
         problem.reweigh(best)
         best = first_guess(problem, limits)
-    if substeps == "auto" and scheme != "sa3":
-        needed = _needed_substeps(problem, best)
-        if needed > 1:
-            problem.records = tuple(each.with_substeps(needed) for each in problem.records)
-            best = first_guess(problem, limits)
+    if adapting:
+        needed = _needed_substeps(problem, prepared, best)
+        problem.records = tuple(each.with_substeps(needed) for each in prepared)
+        best = first_guess(problem, limits)
     if method == "least-squares":
         best = by_least_squares(problem, best, limits)
     elif method == "simplex":
@@ -188,7 +193,7 @@ def _describe(
         if at_bound:
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {values[index]:.6g} {UNITS[name]}".rstrip())
     warnings += _rate_warnings(problem, law)
-    scheme_error, shift = _scheme_error(problem, law, jacobian, known)
+    scheme_error, shift = _scheme_error(problem, problem.records, law, jacobian, known)
     return Fit(
         campaign=campaign.name,
         law=law,
@@ -216,10 +221,12 @@ def _covariance(problem: Problem, law: Law, residual: FloatArray, jacobian: Floa
     return covariance(jacobian[:, free], residual, lengths, law.parameters[free])
 
 
-def _scheme_error(problem: Problem, law: Law, jacobian: FloatArray, known: Covariance) -> tuple[float, FloatArray]:
-    """How far the scheme is from SA3 [MPa], and what that does to the parameters, in standard errors."""
+def _scheme_error(
+    problem: Problem, records: Sequence[RecordProblem], law: Law, jacobian: FloatArray, known: Covariance
+) -> tuple[float, FloatArray]:
+    """How far the scheme of `records` is from SA3 [MPa], and what that does to the parameters, in standard errors."""
     free = problem.free
-    errors = [each.stress(law) - each.reference().stress(law) for each in problem.records]
+    errors = [each.stress(law) - each.reference().stress(law) for each in records]
     weighted = np.concatenate([weight * error for weight, error in zip(problem.weights, errors, strict=True)])
     size = np.where(law.parameters[free] != 0.0, np.abs(law.parameters[free]), 1.0)
     moved = -np.linalg.lstsq(jacobian[:, free] * size, weighted, rcond=1e-12)[0] * size
@@ -228,12 +235,22 @@ def _scheme_error(problem: Problem, law: Law, jacobian: FloatArray, known: Covar
     return max(float(np.max(np.abs(error))) for error in errors), shift
 
 
-def _needed_substeps(problem: Problem, law: Law) -> int:
-    """Steps from sample to sample that make the scheme's own error, of order 2, negligible for every parameter."""
+def _needed_substeps(problem: Problem, records: Sequence[RecordProblem], law: Law) -> int:
+    """Steps from sample to sample that make the error of the scheme, of order 2, negligible for every parameter.
+
+    `problem` is solved by SA3, `law` its best one: the scheme's error in the fit residual would widen the standard
+    errors that it is measured in.
+    """
     residual, jacobian = problem.residual_and_jacobian(law)
-    shift = _scheme_error(problem, law, jacobian, _covariance(problem, law, residual, jacobian))[1]
-    worst = float(np.max(np.abs(shift), initial=0.0))
-    return int(np.clip(np.ceil(np.sqrt(worst / NEGLIGIBLE)), 1, MOST_SUBSTEPS))
+    known = _covariance(problem, law, residual, jacobian)
+    most = max(MOST_SUBSTEPS, ENOUGH_INSTANTS // max(len(each.record) for each in records))
+    steps = 1
+    while True:  # once would do, were the steps always short enough for the order to show
+        shift = _scheme_error(problem, [each.with_substeps(steps) for each in records], law, jacobian, known)[1]
+        worst = float(np.max(np.abs(shift), initial=0.0))
+        if worst <= NEGLIGIBLE or steps >= most:
+            return steps
+        steps = min(max(int(np.ceil(steps * np.sqrt(worst / NEGLIGIBLE))), steps + 1), most)
 
 
 def _record_fit(each: RecordProblem, law: Law) -> RecordFit:
