@@ -31,6 +31,9 @@ START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_m
 NEGLIGIBLE = 0.1
 """Shift of a parameter by the scheme's own error that is let pass [standard errors]."""
 
+CARRIED_NOISE = 0.3
+"""Strain noise as stress, over the stress noise, from which on a fit warns that its errors leave it out."""
+
 MOST_SUBSTEPS = 16
 """Most steps of the scheme from sample to sample that a fit takes by itself, on long records."""
 
@@ -193,6 +196,7 @@ def _describe(
         if at_bound:
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {values[index]:.6g} {UNITS[name]}".rstrip())
     warnings += _rate_warnings(problem, law)
+    warnings += _strain_noise_warnings(problem, law)
     scheme_error, shift = _scheme_error(problem, problem.records, law, jacobian, known)
     return Fit(
         campaign=campaign.name,
@@ -213,6 +217,21 @@ def _describe(
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,
     )
+
+
+def _strain_noise_warnings(problem: Problem, law: Law) -> list[str]:
+    """Where strain noise, carried to the stress by the hardening, is not small beside the stress noise."""
+    found = []
+    for each in problem.records:
+        end = float(np.max(np.abs(each.record.true_strain)))
+        slope = law.hardening_modulus * (2.0 * np.exp(2.0 * end) + np.exp(-end))  # G d e_HT / d e, eq. (3)
+        carried = each.excitation.strain_noise * slope
+        if carried > CARRIED_NOISE * each.noise:
+            found.append(
+                f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at "
+                "the largest strain; the standard errors, that of G above all, do not include it"
+            )
+    return found
 
 
 def _covariance(problem: Problem, law: Law, residual: FloatArray, jacobian: FloatArray) -> Covariance:
