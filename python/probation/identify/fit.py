@@ -32,7 +32,7 @@ NEGLIGIBLE = 0.1
 """Shift of a parameter by the scheme's own error that is let pass [standard errors]."""
 
 CARRIED_NOISE = 0.3
-"""Strain noise as stress, over the stress noise, from which on a fit warns that its errors leave it out."""
+"""Strain noise as stress, over the rms of the fit residual, from which on a fit warns that its errors leave it out."""
 
 MOST_SUBSTEPS = 16
 """Most steps of the scheme from sample to sample that a fit takes by itself, on long records."""
@@ -220,13 +220,14 @@ def _describe(
 
 
 def _strain_noise_warnings(problem: Problem, law: Law) -> list[str]:
-    """Where strain noise, carried to the stress by the hardening, is not small beside the stress noise."""
+    """Where strain noise, carried to the stress by the hardening, is not small beside what else is in the residual."""
     found = []
     for each in problem.records:
         end = float(np.max(np.abs(each.record.true_strain)))
         slope = law.hardening_modulus * (2.0 * np.exp(2.0 * end) + np.exp(-end))  # G d e_HT / d e, eq. (3)
         carried = each.excitation.strain_noise * slope
-        if carried > CARRIED_NOISE * each.noise:
+        left = float(np.sqrt(np.mean((each.stress(law) - each.record.true_stress) ** 2)))
+        if carried > CARRIED_NOISE * max(each.noise, left):
             found.append(
                 f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at "
                 "the largest strain; the standard errors, that of G above all, do not include it"
