@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from probation.answers import PARAMETER_KEYS
+
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
 
 IDENTIFIABLE, WEAKLY = 0.1, 0.5
@@ -17,12 +19,12 @@ SYMBOLS = {"unrelaxed_modulus": "E_u", "tau_max": "τ_max", "alpha": "α", "hard
 
 def outside_name(name: str) -> str:
     """The name with its unit, as it leaves the program: "tau_max" becomes "tau_max_s"."""
-    return f"{name}_{UNITS[name]}" if UNITS[name] else name
+    return PARAMETER_KEYS[name]
 
 
 def inside_name(name: str) -> str | None:
     """The name within the program of "tau_max_s"; None if there is no such parameter."""
-    return next((inside for inside in UNITS if outside_name(inside) == name), None)
+    return next((inside for inside, outside in PARAMETER_KEYS.items() if outside == name), None)
 
 
 @dataclass(frozen=True)
