@@ -1,6 +1,7 @@
 """Put a constitutive law on probation."""
 
 from probation._core import __version__
+from probation.certificate import Certificate, certify
 from probation.change import Change, Direction, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
@@ -17,6 +18,7 @@ from probation.simulate import Simulation, simulate
 
 __all__ = [
     "Campaign",
+    "Certificate",
     "Change",
     "ConvergenceError",
     "CrossCheck",
@@ -37,6 +39,7 @@ __all__ = [
     "Table",
     "Weissenberg",
     "__version__",
+    "certify",
     "creep",
     "crosscheck",
     "fit",

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from probation.commands.campaign_options import add_campaign, add_control, campaign_from
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
-
-if TYPE_CHECKING:
-    from probation.records import Campaign
 
 NAME = "fit"
 
@@ -31,18 +28,8 @@ known about them, and what is left.
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
-    parser.add_argument(
-        "campaign",
-        metavar="CAMPAIGN",
-        nargs="+",
-        help="a folder with a campaign.toml, or that file; or data files, each specimen of which becomes a record",
-    )
-    parser.add_argument(
-        "--control",
-        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
-        default="other",
-        help="how the tests in data files were driven (other)",
-    )
+    add_campaign(parser)
+    add_control(parser)
     parser.add_argument("--scheme", choices=_SCHEMES, default="be2", help="time integration (be2)")
     parser.add_argument(
         "--start",
@@ -81,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     from probation.identify import fit  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
-    campaign = _campaign(options)
+    campaign = campaign_from(options)
     with shown(f"identifying on {campaign.name}") as advance:
         answer = fit(
             campaign,
@@ -96,16 +83,6 @@ def run(options: argparse.Namespace) -> int:
     deliver(answer, options)
     deliver_report(answer, options)
     return 0
-
-
-def _campaign(options: argparse.Namespace) -> Campaign:
-    """A campaign, or data files that stand in for one."""
-    from probation.records import Campaign  # noqa: PLC0415
-
-    first = Path(options.campaign[0])
-    if len(options.campaign) > 1 or (first.is_file() and first.suffix != ".toml"):
-        return Campaign.from_files(options.campaign, control=options.control)
-    return Campaign.load(first)
 
 
 def _substeps(text: str) -> int | Literal["auto"]:

@@ -1,0 +1,184 @@
+"""`probation.certify`: the probation test, section 5 of the paper."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation._arrays import as_number
+from probation.certificate.consistency import Consistency, Estimate, judge
+from probation.certificate.hardening import regress_hardening
+from probation.certificate.prediction import Prediction, predict
+from probation.certificate.result import Certificate
+from probation.certificate.trial import Trial, estimates, free_parameters, joint_covariance
+from probation.certificate.verdict import decide
+from probation.errors import InputError
+from probation.identify.parameter import outside_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from probation.excitation import Method as ExcitationMethod
+    from probation.identify import Fit
+    from probation.law import Scheme, Start
+    from probation.records import Campaign, Record
+
+TOLERANCE = 0.05
+"""Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."""
+
+
+def certify(
+    campaign: Campaign,
+    scheme: Scheme = "be2",
+    *,
+    tolerance: float = TOLERANCE,
+    hold: Mapping[str, float] | None = None,
+    excitation: ExcitationMethod = "auto",
+    start: Start = "exponential",
+    progress: Callable[[float], None] | None = None,
+) -> Certificate:
+    """Put the law on probation, to see whether it is intrinsic to the material.
+
+    1. The parameters are identified on the records with role "identify".
+    2. The others are predicted with nothing adjusted. Without held-out records each is predicted from all others.
+    3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
+       (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps
+       its value; no prediction uses them.
+    4. If the law has a companion relation, each record is also identified without it (Figure 3).
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Two records at least.
+    scheme : {"be2", "sa2", "sa3"}
+    tolerance : float
+        Systematic error that is let pass, as a fraction of the record's largest stress.
+    hold : dict of str to float, optional
+        Parameters held, by name with unit; on top of the campaign's own.
+    excitation, start
+        As in `probation.fit`.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
+
+    Returns
+    -------
+    Certificate
+
+    Raises
+    ------
+    InputError
+        For a single record, a tolerance that is not positive, or what `probation.fit` raises.
+
+    References
+    ----------
+    André et al., section 5; Figures 3 to 6, S1; Tables 3, 4.
+    """
+    if as_number(tolerance, "tolerance") <= 0.0:
+        raise InputError(f"tolerance is {tolerance!r}; a positive fraction of the largest stress is needed")
+    if len(campaign.records) < 2:
+        raise InputError(
+            f"campaign {campaign.name!r}: found one record, expected at least two: "
+            "the probation test predicts one record from others"
+        )
+    if hold:
+        campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
+    trial = Trial(campaign, scheme, start, excitation)
+    records = campaign.records
+    rated = campaign.law.companion is not None
+    total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)
+    done = 0
+
+    def step(found: Fit) -> Fit:
+        nonlocal done
+        done += 1
+        if progress:
+            progress(done / total)
+        return found
+
+    base = step(trial.fit(campaign.identify))
+    predictions = {
+        record.id: _predict(trial, source, record, tolerance) for source, record in _pairs(trial, base, step)
+    }
+    known_modulus = trial.holding(base, ["unrelaxed_modulus"])
+    alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
+    free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
+    parameters = _judge(base, alone, free)
+    failing = [name for name, each in parameters.items() if not each.passes]
+    kept = [name for name in parameters if name not in failing]
+    if failing:
+        described = {record.id: step(trial.fit([record], trial.holding(base, kept))) for record in records}
+    else:
+        described = alone
+    without = {}
+    if rated:
+        bare = replace(campaign.law, companion=None, fixed={})
+        without = {record.id: step(trial.fit([record], bare)) for record in records}
+    tolerances = {record.id: tolerance * float(np.max(np.abs(record.true_stress))) for record in records}
+    verdict, reason = decide(
+        parameters, predictions, {name: each.bias_MPa for name, each in described.items()}, tolerances
+    )
+    if progress:
+        progress(1.0)
+    return Certificate(
+        campaign=campaign.name,
+        verdict=verdict,
+        reason=reason,
+        tolerance=tolerance,
+        base=base,
+        parameters=parameters,
+        predictions=predictions,
+        alone=alone,
+        free=free,
+        described=described,
+        without_companion=without,
+        regressions={
+            record.id: found
+            for record in records
+            if (found := regress_hardening(record.true_strain, record.true_stress)) is not None
+        },
+        warnings=tuple(dict.fromkeys([*base.warnings, *_doubts(parameters, campaign)])),
+        data_sha256=campaign.data_hash,
+    )
+
+
+def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fit, Record]]:
+    """What predicts what: the identified law every held-out record; without such, each record by all others."""
+    campaign = trial.campaign
+    if campaign.held_out:
+        return [(base, record) for record in campaign.held_out]
+    return [
+        (step(trial.fit(other for other in campaign.records if other.id != record.id)), record)
+        for record in campaign.records
+    ]
+
+
+def _predict(trial: Trial, source: Fit, record: Record, tolerance: float) -> Prediction:
+    free = free_parameters(source)
+    return predict(source, joint_covariance(source), free, record, tolerance, trial.excitation)
+
+
+def _judge(base: Fit, alone: Mapping[str, Fit], free: Mapping[str, Fit]) -> dict[str, Consistency]:
+    """Judge E_u on the fits with all parameters free, the others on those with E_u held."""
+    modulus_error = base.parameters["unrelaxed_modulus"].se or 0.0
+    by_parameter: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
+    for record in alone:
+        values = estimates(free[record], record) | estimates(alone[record], record, modulus_error)
+        for name, value in values.items():
+            by_parameter[name][record] = value
+    return judge(by_parameter)
+
+
+def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:
+    doubts = [
+        f"{outside_name(name)} is not tested: fewer than two records determine it"
+        for name, each in parameters.items()
+        if not each.tested
+    ]
+    if not campaign.held_out:
+        doubts.append("no record is held out: each was predicted from all others")
+    held = ", ".join(f"{name} = {value:g}" for name, value in campaign.law.fixed.items())
+    if held:
+        doubts.append(f"held by the campaign, tested by letting it go: {held}")
+    return doubts

@@ -1,0 +1,102 @@
+"""Whether a parameter keeps its value from record to record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.stats import chi2
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+SIGNIFICANCE = 0.01
+"""Probability of failing some parameter of a law that is intrinsic, over all its parameters."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter's value on one record.
+
+    Attributes
+    ----------
+    value : float
+    se : float or None
+        Standard error with noise and model bias; None where the record does not determine the parameter.
+    se_noise : float or None
+        The part that the fit's own residual explains.
+    shift : float
+        What one standard error of E_u, held on all records alike, moves it by; 0 for E_u itself.
+    """
+
+    value: float
+    se: float | None
+    se_noise: float | None
+    shift: float = 0.0
+
+    @property
+    def total_se(self) -> float | None:
+        """Standard error with that of the held E_u."""
+        return None if self.se is None else float(np.hypot(self.se, self.shift))
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """Whether the values of one parameter agree.
+
+    Attributes
+    ----------
+    by_record : dict of str to Estimate
+    mean : float
+        Weighted by the inverse of their covariance.
+    p_value : float
+        Of Cochran's Q (1954), with the common shift by E_u: chance of values that differ at least so much, were the
+        true value the same.
+    tested : bool
+        Whether two records or more determine the parameter.
+    passes : bool
+        Not rejected at `SIGNIFICANCE`, shared between the parameters (Holm 1979).
+    """
+
+    by_record: Mapping[str, Estimate]
+    mean: float
+    p_value: float
+    tested: bool
+    passes: bool
+
+    @property
+    def spread(self) -> float:
+        """Highest over lowest value, less one."""
+        values = [each.value for each in self.by_record.values() if each.se is not None]
+        return max(values) / min(values) - 1.0 if len(values) > 1 and min(values) > 0.0 else 0.0
+
+
+def judge(estimates: Mapping[str, Mapping[str, Estimate]]) -> dict[str, Consistency]:
+    """Judge every parameter, by name, on its estimates by record."""
+    judged = {name: _cochran(by_record) for name, by_record in estimates.items()}
+    failing: set[str] = set()
+    tested = sorted((name for name in judged if judged[name][2]), key=lambda name: judged[name][1])
+    for rank, name in enumerate(tested):
+        if judged[name][1] >= SIGNIFICANCE / (len(tested) - rank):
+            break  # Holm: once one is let pass, so are all with a larger p-value
+        failing.add(name)
+    return {
+        name: Consistency(estimates[name], mean, p_value, was_tested, name not in failing)
+        for name, (mean, p_value, was_tested) in judged.items()
+    }
+
+
+def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
+    """Weighted mean, p-value of Cochran's Q, whether there was anything to compare."""
+    known = [each for each in by_record.values() if each.se]
+    if not known:
+        return float(np.mean([each.value for each in by_record.values()])), 1.0, False
+    values = np.array([each.value for each in known])
+    shift = np.array([each.shift for each in known])
+    precision = np.linalg.inv(np.diag([each.se**2 for each in known if each.se]) + np.outer(shift, shift))
+    mean = float(precision.sum(axis=0) @ values / precision.sum())
+    if len(values) < 2:
+        return mean, 1.0, False
+    apart = values - mean
+    return mean, float(chi2.sf(apart @ precision @ apart, len(values) - 1)), True

@@ -1,0 +1,87 @@
+"""The verdict of a probation test, and its reason in one sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from probation.identify.parameter import SYMBOLS, UNITS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from probation.certificate.consistency import Consistency
+    from probation.certificate.prediction import Prediction
+
+Verdict = Literal["intrinsic", "intrinsic_except", "not_intrinsic"]
+
+
+def decide(
+    parameters: Mapping[str, Consistency],
+    predictions: Mapping[str, Prediction],
+    described_MPa: Mapping[str, float],
+    tolerances_MPa: Mapping[str, float],
+) -> tuple[Verdict, str]:
+    """Decide, and say why.
+
+    Parameters
+    ----------
+    parameters : dict of str to Consistency
+        By name.
+    predictions : dict of str to Prediction
+        By record.
+    described_MPa : dict of str to float
+        Bias that is left on each record when the parameters that fail are free on it and the others shared [MPa].
+    tolerances_MPa : dict of str to float
+        Bias that is let pass on each record [MPa].
+
+    Returns
+    -------
+    verdict : str
+        "intrinsic": no parameter changes and every prediction is within tolerance. "intrinsic_except": some parameters
+        change and others do not, and with those free the law describes every record within tolerance; also where all
+        change, but so little that every prediction is within tolerance. "not_intrinsic" otherwise.
+    reason : str
+    """
+    failing = [name for name, each in parameters.items() if not each.passes]
+    kept = [name for name in parameters if name not in failing]
+    missed = [each for each in predictions.values() if not each.passes]
+    undescribed = {name: left for name, left in described_MPa.items() if left > tolerances_MPa[name]}
+    worst = max(predictions.values(), key=lambda each: each.systematic_MPa / max(each.tolerance_MPa, 1e-300))
+    predicted = (
+        f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
+        f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
+    )
+    if not failing and not missed:
+        return "intrinsic", f"one set of parameters serves every record ({_listed(kept)}); {predicted}"
+    if undescribed:
+        name = max(undescribed, key=lambda each: undescribed[each] / tolerances_MPa[each])
+        freed = f"with {_listed(failing)} free on each record" if failing else "with parameters of its own"
+        return "not_intrinsic", (
+            f"even {freed} the law leaves {undescribed[name]:.2g} MPa on {name} "
+            f"(tolerance {tolerances_MPa[name]:.2g} MPa); {predicted}"
+        )
+    if not failing:
+        return "not_intrinsic", (
+            f"{predicted}, although no parameter is seen to change: the records do not determine the parameters well "
+            "enough to tell which one does"
+        )
+    changes = " and ".join(_change(name, parameters[name]) for name in failing)
+    if kept:
+        keep = "keep theirs" if len(kept) > 1 else "keeps its value"
+        return "intrinsic_except", f"{changes}, while {_listed(kept)} {keep}; {predicted}"
+    if not missed:
+        return "intrinsic_except", f"{changes}, but too little to spoil the prediction: {predicted}"
+    return "not_intrinsic", f"no parameter keeps its value from record to record: {changes}; {predicted}"
+
+
+def _listed(names: list[str]) -> str:
+    symbols = [SYMBOLS[name] for name in names]
+    return symbols[0] if len(symbols) == 1 else ", ".join(symbols[:-1]) + " and " + symbols[-1]
+
+
+def _change(name: str, found: Consistency) -> str:
+    known = {record: each for record, each in found.by_record.items() if each.se is not None}
+    low = min(known, key=lambda record: known[record].value)
+    high = max(known, key=lambda record: known[record].value)
+    unit = f" {UNITS[name]}" if UNITS[name] else ""
+    return f"{SYMBOLS[name]} changes from {known[low].value:.4g} ({low}) to {known[high].value:.4g}{unit} ({high})"
