@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from probation.law import Scheme, Start
     from probation.records import Campaign, Record
 
+SAME_TEMPERATURE = 3.0
+"""Records whose mean temperatures differ by more confound temperature with whatever else differs [°C]."""
+
 TOLERANCE = 0.05
 """Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."""
 
@@ -110,7 +113,7 @@ def certify(
     if failing:
         described = {record.id: step(trial.fit([record], trial.holding(base, kept))) for record in records}
     else:
-        described = alone
+        described = free
     without = {}
     if rated:
         bare = replace(campaign.law, companion=None, fixed={})
@@ -178,6 +181,15 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
     ]
     if not campaign.held_out:
         doubts.append("no record is held out: each was predicted from all others")
+    warm = {
+        record.id: float(np.mean(record.temperature)) for record in campaign.records if record.temperature is not None
+    }
+    if warm and max(warm.values()) - min(warm.values()) > SAME_TEMPERATURE:
+        cold, hot = min(warm, key=lambda name: warm[name]), max(warm, key=lambda name: warm[name])
+        doubts.append(
+            f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "
+            "the temperature rather than the strain-rate history; these records cannot tell the two apart"
+        )
     held = ", ".join(f"{name} = {value:g}" for name, value in campaign.law.fixed.items())
     if held:
         doubts.append(f"held by the campaign, tested by letting it go: {held}")

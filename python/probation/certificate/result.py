@@ -52,7 +52,7 @@ class Certificate:
     free : dict of str to Fit
         Each record alone, all parameters free: identification 4.
     described : dict of str to Fit
-        Each record with the parameters free that do not pass, the others held as identified.
+        Each record with the parameters free that do not pass, the others held as identified; all free where all pass.
     without_companion : dict of str to Fit
         Each record alone with a constant tau_max, all parameters free (Figure 3); empty if the law has no companion.
     regressions : dict of str to HardeningRegression

@@ -1,8 +1,10 @@
 """campaign.toml to settings and records; everything wrong in it is named by its row."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+
+import numpy as np
 
 from probation.errors import InputError
 from probation.records.complaint import bad_input, quoted, suggestion
@@ -30,6 +32,7 @@ _RECORD_KEYS = (
     "sheet",
     "noise",
     "temperature_file",
+    "temperature_C",
 )
 
 
@@ -157,7 +160,11 @@ def _record(folder: Path, entry: TomlTable) -> Record:
     )
     if "temperature_file" in entry.values:
         return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
-    return record
+    if "temperature_C" not in entry.values:
+        return record
+    if record.temperature is not None:
+        raise entry.complain("temperature_C", "it beside a column of temperatures", "one of the two", "leave it out")
+    return replace(record, temperature=np.full(len(record), entry.number("temperature_C")))
 
 
 def _label(columns: TomlTable, role: str) -> str | int:
