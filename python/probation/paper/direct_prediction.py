@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.companion import Companion
     from probation.paper.grip_tests import Grip
-    from probation.paper.twins import Twin
+    from probation.paper.twins import NeckingSet, Twin
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +54,9 @@ class Prediction:
         return float(np.sqrt(np.mean(self.error**2)))
 
 
-def direct_prediction(number: Grip, companion: Companion, seed: int = 0) -> Prediction:
+def direct_prediction(number: Grip, companion: Companion, seed: int = 0, necking: NeckingSet = "P2") -> Prediction:
     """Predict experiment 2 or 3 with E_u 3220 MPa, α 1 and the paper's regressed G (1.56 or 1.64 MPa), section 5.2."""
-    test = twin(number, seed)
+    test = twin(number, seed, necking)
     law = Law(
         unrelaxed_modulus=UNRELAXED_MODULUS,
         alpha=1.0,

@@ -181,7 +181,7 @@ class Exhibit:
                 ("≤ " if each.relation == "≤" else "") + number(each.paper),
                 number(each.ours) + ("" if each.spread is None else f" ± {each.spread:.2g}"),
                 each.unit or "–",
-                f"{100.0 * each.difference:+.1f} %" if abs(each.difference) < 9.995 else f"× {each.difference + 1:.3g}",
+                f"{100.0 * each.difference + 0.0:+.1f} %".replace("-0.0", "+0.0"),
             )
             for each in self.comparisons
         )
@@ -194,9 +194,8 @@ class Exhibit:
             if each.verdict == "differs":
                 explained.setdefault(each.because, []).append(each.quantity)
         return tuple(
-            f"{' and '.join(quantities) if len(quantities) < 3 else '; '.join(quantities)} "
-            f"{'differs' if len(quantities) == 1 else 'differ'}"
-            + (f": because {because}" if because else ", and we do not know why.")
+            f"{', '.join(quantities)} {'differs' if len(quantities) == 1 else 'differ'}"
+            + (f": because {because}." if because else ", and we do not know why.")
             for because, quantities in explained.items()
         )
 

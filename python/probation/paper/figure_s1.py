@@ -26,7 +26,7 @@ def exhibit(settings: Settings) -> Exhibit:
     """G regressed on both tests between grips."""
     twins = {number: twin(number, settings.seed) for number in GRIPS}
     found = {number: hardening_regression(each.true_strain, each.true_stress) for number, each in twins.items()}
-    truth = ", ".join(f"{each.truth.hardening_modulus:g}" for each in twins.values())
+    truth = " and ".join(f"{each.truth.hardening_modulus:g}" for each in twins.values())
     bend = max(each.curvature for each in found.values())
     low = " and ".join(
         f"{100 * (1 - found[number].hardening_modulus / twins[number].truth.hardening_modulus):.0f} %"
@@ -47,8 +47,8 @@ def exhibit(settings: Settings) -> Exhibit:
         explanation=f"The slope is not G: the twins were made with {truth} MPa. Beyond the peak of the strain rate the "
         "viscous stress falls while the hardening rises, and the regression takes their sum, so that it comes out "
         f"{low} low; the line hides it, departing from the stress by {bend:.2g} MPa at most. This is why "
-        "identification raises G by 13 % in Tables 3 and 4. The twins were not given the paper's slopes: that they "
-        "return them says that their strain histories are right.",
+        "identification raises G by 13 % in Tables 3 and 4. The twins were not given the paper's slopes; of the three "
+        "sets of (A-1), though, the one that comes nearest was chosen (Figure 1).",
         comparisons=comparisons,
         parts=(
             Drawing(
@@ -68,10 +68,10 @@ def _figure(twins: Mapping[Grip, Twin], found: Mapping[Grip, Regression]) -> Fig
             each, line = twins[number], found[number]
             measure = haward_thackray_strain(each.true_strain)
             start = float(haward_thackray_strain([LEAST_STRAIN])[0])
-            axes.plot(*thinned(measure, each.true_stress, 400), ".", ms=3.5, mew=0, color=colour("data"), label="twin")
+            axes.plot(*thinned(measure, each.true_stress, 400), ".", ms=5, mew=0, color=colour("data"), label="twin")
             ends = np.array([start, measure.max()])
             label = f"slope {line.hardening_modulus:.3f} MPa"
-            axes.plot(ends, line.intercept + line.hardening_modulus * ends, color=colour("second"), label=label)
+            axes.plot(ends, line.intercept + line.hardening_modulus * ends, color=colour("second"), lw=1.1, label=label)
             axes.axvline(start, color=colour("muted"), lw=0.8, ls=":")
             axes.set(xlabel="ε_HT = λ² − 1/λ [–]", title=f"grips {PUBLISHED[number].grip_speed:g} mm/s")
             axes.legend(loc="lower right")

@@ -10,7 +10,7 @@ import numpy as np
 from probation.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED
 from probation.identify import fit
 from probation.paper.published import TABLE_3, TABLE_4, UNRELAXED_MODULUS, GripTable
-from probation.paper.twins import Twin, experiment
+from probation.paper.twins import NeckingSet, Twin, experiment_1, experiment_2, experiment_3
 from probation.records import Campaign, CompanionSettings, LawSettings
 
 if TYPE_CHECKING:
@@ -39,20 +39,23 @@ OPTIONS: dict[int, LawSettings] = {
 """Identifications 2, 3 and 4 of Tables 3 and 4: α with (11), α with (12), α with (11) and E_u free."""
 
 
-@lru_cache(maxsize=8)
-def twin(number: Literal[1, 2, 3], seed: int) -> Twin:
-    """The twin P2 of that experiment."""
-    return experiment(number, seed)
+@lru_cache(maxsize=16)
+def twin(number: Literal[1, 2, 3], seed: int, necking: NeckingSet = "P2") -> Twin:
+    """The twin of that experiment; experiments 2 and 3 with that set of (A-1)."""
+    if number == 1:
+        return experiment_1(seed)
+    return experiment_2(seed, necking=necking) if number == 2 else experiment_3(seed, necking=necking)
+
+
+def identify(test: Twin, option: int) -> Fit:
+    """One of `OPTIONS` identified on a twin."""
+    return fit(Campaign(name=test.name, records=(test.record(),), law=OPTIONS[option]))
 
 
 @lru_cache(maxsize=8)
 def identified(number: Grip, seed: int) -> dict[int, Fit]:
     """Each of `OPTIONS` identified on the twin of experiment 2 or 3."""
-    record = twin(number, seed).record()
-    return {
-        option: fit(Campaign(name=f"experiment-{number}", records=(record,), law=law))
-        for option, law in OPTIONS.items()
-    }
+    return {option: identify(twin(number, seed), option) for option in OPTIONS}
 
 
 def fit_residual(found: Fit) -> FloatArray:
