@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.law import Law
+from probation.paper.grip_tests import twin
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+    from probation.paper.grip_tests import Grip
     from probation.paper.necking import NeckingHistory
     from probation.paper.twins import Twin
 
@@ -60,10 +63,15 @@ class CostOverTime:
         return int(np.argmin(np.abs(np.log(self.unrelaxed_modulus / unrelaxed_modulus))))
 
 
-def cost_over_time(twin: Twin, tau_max: FloatArray = TIMES) -> CostOverTime:
-    """Fit E_u and G at each constant τ_max; solved by the exact scheme, whatever the ratio of step and τ_max."""
-    stress = twin.true_stress
-    instantaneous, relaxed = zip(*(_unit_responses(twin, float(each)) for each in tau_max), strict=True)
+@lru_cache(maxsize=4)
+def cost_over_time(number: Grip, seed: int = 0) -> CostOverTime:
+    """Fit E_u and G at each of `TIMES` on experiment 2 or 3.
+
+    Solved by the exact scheme, which holds whatever the ratio of step and τ_max.
+    """
+    test, tau_max = twin(number, seed), TIMES
+    stress = test.true_stress
+    instantaneous, relaxed = zip(*(_unit_responses(test, float(each)) for each in tau_max), strict=True)
     found = [
         np.linalg.lstsq(np.column_stack(pair), stress, rcond=None)[0]
         for pair in zip(instantaneous, relaxed, strict=True)
@@ -89,12 +97,12 @@ def onset(law: Law, history: NeckingHistory) -> float:
     return float(law.stress(time, history.true_strain(time), scheme="exact")[-1])
 
 
-def _unit_responses(twin: Twin, tau_max: float) -> tuple[FloatArray, FloatArray]:
+def _unit_responses(test: Twin, tau_max: float) -> tuple[FloatArray, FloatArray]:
     """Stress per MPa of E_u and per MPa of G, each of shape (n_times,) [-]."""
 
     def stress(hardening_modulus: float) -> FloatArray:
         law = Law(unrelaxed_modulus=1.0, tau_max=tau_max, hardening_modulus=hardening_modulus)
-        return law.stress(twin.time, twin.true_strain, scheme="exact")
+        return law.stress(test.time, test.true_strain, scheme="exact")
 
     alone = stress(0.0)
     return alone, stress(1.0) - alone

@@ -38,7 +38,7 @@ _WHY_ONSET = (
 
 def exhibit(settings: Settings) -> Exhibit:
     """Constant τ_max on both tests between grips."""
-    searched = {number: cost_over_time(twin(number, settings.seed)) for number in GRIPS}
+    searched = {number: cost_over_time(number, settings.seed) for number in GRIPS}
     onsets = {number: onset(each.law(each.best), necking_history(number)) for number, each in searched.items()}
     curves = []
     comparisons: list[Comparison] = []
