@@ -171,7 +171,7 @@ def test_g_does_not_pass_on_the_papers_own_numbers(paper):
 
 @pytest.mark.parametrize(("number", "found"), [(2, 1.761), (3, 1.85)])
 def test_no_dependence_on_the_current_rate_explains_the_smaller_g(number, found):
-    """Table 2 has 1.85 to 2.46 MPa at the rates of these tests; their average is a tenth or more above what was found."""
+    """Table 2 has 1.85 to 2.46 MPa at the rates of these tests; their average is a tenth above what was found."""
     expected = expected_from_table_2(number)
     assert 1.85 < expected < 2.46
     assert expected > 1.1 * found
