@@ -14,8 +14,10 @@ from probation.paper import (
     figure_5,
     figure_6,
     figure_s1,
+    figure_s2,
     hardening_modulus,
     slips,
+    table_2,
     table_3,
     table_4,
 )
@@ -36,6 +38,7 @@ class Entry:
 
 EXHIBITS: tuple[Entry, ...] = (
     Entry("figure-1", figure_1.exhibit),
+    Entry("table-2", table_2.exhibit),
     Entry("figure-3", figure_3.exhibit),
     Entry("figure-4a", figure_4.figure_4a),
     Entry("figure-4b", figure_4.figure_4b),
@@ -44,6 +47,7 @@ EXHIBITS: tuple[Entry, ...] = (
     Entry("table-4", table_4.exhibit),
     Entry("figure-6", figure_6.exhibit),
     Entry("figure-s1", figure_s1.exhibit),
+    Entry("figure-s2", figure_s2.exhibit),
     Entry("hardening-modulus", hardening_modulus.exhibit),
     Entry("slips", slips.exhibit),
 )
