@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from probation._files import write_whole
 from probation.answers import json_answer
+from probation.errors import InputError
 from probation.paper.exhibit import Settings
 from probation.paper.exhibits import named_exhibits
 from probation.paper.grip_tests import twin
@@ -93,8 +94,17 @@ class Reproduction:
         return "\n".join(parts)
 
     def plot(self) -> Figure:
-        """The first figure."""
-        return next(drawing.figure for exhibit in self.exhibits.values() for drawing in exhibit.drawings)
+        """The first figure.
+
+        Raises
+        ------
+        InputError
+            If these exhibits have none.
+        """
+        for exhibit in self.exhibits.values():
+            for drawing in exhibit.drawings:
+                return drawing.figure
+        raise InputError(f"plot: found no figure in {', '.join(self.exhibits)}, expected an exhibit with one")
 
     def to_json(self) -> str:
         """The answer, schema "probation.paper/1"."""
