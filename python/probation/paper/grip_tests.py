@@ -47,6 +47,7 @@ def twin(number: Literal[1, 2, 3], seed: int, necking: NeckingSet = "P2") -> Twi
     return experiment_2(seed, necking=necking) if number == 2 else experiment_3(seed, necking=necking)
 
 
+@lru_cache(maxsize=32)
 def identify(test: Twin, option: int) -> Fit:
     """One of `OPTIONS` identified on a twin."""
     return fit(Campaign(name=test.name, records=(test.record(),), law=OPTIONS[option]))
