@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from probation.errors import InputError
+from probation.records.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
 from probation.records.complaint import bad_input, quoted, suggestion
 from probation.records.encoding import decode
 from probation.records.options import SPECIMEN_KEYS
@@ -112,9 +113,27 @@ def _law(table: TomlTable) -> LawSettings:
 def _companion(table: TomlTable) -> CompanionSettings:
     form = table.text("form", known=COMPANION_FORMS)
     names = COMPANION_FORMS[form]
-    table.only(("form", *names))
+    table.only(("form", *names, *CALIBRATION_KEYS))
     read = table.numbers if form == "table" else table.number
-    return CompanionSettings(form=form, parameters={name: read(name) for name in names})
+    parameters = {name: read(name) for name in names}
+    return CompanionSettings(form=form, parameters=parameters, calibration=_calibration(table))
+
+
+def _calibration(table: TomlTable) -> CalibrationSettings | None:
+    if not set(CALIBRATION_KEYS) & set(table.values):
+        return None
+    rates = None
+    if "calibrated_rates_per_s" in table.values:
+        found = table.numbers("calibrated_rates_per_s")
+        if len(found) != 2:
+            raise table.complain("calibrated_rates_per_s", f"{len(found)} calibrated_rates_per_s", "two, slowest first")
+        rates = (found[0], found[1])
+    return CalibrationSettings(
+        rates=rates,
+        covariance=table.rows_of_numbers("covariance") if "covariance" in table.values else None,
+        log_scatter=table.number("log_scatter", 0.0),
+        unrelaxed_modulus_MPa=table.number("unrelaxed_modulus_MPa") if "unrelaxed_modulus_MPa" in table.values else None,
+    )
 
 
 def _check_ids(entries: list[TomlTable]) -> None:
