@@ -59,10 +59,11 @@ def fitted_noise(
         By which all its noise was scaled.
     """
     left = noise.whiten(residual)
-    if len(residual) >= SHORTEST and float(left[1:] @ left[:-1]) > WORTH_A_LOOK / np.sqrt(len(left)) * float(left @ left):
+    neighbours = float(left[1:] @ left[:-1]) / float(left @ left)
+    if len(residual) >= SHORTEST and neighbours > WORTH_A_LOOK / np.sqrt(len(left)):
 
         def correlated(correlation: float) -> NoiseModel:
-            seen = 1.5 - 2.0 * correlation + 0.5 * correlation**2  # variance of a sample's distance to its neighbours' mean
+            seen = 1.5 - 2.0 * correlation + 0.5 * correlation**2  # variance of the distance to the neighbours' mean
             scale = noise.scale * float(np.sqrt(1.5 / seen)) if differenced else noise.scale
             return replace(noise, scale=scale, correlation=correlation)
 
@@ -99,7 +100,7 @@ def _criterion(noise: NoiseModel, residual: FloatArray, jacobian: FloatArray) ->
     triangle = np.abs(np.diag(np.linalg.qr(columns, mode="r")))
     free = jacobian.shape[1]
     within = 2.0 * float(np.log(np.maximum(triangle[:free], 1e-300)).sum())
-    return (
+    return float(
         2.0 * (len(residual) - free) * float(np.log(max(triangle[free], 1e-300)))
         + noise.log_determinant
         + within

@@ -142,10 +142,11 @@ class Coverage:
         failing = [each.case for each in recommended if not each.all_hold]
         draws = min(each.draws for each in self.counted)
         if failing:
-            return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {', '.join(failing)}."
+            kinds = ", ".join(failing)
+            return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
         return (
-            f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} kinds "
-            "of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
+            f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} "
+            "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
         )
 
     def table(self) -> Table:

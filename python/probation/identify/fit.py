@@ -17,11 +17,11 @@ from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess
-from probation.identify.weighting import WEIGHTINGS, Weighting, plainly, weigh
+from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
 from probation.law import SCHEMES, Law, Scheme, Start
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from probation.excitation import Method as ExcitationMethod
     from probation.records import Campaign
@@ -63,14 +63,14 @@ def fit(
         bE2's first step.
     substeps : int or "auto"
         Steps of the scheme from sample to sample. 1 is the paper's; "auto" takes as many as it needs for its own error
-        to shift no parameter by more than `scheme_error.NEGLIGIBLE` standard errors, up to `MOST_SUBSTEPS` (more on short records).
+        to shift no parameter by more than a tenth of its standard error, up to 16 (more on short records).
     weighting : {"auto", "plain", "strain-noise", "strain-noise-frozen"}
         How the fit residuals are weighed. "plain": white noise of the stress alone. "strain-noise": the noise of the
         strain, too, as the law carries it to the stress, re-evaluated as the parameters move; "strain-noise-frozen"
         leaves it at the plain estimate, which is biased and here to be shown so. "auto": "strain-noise" where that
-        noise is a part of any parameter's error that matters (`CARRIED_NOISE`), else "plain". All but "plain" see
-        stress noise that is autocorrelated, AR(1), too. Of a record longer than `LARGEST` samples the strain noise goes
-        into the standard errors only, by drawing the strain again.
+        noise is more than 0.3 of the rest of any parameter's standard error, else "plain". All but "plain" see stress
+        noise that is autocorrelated, AR(1), too. Of a record of more than 3000 samples the strain noise goes into the
+        standard errors only, by drawing the strain again.
     intervals : {"standard-error", "profile"}
         Where the 95 % intervals come from; "profile": the likelihood, the other parameters profiled out.
     progress : callable, optional
@@ -104,11 +104,34 @@ def fit(
     problem = Problem(law, prepared, held)
     if problem.held.all():
         raise InputError("all parameters are held; nothing is left to identify")
-
     adapting = substeps == "auto" and scheme != "sa3"
+    told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
+    best = _least_squares(problem, prepared, method, limits, adapting, told)
+    weighted = plainly(problem, best)
+    if weighting != "plain":
+        weighted = weigh(problem, best, weighting, limits, excitation)
+        if adapting and weighted.carries_strain_noise:
+            weighted = _with_more_substeps(problem, weighted, weighting, limits, excitation)
+    if progress:
+        progress(0.9)
+    found = describe(campaign, problem, weighted, scheme, start, method, weighting, limits, intervals)
+    if progress:
+        progress(1.0)
+    return found
+
+
+def _least_squares(
+    problem: Problem,
+    prepared: Sequence[RecordProblem],
+    method: Method,
+    limits: Mapping[str, tuple[float, float]],
+    adapting: bool,
+    progress: Callable[[float], None] | None,
+) -> Law:
+    """The best law with white noise; `adapting` takes as many substeps as it needs."""
     if adapting:  # a coarse record's best fit by the scheme may be far off, where its error says nothing
         problem.records = tuple(each.reference() for each in prepared)
-    best = first_guess(problem, limits, None if progress is None else lambda part: progress(0.3 + 0.5 * part))
+    best = first_guess(problem, limits, progress)
     if len(prepared) > 1:
         problem.reweigh(best)
         best = first_guess(problem, limits)
@@ -117,25 +140,25 @@ def fit(
         problem.records = tuple(each.with_substeps(needed) for each in prepared)
         best = first_guess(problem, limits, near=best)
     if method == "least-squares":
-        best = by_least_squares(problem, best, limits)
-    elif method == "simplex":
-        best = by_simplex(problem, best, limits)
-    weighted = plainly(problem, best)
-    if weighting != "plain":
-        white = list(problem.noises)
-        weighted = weigh(problem, best, weighting, limits, excitation)
-        if adapting and weighted.carries_strain_noise:  # whitened, the scheme's error weighs otherwise
-            more = needed_substeps(problem, prepared, weighted, needed)
-            if more > needed:
-                problem.records = tuple(each.with_substeps(more) for each in prepared)
-                problem.noises = white
-                weighted = weigh(problem, weighted.law, weighting, limits, excitation)
-    if progress:
-        progress(0.9)
-    found = describe(campaign, problem, weighted, scheme, start, method, weighting, limits, intervals)
-    if progress:
-        progress(1.0)
-    return found
+        return by_least_squares(problem, best, limits)
+    return by_simplex(problem, best, limits) if method == "simplex" else best
+
+
+def _with_more_substeps(
+    problem: Problem,
+    weighted: Weighted,
+    weighting: Weighting,
+    limits: Mapping[str, tuple[float, float]],
+    excitation: ExcitationMethod,
+) -> Weighted:
+    """The scheme's error weighs otherwise once the residual is whitened, and may need more substeps."""
+    taken = problem.records[0].substeps
+    needed = needed_substeps(problem, problem.records, weighted, taken)
+    if needed <= taken:
+        return weighted
+    problem.records = tuple(each.with_substeps(needed) for each in problem.records)
+    problem.noises = list(problem.white)
+    return weigh(problem, weighted.law, weighting, limits, excitation)
 
 
 def _base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[bool, bool, bool]]:

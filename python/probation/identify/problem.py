@@ -101,6 +101,13 @@ class Problem:
     records : sequence of RecordProblem
     held : tuple of bool, shape (3,)
         Which of `law.parameters` are not identified.
+
+    Attributes
+    ----------
+    noises : list of NoiseModel
+        Per record; what the residuals are whitened with.
+    white : tuple of NoiseModel
+        What `noises` were while the noise was taken as white.
     """
 
     def __init__(self, law: Law, records: Sequence[RecordProblem], held: tuple[bool, bool, bool]) -> None:
@@ -108,6 +115,7 @@ class Problem:
         self.records = tuple(records)
         self.held = np.array(held)
         self.noises = [NoiseModel.white(each.noise, each.record.time) for each in self.records]
+        self.white = tuple(self.noises)
 
     @property
     def free(self) -> NDArray[np.intp]:
@@ -152,3 +160,4 @@ class Problem:
             residual = each.stress(law) - each.record.true_stress
             scale = max(each.noise, float(np.sqrt(np.mean(residual**2))))
             self.noises[index] = NoiseModel.white(scale, each.record.time)
+        self.white = tuple(self.noises)

@@ -112,11 +112,11 @@ def profile(
             if not limits[name][0] < at < limits[name][1]:
                 break
             there, cost = walk.to(at, there)
-            root = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
-            points.append((at, sign * root))
-            if root > FARTHEST * quantile:
+            rise = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
+            points.append((at, sign * rise))
+            if rise > FARTHEST * quantile:
                 break
-            if count > 4 or root < 0.2 * quantile * (count + 1) / 3.0:
+            if count > 4 or rise < 0.07 * quantile * (count + 1):
                 step *= 2.0
         sides.append(points)
     both = np.array([*reversed(sides[0]), (value, 0.0), *sides[1]])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,6 +58,7 @@ class StrainNoise:
     deviation: float
     strain: FloatArray | None
     rate: FloatArray | None
+    _made: dict[bytes, FloatArray] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, problem: RecordProblem) -> StrainNoise | None:
@@ -76,23 +77,29 @@ class StrainNoise:
 
     def carried(self, law: Law) -> FloatArray:
         """Stress made by each unit error, shape (n_times, n_directions) [MPa]."""
-        if self.strain is None:
-            return self.deviation * self.solver.strain_sensitivity(law.engine, _core.LawChange())
-        return self._tangents(law, self.strain, self.rate)
+        key = law.parameters.tobytes()
+        if key not in self._made:
+            while len(self._made) > 1:  # two: a search compares a law with the one that it came from
+                del self._made[next(iter(self._made))]
+            self._made[key] = (
+                self.solver.strain_sensitivity(law.engine, _core.LawChange())
+                if self.strain is None
+                else self._tangents(law, self.strain, self.rate)
+            )
+        return self.deviation * self._made[key]
 
     def along(self, law: Law, errors: FloatArray) -> FloatArray:
         """Stress made by those errors, in units of their standard deviation; shape (n_times,) [MPa]."""
         strain = errors if self.strain is None else self.strain @ errors
         rate = None if self.rate is None else (self.rate @ errors)[:, None]
-        return self._tangents(law, strain[:, None], rate)[:, 0]
+        return self.deviation * self._tangents(law, strain[:, None], rate)[:, 0]
 
     def probed(self, law: Law, count: int) -> FloatArray:
         """Stress made by `count` draws of the noise, always the same ones; shape (n_times, count) [MPa]."""
         size = len(self.solver.history) if self.strain is None else self.strain.shape[1]
         errors = np.random.default_rng(0).standard_normal((size, count))
-        if self.strain is None:
-            return self._tangents(law, errors, None)
-        return self._tangents(law, self.strain @ errors, None if self.rate is None else self.rate @ errors)
+        strain = errors if self.strain is None else self.strain @ errors
+        return self.deviation * self._tangents(law, strain, None if self.rate is None else self.rate @ errors)
 
     def slopes(self, law: Law, errors: FloatArray, wanted: Sequence[int]) -> FloatArray:
         """Derivatives of `along` by the law's parameters number `wanted`; shape (n_times, wanted)."""
@@ -112,9 +119,9 @@ class StrainNoise:
         directions = []
         for at in range(strain.shape[1]):
             direction = _core.Direction()
-            direction.true_strain = self.deviation * strain[:, at]
+            direction.true_strain = strain[:, at]
             if rate is not None:
-                direction.strain_rate = self.deviation * rate[:, at]
+                direction.strain_rate = rate[:, at]
             directions.append(direction)
         stress, tangents = np.empty(len(strain)), np.empty((len(strain), len(directions)))
         self.solver.tangent(law.engine, _core.LawChange(), directions, stress, tangents)
@@ -155,7 +162,8 @@ def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatA
         moved = np.sqrt(np.mean((gain @ carried) ** 2, axis=1))
     else:
         moved = np.linalg.norm(gain @ noise.carried(law), axis=1)
-    return np.divide(moved, error, out=np.full_like(moved, np.inf), where=error > 0.0)
+    share: FloatArray = np.divide(moved, error, out=np.full_like(moved, np.inf), where=error > 0.0)
+    return share
 
 
 def resampled(problem: RecordProblem, law: Law, gain: FloatArray, method: ExcitationMethod) -> FloatArray:
@@ -189,7 +197,7 @@ def carried_at_end(problem: RecordProblem, law: Law) -> float:
     """Stress that the noise of one strain sample makes through the hardening at the largest strain [MPa]."""
     end = float(np.max(np.abs(problem.record.true_strain)))
     slope = law.hardening_modulus * (2.0 * np.exp(2.0 * end) + np.exp(-end))  # G d e_HT / d e, eq. (3)
-    return problem.excitation.strain_noise * slope
+    return float(problem.excitation.strain_noise * slope)
 
 
 def left_over(problem: RecordProblem, law: Law) -> float:

@@ -42,8 +42,8 @@ Weighting = Literal["auto", "plain", "strain-noise", "strain-noise-frozen"]
 WEIGHTINGS: tuple[Weighting, ...] = ("auto", "plain", "strain-noise", "strain-noise-frozen")
 
 MOST_STEPS = 40
-SMALL_STEP = 1e-3
-"""Step of the search [standard errors] at which it ends."""
+SMALL_STEP, ROUGH_STEP = 1e-3, 0.05
+"""Steps [standard errors] at which a search ends, and one that another follows."""
 
 LONGEST_STEP = 0.7
 """Largest change of the logarithm of a parameter in one step."""
@@ -116,13 +116,14 @@ def weigh(
                 problem.noises[index] = problem.noises[index].with_carried(noise.carried(law))
         if not frozen and _cost(problem, there, weighted) < _cost(problem, law, weighted):
             law = there
-        law = minimise(problem, law, weighted, limits)
+        law = minimise(problem, law, weighted, limits, tolerance=SMALL_STEP if frozen else ROUGH_STEP)
         if frozen:
             return replace(weighted, law=law)
     weighted = replace(weighted, law=law, strain=_find_noises(problem, law, strain))
-    if weighted.carries_strain_noise or any(noise.correlation for noise in problem.noises):
-        weighted = replace(weighted, law=minimise(problem, law, weighted, limits))
-    return weighted
+    if not weighted.carries_strain_noise and not any(noise.correlation for noise in problem.noises):
+        problem.noises = list(problem.white)
+        return weighted
+    return replace(weighted, law=minimise(problem, law, weighted, limits))
 
 
 def minimise(
@@ -131,6 +132,7 @@ def minimise(
     weighted: Weighted,
     limits: Mapping[str, tuple[float, float]],
     fixed: int | None = None,
+    tolerance: float = SMALL_STEP,
 ) -> Law:
     """The law of least cost, by damped Gauss-Newton from a law that is close.
 
@@ -143,11 +145,13 @@ def minimise(
     limits : mapping of str to (float, float)
     fixed : int, optional
         A parameter that does not move, by its number in `law.parameters`.
+    tolerance : float
+        Step [standard errors] at which the search ends.
     """
     wanted = [int(index) for index in problem.free if index != fixed]
     if not wanted:
         return law
-    lower, upper = (np.array([limits[law.parameter_names[i]][side] for i in wanted]) for side in (0, 1))
+    ends = np.array([limits[law.parameter_names[i]] for i in wanted])
     residual, jacobian = residual_and_jacobian(problem, law, weighted)
     damping = 0.0
     for _ in range(MOST_STEPS):
@@ -157,13 +161,13 @@ def minimise(
         normal, gradient = scaled.T @ scaled, scaled.T @ residual
         diagonal = np.diag(np.maximum(np.diag(normal), 1e-300))
         step = -np.linalg.lstsq(normal + damping * diagonal, gradient, rcond=1e-15)[0]
-        largest = float(np.max(np.abs(step)))
-        step *= min(1.0, LONGEST_STEP / largest) if largest > 0.0 else 1.0
+        step *= LONGEST_STEP / np.maximum(np.max(np.abs(step)), LONGEST_STEP)
         found = law.parameters
-        found[wanted] = np.clip(values + step * size, np.maximum(lower, 1e-3 * size), upper)
+        found[wanted] = np.clip(values + step * size, np.maximum(ends[:, 0], 1e-3 * size), ends[:, 1])
         freedom = max(len(residual) - len(wanted), 1)
-        length = float(np.sqrt(max(step @ normal @ step, 0.0) / (residual @ residual / freedom + 1e-300)))
-        if length < SMALL_STEP and damping < 1.0:
+        scatter = float(residual @ residual) / freedom + 1e-300
+        length = float(np.sqrt(np.maximum(step @ normal @ step, 0.0) / scatter))
+        if length < tolerance and damping < 1.0:
             break
         there = law.with_parameters(found)
         new_residual, new_jacobian = residual_and_jacobian(problem, there, weighted)
@@ -287,9 +291,7 @@ def _gains(problem: Problem, jacobian: FloatArray) -> list[FloatArray]:
     return [part / noise.scale for part, noise in zip(parts, problem.noises, strict=True)]
 
 
-def _find_noises(
-    problem: Problem, law: Law, strain: Sequence[StrainNoise | None]
-) -> tuple[StrainNoise | None, ...]:
+def _find_noises(problem: Problem, law: Law, strain: Sequence[StrainNoise | None]) -> tuple[StrainNoise | None, ...]:
     """Set every record's noise model from its residual at `law`; the strain noises, scaled with them."""
     found: list[StrainNoise | None] = []
     for index, (each, noise) in enumerate(zip(problem.records, strain, strict=True)):
