@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.interpolate import make_smoothing_spline
 
-from probation import Record
+from probation import Noise, Record
 from probation.excitation import excite
 from probation.excitation.segments import find_jumps
+from probation.excitation.smoothing import _spline_operators
+from probation.paper.necking import NECKING_SETS
 
 
 def record(time, strain, control="displacement-rate", **more):
@@ -99,3 +102,77 @@ def test_a_noisy_ramp_is_smoothed_to_a_straight_line(samples):
     found = excite(record(time, 0.005 * time + noise), "spline")
     assert np.sqrt(np.mean((found.true_strain - 0.005 * time) ** 2)) < 3e-4 * np.sqrt(6.0 / samples)
     assert np.quantile(np.abs(found.strain_rate / 0.005 - 1.0), 0.95) < 0.01
+
+
+def necking_record(noise, samples=301, seed=0, *, uneven=False):
+    """Experiment 3's strain, eq. (A-1) with set P2; also its true rate."""
+    history = NECKING_SETS["P2"]
+    time = np.linspace(0.0, history.duration, samples)
+    if uneven:
+        inner = np.random.default_rng([seed, 5]).uniform(-0.4, 0.4, samples - 2) * time[1]
+        time[1:-1] += inner
+    strain = history.true_strain(time)
+    noisy = strain + noise * np.random.default_rng(seed).normal(size=samples)
+    return record(time, noisy), strain, history.strain_rate(time)
+
+
+@pytest.mark.parametrize("uneven", [False, True])
+def test_operators_are_what_the_smoother_does_at_fixed_smoothness(uneven):
+    """The spline is linear: operator times samples is its answer, and moving one sample moves it by a column."""
+    measured, _, _ = necking_record(1e-4, 121, uneven=uneven)
+    found = excite(measured, "spline")
+    assert_allclose(found.strain_operator() @ measured.true_strain, found.true_strain, atol=1e-9)
+    assert_allclose(found.rate_operator() @ measured.true_strain, found.strain_rate, atol=1e-10)
+    # scipy's own spline at one smoothness, sample by sample
+    time, penalty, move = measured.time, 3.0, 1e-3
+    operators = _spline_operators(time, penalty, 1.0)
+    base = make_smoothing_spline(time, measured.true_strain, lam=penalty)
+    for sample in (0, 1, 57, 120):
+        moved = measured.true_strain.copy()
+        moved[sample] += move
+        spline = make_smoothing_spline(time, moved, lam=penalty)
+        assert_allclose(operators.strain[:, sample], (spline(time) - base(time)) / move, atol=1e-9)
+        assert_allclose(operators.rate[:, sample], (spline(time, 1) - base(time, 1)) / move, atol=1e-9)
+
+
+def test_operators_are_blocks_between_jumps_and_means_at_them():
+    time, strain = jump_history(2e-5)
+    found = excite(record(time[::4], strain[::4]))
+    (jump,) = found.jumps
+    operator, rate = found.strain_operator(), found.rate_operator()
+    assert_allclose(operator @ strain[::4], found.true_strain, atol=1e-9)
+    assert_allclose(rate @ strain[::4], found.strain_rate, atol=1e-10)
+    assert not operator[:jump, jump + 1 :].any()
+    assert not rate[jump + 1 :, :jump].any()
+    assert_allclose(operator.sum(axis=1), 1.0, atol=1e-9)  # a shift of all samples is a shift
+    assert_allclose(rate.sum(axis=1), 0.0, atol=1e-9)
+
+
+def test_refined_histories_have_operators_too():
+    """Both straight lines and cubics are linear in the samples; at a jump the engine's own side is taken."""
+    time, strain = jump_history(2e-5)
+    for method in ("raw", "spline"):
+        fine = excite(record(time[::8], strain[::8]), method).refined(3)
+        assert_allclose(fine.strain_operator() @ strain[::8], fine.true_strain, atol=1e-8)
+        if method == "spline":
+            assert_allclose(fine.rate_operator() @ strain[::8], fine.strain_rate, rtol=1e-4)
+        else:
+            assert fine.rate_operator() is None
+
+
+def test_strain_as_measured_has_no_operator_and_a_given_rate_does_not_depend_on_it():
+    time = np.linspace(0.0, 10.0, 101)
+    raw = excite(record(time, 0.01 * time), "raw")
+    assert raw.strain_operator() is None
+    assert raw.rate_operator() is None
+    given = excite(record(time, 0.01 * time, strain_rate=np.full(101, 0.01)))
+    assert given.strain_operator() is None
+    assert not given.rate_operator().any()
+
+
+def test_standard_errors_are_those_of_white_noise_through_the_operators():
+    """A central difference of white noise s at spacing h scatters by s / (h sqrt 2)."""
+    time = np.linspace(0.0, 10.0, 101)
+    raw = excite(record(time, 0.01 * time, noise=Noise(strain=1e-4)), "raw")
+    assert_allclose(raw.strain_se, 1e-4)
+    assert_allclose(raw.rate_se[1:-1], 1e-4 / 0.1 / np.sqrt(2.0))
