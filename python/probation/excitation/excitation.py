@@ -202,7 +202,6 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
     # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
     noise = smoothed.noise if given is None else noise
-    spread = noise * np.sqrt(smoothed.inflation)
     return Excitation(
         time=record.time,
         true_strain=smoothed.true_strain,
@@ -212,8 +211,8 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
         differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
         strain_noise=float(noise),
         method=method,
-        strain_se=spread * smoothed.strain_error,
-        rate_se=spread * smoothed.rate_error,
+        strain_se=noise * smoothed.strain_error,
+        rate_se=noise * smoothed.rate_error,
         freedom=smoothed.freedom,
         noise_inflation=smoothed.inflation,
         operators=smoothed.operators,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import BSpline
-from scipy.linalg import solve_triangular
+from scipy.linalg import cholesky, solve_triangular
 from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
@@ -24,7 +24,7 @@ PRUDENCE = 1.4
 SAMPLES_PER_KNOT = 8
 """Fewer knots than samples by so much: correlated noise has less to hide in."""
 
-FEWEST_KNOTS, MOST_KNOTS, ALL_KNOTS = 40, 250, 800
+FEWEST_KNOTS, MOST_KNOTS, ALL_KNOTS = 40, 250, 500
 """... but at least and at most so many; up to `ALL_KNOTS` where the knots themselves are what holds the curve back."""
 
 EXHAUSTED = 0.9
@@ -92,7 +92,8 @@ class Basis:
         breaks = np.interp(np.linspace(0.0, len(x) - 1.0, knots + 2), np.arange(len(x)), x)
         padded = np.concatenate([np.zeros(degree), breaks, np.ones(degree)])
         every = BSpline(padded, np.eye(len(padded) - degree - 1), degree)
-        orthonormal, triangle = np.linalg.qr(BSpline.design_matrix(x, padded, degree).toarray())
+        design = BSpline.design_matrix(x, padded, degree)
+        triangle = cholesky((design.T @ design).toarray())
         # Gauss points that integrate the penalty exactly; its square root keeps the digits of stiff splines.
         points, weights = np.polynomial.legendre.leggauss(order)
         half = 0.5 * np.diff(breaks)[:, None]
@@ -103,9 +104,10 @@ class Basis:
         _, singular, turn = np.linalg.svd(rotated, full_matrices=False)
         penalties = singular**2
         penalties[-order:] = 0.0
-        turn = turn[::-1].T
-        slopes = every.derivative()(x) @ solve_triangular(triangle, turn) / duration
-        return cls(orthonormal @ turn, slopes, penalties[::-1], order)
+        coefficients = solve_triangular(triangle, turn[::-1].T)
+        apart = (padded[degree + 1 : -1] - padded[1 : -degree - 1])[:, None]
+        slopes = BSpline.design_matrix(x, padded[1:-1], degree - 1) @ (degree / apart * np.diff(coefficients, axis=0))
+        return cls(design @ coefficients, slopes / duration, penalties[::-1], order)
 
     def operators(self, shrink: FloatArray) -> Operators:
         """The dense operators; `shrink` of shape (n_basis,) is what the smoothness leaves of each function."""
@@ -189,8 +191,8 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
     return Smoothed(
         strain,
         basis.slopes @ (shrink * score.weights),
-        np.sqrt(basis.values**2 @ shrink),
-        np.sqrt(basis.slopes**2 @ shrink),
+        np.sqrt(grown * (basis.values**2 @ shrink)),
+        np.sqrt(grown * (basis.slopes**2 @ shrink)),
         float(shrink.sum()),
         score.squares(shrink),
         grown,

@@ -24,7 +24,7 @@ class Smoothed:
     true_strain : ndarray, shape (n_times,) [-]
     strain_rate : ndarray, shape (n_times,) [1/s]
     strain_error : ndarray, shape (n_times,) [-]
-        Standard error of the strain for strain noise of standard deviation 1.
+        Standard error of the strain for strain noise of standard deviation 1, correlated as it is (`inflation`).
     rate_error : ndarray, shape (n_times,) [1/s]
         ... and of the rate.
     freedom : float
