@@ -5,15 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, one_of
+from probation.excitation.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.excitation.operators import Operators
+from probation.excitation.segmented import smooth_segments
 from probation.excitation.segments import CLEAN, find_jumps
-from probation.excitation.smoothing import smooth_segments
 from probation.history import make_history
 from probation.records.noise import scatter
 
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation.records import Record
-
-Method = Literal["auto", "raw", "spline"]
-METHODS: tuple[Method, ...] = ("auto", "raw", "spline")
 
 RATE_NOISE = 2e-3
 """Smooth where the differenced strain's noise exceeds this fraction of the typical rate."""
@@ -50,6 +48,17 @@ class Excitation:
         How the rate was had, in words.
     strain_noise : float
         Standard deviation of the measured strain's noise [-].
+    method : str
+        One of `METHODS`, never "auto".
+    strain_se : ndarray, shape (n_times,) [-]
+        Standard error of `true_strain`. Of a spline it covers its bias, too, on average along the curve (Nychka 1988).
+    rate_se : ndarray, shape (n_times,) [1/s]
+        ... and of `rate`; for a rate given with the record, its own scatter from sample to sample.
+    freedom : float
+        Degrees of freedom that the samples were described with.
+    noise_inflation : float
+        Variance of slow averages of the strain's noise over what white noise would have: 1 where it is white. Within
+        the standard errors already.
     operators : callable, or None
         Makes what the measured samples do to strain and rate; None where the strain is as measured.
     """
@@ -61,6 +70,11 @@ class Excitation:
     direction: FloatArray
     differentiator: str
     strain_noise: float
+    method: Method
+    strain_se: FloatArray
+    rate_se: FloatArray
+    freedom: float
+    noise_inflation: float = 1.0
     operators: Callable[[], Operators] | None = None
 
     def strain_operator(self) -> FloatArray | None:
@@ -84,29 +98,8 @@ class Excitation:
     def _made(self) -> Operators | None:
         return None if self.operators is None else self.operators()
 
-    @cached_property
-    def strain_se(self) -> FloatArray:
-        """Standard error of `true_strain` from the strain's noise, shape (n_times,) [-]."""
-        operator = self.strain_operator()
-        if operator is None:
-            return np.full(len(self.time), self.strain_noise)
-        return self.strain_noise * _row_norms(operator)
-
-    @cached_property
-    def rate_se(self) -> FloatArray:
-        """Standard error of `rate` from the strain's noise, shape (n_times,) [1/s].
-
-        That of a rate given with the record is its own scatter from sample to sample.
-        """
-        if self.operators is None and self.strain_rate is not None:
-            return np.full(len(self.time), scatter(self.time, self.strain_rate))
-        operator = self.rate_operator()
-        if operator is None:
-            operator = np.asarray(np.gradient(np.eye(len(self.time)), self.time, axis=0))
-        return self.strain_noise * _row_norms(operator)
-
     def strain_covariance(self) -> FloatArray:
-        """Covariance of `true_strain` from the strain's noise, shape (n_times, n_times) [-]."""
+        """Covariance of `true_strain` from white noise of `strain_noise`, shape (n_times, n_times) [-]."""
         operator = self.strain_operator()
         if operator is None:
             return self.strain_noise**2 * np.eye(len(self.time))
@@ -114,7 +107,10 @@ class Excitation:
         return covariance
 
     def rate_covariance(self) -> FloatArray | None:
-        """Covariance of `strain_rate` from the strain's noise, shape (n_times, n_times) [1/s^2]; None without one."""
+        """Covariance of `strain_rate` from white noise of `strain_noise`, shape (n_times, n_times) [1/s^2].
+
+        None where `rate_operator` is None.
+        """
         operator = self.rate_operator()
         return None if operator is None else self.strain_noise**2 * operator @ operator.T
 
@@ -139,15 +135,17 @@ class Excitation:
         if self.strain_rate is not None:
             begin, end = self.history().rates(_core.Differentiator.backward)
         strain, rate = _refine(self.time, substeps, self.true_strain, self.strain_rate, begin, end)
+        within = np.diff(self.time)[:, None] * (np.arange(substeps) / substeps)
+        time = _spread(self.time[:-1, None] + within, self.time[-1:])
         return replace(
             self,
-            time=_spread(
-                self.time[:-1, None] + np.diff(self.time)[:, None] * (np.arange(substeps) / substeps), self.time[-1:]
-            ),
+            time=time,
             true_strain=strain,
             strain_rate=rate,
             jumps=tuple(substeps * jump for jump in self.jumps),
             direction=np.repeat(self.direction, substeps),
+            strain_se=np.interp(time, self.time, self.strain_se),
+            rate_se=np.interp(time, self.time, self.rate_se),
             operators=partial(self._refined_operators, substeps),
         )
 
@@ -183,41 +181,76 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     Parameters
     ----------
     record : Record
-    method : {"auto", "raw", "spline"}
-        "raw" takes the strain as it is (and the rate if the record has one); "spline" smooths it, segment by segment;
-        "auto" does so where the strain is noisy and the record has no rate of its own.
+    method : str
+        One of `METHODS`. "raw" takes the strain as it is (and the rate if the record has one), the others smooth it,
+        segment by segment; "auto" does so by `DEFAULT` where the strain is noisy and the record has no rate of its own.
 
     Raises
     ------
     InputError
-        For an unknown method.
+        For an unknown method, or one that does not describe the record.
     """
     one_of(method, "excitation", METHODS)
-    noise = record.noise.strain if record.noise.strain is not None else scatter(record.time, record.true_strain)
+    given = record.noise.strain
+    noise = given if given is not None else scatter(record.time, record.true_strain)
     jumps = find_jumps(record.time, record.true_strain, noise)
-    strain, rate, operators = record.true_strain, record.strain_rate, None
-    name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
-    if rate is not None and method != "spline":
-        name = "rate given with the record"
-    elif method == "spline" or (method == "auto" and _rate_is_noisy(record, noise)):
-        strain, rate, operators = smooth_segments(record.time, record.true_strain, jumps)
-        name = "cubic smoothing spline (generalised cross-validation)"
-        name += f", {len(jumps) + 1} segments between jumps" if jumps else ""
+    if method == "auto":
+        method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
+    if method == "raw":
+        return _as_measured(record, jumps, noise)
+    way = SMOOTHERS[method]
+    smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+    # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
+    noise = smoothed.noise if given is None else noise
     return Excitation(
-        record.time,
-        strain,
-        rate,
-        tuple(jumps),
-        _direction(record, strain, jumps, noise),
-        name,
-        float(noise),
-        operators,
+        time=record.time,
+        true_strain=smoothed.true_strain,
+        strain_rate=smoothed.strain_rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, smoothed.true_strain, jumps, noise),
+        differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
+        strain_noise=float(noise),
+        method=method,
+        strain_se=noise * smoothed.strain_error,
+        rate_se=noise * smoothed.rate_error,
+        freedom=smoothed.freedom,
+        noise_inflation=smoothed.inflation,
+        operators=smoothed.operators,
     )
 
 
-def _row_norms(operator: FloatArray) -> FloatArray:
-    norms: FloatArray = np.sqrt(np.einsum("ij,ij->i", operator, operator))
-    return norms
+def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
+    """The samples themselves, and the rate if the record has one."""
+    strain, rate = record.true_strain, record.strain_rate
+    if rate is None:
+        name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
+        rate_se = noise * _gradient_error(record.time)
+    else:
+        name = "rate given with the record"
+        rate_se = np.full(len(rate), scatter(record.time, rate))
+    return Excitation(
+        time=record.time,
+        true_strain=strain,
+        strain_rate=rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, strain, jumps, noise),
+        differentiator=name,
+        strain_noise=float(noise),
+        method="raw",
+        strain_se=np.full(len(strain), float(noise)),
+        rate_se=rate_se,
+        freedom=float(len(strain)),
+    )
+
+
+def _gradient_error(time: FloatArray) -> FloatArray:
+    """Standard error of `numpy.gradient` of white noise of standard deviation 1, shape (n_times,) [1/s]."""
+    step = np.diff(time)
+    before, after = step[:-1], step[1:]
+    whole = before + after
+    weights = (-after / (before * whole), (after - before) / (before * after), before / (after * whole))
+    inner = np.sqrt(sum(weight**2 for weight in weights))
+    return np.concatenate([[np.sqrt(2.0) / step[0]], inner, [np.sqrt(2.0) / step[-1]]])
 
 
 def _refine(
