@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, one_of
+from probation.excitation.methods import DEFAULT, METHODS, SMOOTHERS, Method
+from probation.excitation.operators import Operators
+from probation.excitation.segmented import smooth_segments
 from probation.excitation.segments import CLEAN, find_jumps
-from probation.excitation.smoothing import smooth_segments
 from probation.history import make_history
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
-    from probation.records import Record
+    from collections.abc import Callable
 
-Method = Literal["auto", "raw", "spline"]
-METHODS: tuple[Method, ...] = ("auto", "raw", "spline")
+    from probation.records import Record
 
 RATE_NOISE = 2e-3
 """Smooth where the differenced strain's noise exceeds this fraction of the typical rate."""
@@ -46,6 +48,19 @@ class Excitation:
         How the rate was had, in words.
     strain_noise : float
         Standard deviation of the measured strain's noise [-].
+    method : str
+        One of `METHODS`, never "auto".
+    strain_se : ndarray, shape (n_times,) [-]
+        Standard error of `true_strain`. Of a spline it covers its bias, too, on average along the curve (Nychka 1988).
+    rate_se : ndarray, shape (n_times,) [1/s]
+        ... and of `rate`; for a rate given with the record, its own scatter from sample to sample.
+    freedom : float
+        Degrees of freedom that the samples were described with.
+    noise_inflation : float
+        Variance of slow averages of the strain's noise over what white noise would have: 1 where it is white. Within
+        the standard errors already.
+    operators : callable, or None
+        Makes what the measured samples do to strain and rate; None where the strain is as measured.
     """
 
     time: FloatArray
@@ -55,6 +70,49 @@ class Excitation:
     direction: FloatArray
     differentiator: str
     strain_noise: float
+    method: Method
+    strain_se: FloatArray
+    rate_se: FloatArray
+    freedom: float
+    noise_inflation: float = 1.0
+    operators: Callable[[], Operators] | None = None
+
+    def strain_operator(self) -> FloatArray | None:
+        """Derivative of `true_strain` by the measured strain at fixed smoothness, shape (n_times, n_measured) [-].
+
+        Dense; None is the identity. Made at the first call and kept. Of a refined history too, where n_times is larger.
+        """
+        return None if self._made is None else self._made.strain
+
+    def rate_operator(self) -> FloatArray | None:
+        """Derivative of `strain_rate` by the measured strain at fixed smoothness, shape (n_times, n_measured) [1/s].
+
+        Dense; None where `strain_rate` is None: the scheme's own difference. A rate given with the record does not
+        depend on the strain: zeros.
+        """
+        if self._made is None:
+            return None if self.strain_rate is None else np.zeros((len(self.time), len(self.time)))
+        return None if self.strain_rate is None else self._made.rate
+
+    @cached_property
+    def _made(self) -> Operators | None:
+        return None if self.operators is None else self.operators()
+
+    def strain_covariance(self) -> FloatArray:
+        """Covariance of `true_strain` from white noise of `strain_noise`, shape (n_times, n_times) [-]."""
+        operator = self.strain_operator()
+        if operator is None:
+            return self.strain_noise**2 * np.eye(len(self.time))
+        covariance: FloatArray = self.strain_noise**2 * operator @ operator.T
+        return covariance
+
+    def rate_covariance(self) -> FloatArray | None:
+        """Covariance of `strain_rate` from white noise of `strain_noise`, shape (n_times, n_times) [1/s^2].
+
+        None where `rate_operator` is None.
+        """
+        operator = self.rate_operator()
+        return None if operator is None else self.strain_noise**2 * operator @ operator.T
 
     def history(self) -> _core.History:
         """The same as the engine takes it."""
@@ -73,28 +131,41 @@ class Excitation:
         """
         if substeps == 1:
             return self
-        part = np.arange(substeps) / substeps
-        step, rise = np.diff(self.time)[:, None], np.diff(self.true_strain)[:, None]
-        time = _spread(self.time[:-1, None] + step * part, self.time[-1])
-        strain = self.true_strain[:-1, None] + rise * part
-        rate = None
+        begin = end = None
         if self.strain_rate is not None:
-            begin, end = (side[:, None] for side in self.history().rates(_core.Differentiator.backward))
-            bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
-            strain = strain + part * (1.0 - part) * bend
-            slope = (
-                rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))
-            ) / step
-            slope[:, 0] = self.strain_rate[:-1]
-            rate = _spread(slope, self.strain_rate[-1])
+            begin, end = self.history().rates(_core.Differentiator.backward)
+        strain, rate = _refine(self.time, substeps, self.true_strain, self.strain_rate, begin, end)
+        within = np.diff(self.time)[:, None] * (np.arange(substeps) / substeps)
+        time = _spread(self.time[:-1, None] + within, self.time[-1:])
         return replace(
             self,
             time=time,
-            true_strain=_spread(strain, self.true_strain[-1]),
+            true_strain=strain,
             strain_rate=rate,
             jumps=tuple(substeps * jump for jump in self.jumps),
             direction=np.repeat(self.direction, substeps),
+            strain_se=np.interp(time, self.time, self.strain_se),
+            rate_se=np.interp(time, self.time, self.rate_se),
+            operators=partial(self._refined_operators, substeps),
         )
+
+    def _refined_operators(self, substeps: int) -> Operators:
+        """The operators of `refined`, which is linear in strain and rate."""
+        strain = self.strain_operator()
+        strain = np.eye(len(self.time)) if strain is None else strain
+        rate = self.rate_operator()
+        begin = end = None
+        if rate is not None and self.strain_rate is not None:
+            # At a jump the engine takes the secant on one side: the same side here.
+            secant = np.diff(strain, axis=0) / np.diff(self.time)[:, None]
+            used = self.history().rates(_core.Differentiator.backward)
+            own = [
+                side == given for side, given in zip(used, (self.strain_rate[:-1], self.strain_rate[1:]), strict=True)
+            ]
+            begin = np.where(own[0][:, None], rate[:-1], secant)
+            end = np.where(own[1][:, None], rate[1:], secant)
+        fine, fine_rate = _refine(self.time, substeps, strain, rate, begin, end)
+        return Operators(fine, np.zeros_like(fine) if fine_rate is None else fine_rate)
 
     @property
     def rate(self) -> FloatArray:
@@ -110,34 +181,109 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     Parameters
     ----------
     record : Record
-    method : {"auto", "raw", "spline"}
-        "raw" takes the strain as it is (and the rate if the record has one); "spline" smooths it, segment by segment;
-        "auto" does so where the strain is noisy and the record has no rate of its own.
+    method : str
+        One of `METHODS`. "raw" takes the strain as it is (and the rate if the record has one), the others smooth it,
+        segment by segment; "auto" does so by `DEFAULT` where the strain is noisy and the record has no rate of its own.
 
     Raises
     ------
     InputError
-        For an unknown method.
+        For an unknown method, or one that does not describe the record.
     """
     one_of(method, "excitation", METHODS)
-    noise = record.noise.strain if record.noise.strain is not None else scatter(record.time, record.true_strain)
+    given = record.noise.strain
+    noise = given if given is not None else scatter(record.time, record.true_strain)
     jumps = find_jumps(record.time, record.true_strain, noise)
-    strain, rate = record.true_strain, record.strain_rate
-    name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
-    if rate is not None and method != "spline":
-        name = "rate given with the record"
-    elif method == "spline" or (method == "auto" and _rate_is_noisy(record, noise)):
-        strain, rate = smooth_segments(record.time, record.true_strain, jumps)
-        name = "cubic smoothing spline (generalised cross-validation)"
-        name += f", {len(jumps) + 1} segments between jumps" if jumps else ""
+    if method == "auto":
+        method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
+    if method == "raw":
+        return _as_measured(record, jumps, noise)
+    way = SMOOTHERS[method]
+    smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+    # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
+    noise = smoothed.noise if given is None else noise
     return Excitation(
-        record.time, strain, rate, tuple(jumps), _direction(record, strain, jumps, noise), name, float(noise)
+        time=record.time,
+        true_strain=smoothed.true_strain,
+        strain_rate=smoothed.strain_rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, smoothed.true_strain, jumps, noise),
+        differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
+        strain_noise=float(noise),
+        method=method,
+        strain_se=noise * smoothed.strain_error,
+        rate_se=noise * smoothed.rate_error,
+        freedom=smoothed.freedom,
+        noise_inflation=smoothed.inflation,
+        operators=smoothed.operators,
     )
 
 
-def _spread(rows: FloatArray, last: float) -> FloatArray:
-    """Rows of instants within steps as one array, with the last instant of all."""
-    return np.append(rows.ravel(), last)
+def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
+    """The samples themselves, and the rate if the record has one."""
+    strain, rate = record.true_strain, record.strain_rate
+    if rate is None:
+        name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
+        rate_se = noise * _gradient_error(record.time)
+    else:
+        name = "rate given with the record"
+        rate_se = np.full(len(rate), scatter(record.time, rate))
+    return Excitation(
+        time=record.time,
+        true_strain=strain,
+        strain_rate=rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, strain, jumps, noise),
+        differentiator=name,
+        strain_noise=float(noise),
+        method="raw",
+        strain_se=np.full(len(strain), float(noise)),
+        rate_se=rate_se,
+        freedom=float(len(strain)),
+    )
+
+
+def _gradient_error(time: FloatArray) -> FloatArray:
+    """Standard error of `numpy.gradient` of white noise of standard deviation 1, shape (n_times,) [1/s]."""
+    step = np.diff(time)
+    before, after = step[:-1], step[1:]
+    whole = before + after
+    weights = (-after / (before * whole), (after - before) / (before * after), before / (after * whole))
+    inner = np.sqrt(sum(weight**2 for weight in weights))
+    return np.concatenate([[np.sqrt(2.0) / step[0]], inner, [np.sqrt(2.0) / step[-1]]])
+
+
+def _refine(
+    time: FloatArray,
+    substeps: int,
+    strain: FloatArray,
+    rate: FloatArray | None,
+    begin: FloatArray | None,
+    end: FloatArray | None,
+) -> tuple[FloatArray, FloatArray | None]:
+    """Strain and rate at `substeps` times as many instants: a straight line, or the cubic through strain and rate.
+
+    Linear in strain, rate and the rates at which each step begins and ends, all with the instants or steps as their
+    first axis.
+    """
+    more = (None,) * (strain.ndim - 1)
+    part = (np.arange(substeps) / substeps)[(None, slice(None), *more)]
+    step = np.diff(time)[(slice(None), None, *more)]
+    rise = np.diff(strain, axis=0)[:, None]
+    fine = strain[:-1, None] + rise * part
+    if rate is None or begin is None or end is None:
+        return _spread(fine, strain[-1:]), None
+    begin, end = begin[:, None], end[:, None]
+    bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
+    fine = fine + part * (1.0 - part) * bend
+    slope = (rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))) / step
+    slope[:, 0] = rate[:-1]
+    return _spread(fine, strain[-1:]), _spread(slope, rate[-1:])
+
+
+def _spread(rows: FloatArray, last: FloatArray) -> FloatArray:
+    """Instants within steps, (n_steps, substeps, ...), as one axis, with the last instant of all."""
+    return np.concatenate([rows.reshape(-1, *rows.shape[2:]), last])
 
 
 def _rate_is_noisy(record: Record, noise: float) -> bool:

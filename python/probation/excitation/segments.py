@@ -37,7 +37,8 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
 
     Clean samples are searched step by step (`History.find_rate_jumps`). Noisy ones are searched with straight lines
     through a window on each side: their slopes must differ by `LEAST_CHANGE` of the steeper one and by `SIGNIFICANCE`
-    standard errors, most so within a window, and both lines must describe their samples.
+    standard errors (of the samples around, where they scatter more), most so within a window, and both lines must
+    describe their samples.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     for index in sorted(candidates, key=lambda i: -change[i]):
         centre = int(index) + window
         apart = all(abs(centre - jump) > window for jump in jumps)
-        if apart and _is_sharp(time, true_strain, centre, window, noise):
+        if apart and _is_sharp(time, true_strain, centre, window, noise, SIGNIFICANCE * slopes.standard_error[index]):
             jumps.append(centre)
     return sorted(jumps)
 
@@ -89,8 +90,14 @@ def _slopes(time: FloatArray, values: FloatArray, window: int, noise: float) -> 
     return _Slopes(before, after, error)
 
 
-def _is_sharp(time: FloatArray, values: FloatArray, centre: int, window: int, noise: float) -> bool:
-    """Two straight lines that meet near `centre` describe the samples as well as a parabola or better."""
+def _is_sharp(
+    time: FloatArray, values: FloatArray, centre: int, window: int, noise: float, least_change: float
+) -> bool:
+    """Two straight lines that meet near `centre` describe the samples as well as a cubic or better.
+
+    Where the samples scatter more than the record's noise, their slopes must differ by as much more than
+    `least_change` [1/s].
+    """
     part = slice(centre - window, centre + window + 1)
     t, y = time[part] - time[centre], values[part]
     smooth = np.polynomial.Polynomial.fit(t, y, 3)
@@ -98,4 +105,5 @@ def _is_sharp(time: FloatArray, values: FloatArray, centre: int, window: int, no
     solution = np.linalg.lstsq(hinge, y, rcond=None)[0]
     cost_smooth = float(np.sum((y - smooth(t)) ** 2))
     cost_sharp = float(np.sum((y - hinge @ solution) ** 2))
-    return cost_sharp < cost_smooth + noise**2
+    scatter = float(np.sqrt(cost_sharp / (len(y) - 3)))
+    return cost_sharp < cost_smooth + noise**2 and abs(solution[2]) > least_change * max(scatter / noise, 1.0)
