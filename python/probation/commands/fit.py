@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 NAME = "fit"
 
 _METHODS = ("least-squares", "variable-projection", "simplex")
+_WEIGHTINGS = ("auto", "plain", "strain-noise", "strain-noise-frozen")
+_INTERVALS = ("standard-error", "profile")
 _SCHEMES = ("be2", "sa2", "sa3")  # those that have sensitivities
 
 _DESCRIPTION = """\
@@ -24,6 +26,7 @@ known about them, and what is left.
   probation fit hdpe-2020/
   probation fit hdpe-2020/campaign.toml --hold unrelaxed_modulus_MPa=3220 --report fit.html
   probation fit hdpe-2020/ --scheme sa3 --json - > fit.json
+  probation fit hdpe-2020/ --weighting strain-noise --intervals profile --report fit.html
   probation fit 0d01_3d0.csv 0d03_3d0.csv 0d05_3d0.csv --control displacement-rate
 """
 
@@ -72,6 +75,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="auto",
         help="whether the strain is smoothed: auto does so where it is noisy",
     )
+    parser.add_argument(
+        "--weighting",
+        choices=_WEIGHTINGS,
+        default="auto",
+        help="what the residuals are weighed for: plain, white noise of the stress; strain-noise, also that of the "
+        "strain as the law carries it to the stress; auto, that where it matters, and autocorrelated stress noise; "
+        "strain-noise-frozen is biased, for comparison",
+    )
+    parser.add_argument(
+        "--intervals",
+        choices=_INTERVALS,
+        default="standard-error",
+        help="where the 95 %% intervals come from; profile follows the likelihood (slower)",
+    )
     add_delivery(parser)
     return parser
 
@@ -91,6 +108,8 @@ def run(options: argparse.Namespace) -> int:
             excitation=options.excitation,
             start=options.start,
             substeps=options.substeps,
+            weighting=options.weighting,
+            intervals=options.intervals,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer, options)
