@@ -78,7 +78,7 @@ def _comparisons(experiment: Grip, found: dict[int, Fit], why_free: str, why_cos
         if free:
             rows.append(_parameter(f"E_u, {of}", printed.unrelaxed_modulus, fit, "unrelaxed_modulus", why_free))
         rows.append(_parameter(f"α, {of}", printed.time, fit, "alpha", why_free if free else "", put_in))
-        rows.append(_parameter(f"G, {of}", printed.hardening_modulus, fit, "hardening_modulus", "", put_in))
+        rows.append(_parameter(f"G, {of}", printed.hardening_modulus, fit, "hardening_modulus", "", put_in or free))
         if free:
             product = printed.unrelaxed_modulus.value * printed.time.value
             ours = fit.product
@@ -103,7 +103,7 @@ def _bias_table(printed: dict[int, PrintedIdentification], study: BiasStudy, dra
     change = 100.0 * (study.cost_4 / study.cost_2 - 1.0)
     values = (
         ("cost, identification 2 [MPa²]", ".0f", second.cost, study.cost_2),
-        ("cost of 4 against that of 2 [%]", "+.1f", 100.0 * (fourth.cost / second.cost - 1.0), change),
+        ("cost of 4 against that of 2 [%]", "+.2g", 100.0 * (fourth.cost / second.cost - 1.0), change),
         ("E_u, identification 4 [MPa]", ".0f", modulus, study.unrelaxed_modulus_4),
         ("α, identification 4 [–]", ".3f", alpha, study.alpha_4),
         ("E_u·α, identification 4 [MPa]", ".0f", modulus * alpha, study.unrelaxed_modulus_4 * study.alpha_4),
@@ -113,8 +113,8 @@ def _bias_table(printed: dict[int, PrintedIdentification], study: BiasStudy, dra
     for quantity, form, paper, drawn in values:
         low, high = middle(drawn)
         inside = "inside" if low <= paper <= high else "outside"
-        median = float(np.median(drawn))
-        rows.append((quantity, f"{paper:{form}}", f"{median:{form}}", f"{low:{form}} to {high:{form}}", inside))
+        numbers = [f"{value:{form}}" for value in (paper, float(np.median(drawn)), low, high)]
+        rows.append((quantity, *numbers[:2], f"{numbers[2]} to {numbers[3]}", inside))
     return Table(
         ("with a wavy bias of the paper's size", "paper", "median", "middle 95 %", "the paper is"),
         tuple(rows),

@@ -56,8 +56,10 @@ class BiasStudy:
     alpha_2, alpha_4 : ndarray [-]
     hardening_2, hardening_4 : ndarray [MPa]
     unrelaxed_modulus_4 : ndarray [MPa]
+    example : int
+        The draw whose E_u moves by the median amount, either way.
     example_stress : ndarray, shape (n_times,) [MPa]
-        The twin with the first bias drawn.
+        The twin with that bias.
     example_residuals : dict of int to ndarray, shape (n_times,) [MPa]
         What identifications 2 and 4 leave of it.
     """
@@ -69,6 +71,7 @@ class BiasStudy:
     hardening_2: FloatArray
     hardening_4: FloatArray
     unrelaxed_modulus_4: FloatArray
+    example: int
     example_stress: FloatArray
     example_residuals: dict[int, FloatArray]
 
@@ -97,12 +100,18 @@ class ProfiledFit:
         cost = np.sum(left**2, axis=1)
         best = int(np.clip(np.argmin(cost), 1, len(cost) - 2))
         near = slice(best - 1, best + 2)
-        parabola = np.polyfit(self.log_alphas[near] - self.log_alphas[best], cost[near], 2)
+        away = self.log_alphas[near] - self.log_alphas[best]
+        parabola = np.polyfit(away, cost[near], 2)
         shift = -0.5 * parabola[1] / parabola[0]
-        at = self.log_alphas[best] + shift
-        modulus, hardening = (float(np.interp(at, self.log_alphas, column)) for column in found.T)
-        least = float(np.polyval(parabola, shift))
-        return Estimate(modulus, float(np.exp(at)), hardening, least, left[int(np.argmin(cost))])
+        modulus, hardening = (float(_quadratic(away, column[near], shift)) for column in found.T)
+        residual = _quadratic(away, left[near], shift)
+        return Estimate(
+            modulus,
+            float(np.exp(self.log_alphas[best] + shift)),
+            hardening,
+            float(residual @ residual),
+            residual,
+        )
 
 
 @lru_cache(maxsize=8)
@@ -120,13 +129,13 @@ def bias_study(number: Grip, seed: int = 0, draws: int = 100) -> BiasStudy:
     test = twin(number, seed)
     fitted = ProfiledFit(test)
     random = np.random.default_rng([seed, 100 + number])
-    seconds, fourths, first_stress = [], [], test.true_stress
-    for draw in range(draws):
-        biased = test.true_stress + _bias(test, fitted, PUBLISHED[number].largest_residual, random)
-        seconds.append(fitted(biased, UNRELAXED_MODULUS))
-        fourths.append(fitted(biased))
-        if draw == 0:
-            first_stress = biased
+    stresses, seconds, fourths = [], [], []
+    for _ in range(draws):
+        stresses.append(test.true_stress + _bias(test, fitted, PUBLISHED[number].largest_residual, random))
+        seconds.append(fitted(stresses[-1], UNRELAXED_MODULUS))
+        fourths.append(fitted(stresses[-1]))
+    shifts = np.abs([each.unrelaxed_modulus / UNRELAXED_MODULUS - 1.0 for each in fourths])
+    example = int(np.argsort(shifts)[draws // 2])
     return BiasStudy(
         np.array([each.cost for each in seconds]),
         np.array([each.cost for each in fourths]),
@@ -135,8 +144,9 @@ def bias_study(number: Grip, seed: int = 0, draws: int = 100) -> BiasStudy:
         np.array([each.hardening_modulus for each in seconds]),
         np.array([each.hardening_modulus for each in fourths]),
         np.array([each.unrelaxed_modulus for each in fourths]),
-        first_stress,
-        {2: seconds[0].residual, 4: fourths[0].residual},
+        example,
+        stresses[example],
+        {2: seconds[example].residual, 4: fourths[example].residual},
     )
 
 
@@ -160,6 +170,17 @@ def _bias(test: Twin, fitted: ProfiledFit, largest: float, random: np.random.Gen
         left = fitted(test.true_stress + scale * shape, UNRELAXED_MODULUS).residual
         scale *= largest / float(np.abs(left).max())
     return scale * shape
+
+
+def _quadratic(points: FloatArray, values: FloatArray, at: float) -> FloatArray:
+    """Values at three points, interpolated."""
+    one, two, three = points
+    weights = (
+        (at - two) * (at - three) / ((one - two) * (one - three)),
+        (at - one) * (at - three) / ((two - one) * (two - three)),
+        (at - one) * (at - two) / ((three - one) * (three - two)),
+    )
+    return np.tensordot(np.array(weights), values, axes=1)
 
 
 def _held(responses: FloatArray, stress: FloatArray, unrelaxed_modulus: float) -> FloatArray:
