@@ -1,6 +1,7 @@
 """Put a constitutive law on probation."""
 
 from probation._core import __version__
+from probation.calibration import CalibratedCompanion, Calibration, RateTable, calibrate_companion
 from probation.change import Change, Direction, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
@@ -16,6 +17,8 @@ from probation.records import Campaign, Noise, Record, preview
 from probation.simulate import Simulation, simulate
 
 __all__ = [
+    "CalibratedCompanion",
+    "Calibration",
     "Campaign",
     "Change",
     "ConvergenceError",
@@ -29,6 +32,7 @@ __all__ = [
     "Noise",
     "PowerLaw",
     "RateFunction",
+    "RateTable",
     "Record",
     "SelfHeating",
     "Simulation",
@@ -37,6 +41,7 @@ __all__ = [
     "Table",
     "Weissenberg",
     "__version__",
+    "calibrate_companion",
     "creep",
     "crosscheck",
     "fit",

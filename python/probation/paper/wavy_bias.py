@@ -89,11 +89,11 @@ class ProfiledFit:
     def __init__(self, test: Twin, alphas: FloatArray = ALPHAS) -> None:
         self.log_alphas = np.log(alphas)
         self.responses = np.array([_unit_responses(test, float(alpha)) for alpha in alphas])
-        self.gram = np.einsum("atk,atl->akl", self.responses, self.responses)
+        self.gram = self.responses @ self.responses.transpose(0, 2, 1)
 
     def __call__(self, stress: FloatArray, unrelaxed_modulus: float | None = None) -> Estimate:
         """Identify alpha, G and, unless it is given, E_u."""
-        correlated = np.einsum("atk,t->ak", self.responses, stress)
+        correlated = self.responses @ stress
         if unrelaxed_modulus is None:
             moduli = np.linalg.solve(self.gram, correlated[..., np.newaxis])[..., 0]
         else:
@@ -106,7 +106,7 @@ class ProfiledFit:
         away = self.log_alphas[near] - self.log_alphas[best]
         parabola = np.polyfit(away, cost[near], 2)
         shift = float(-0.5 * parabola[1] / parabola[0])
-        left = np.einsum("atk,ak->at", self.responses[near], moduli[near]) - stress
+        left = np.einsum("akt,ak->at", self.responses[near], moduli[near]) - stress
         residual = _quadratic(away, left, shift)
         modulus, hardening_modulus = _quadratic(away, moduli[near], shift)
         return Estimate(
@@ -197,7 +197,7 @@ def _quadratic(points: FloatArray, values: FloatArray, at: float) -> FloatArray:
 
 
 def _unit_responses(test: Twin, alpha: float) -> FloatArray:
-    """Stress per MPa of E_u and of G with (11) as printed, shape (n_times, 2) [-]."""
+    """Stress per MPa of E_u and of G with (11) as printed, shape (2, n_times) [-]."""
 
     def stress(hardening_modulus: float) -> FloatArray:
         law = Law(
@@ -209,4 +209,4 @@ def _unit_responses(test: Twin, alpha: float) -> FloatArray:
         return law.stress(test.time, test.true_strain, scheme="sa3")
 
     alone = stress(0.0)
-    return np.column_stack([alone, stress(1.0) - alone])
+    return np.stack([alone, stress(1.0) - alone])
