@@ -1,6 +1,7 @@
 """Put a constitutive law on probation."""
 
 from probation._core import __version__
+from probation.calibration import CalibratedCompanion, Calibration, RateTable, calibrate_companion
 from probation.certificate import Certificate, certify
 from probation.change import Change, Direction, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
@@ -17,6 +18,8 @@ from probation.records import Campaign, Noise, Record, preview
 from probation.simulate import Simulation, simulate
 
 __all__ = [
+    "CalibratedCompanion",
+    "Calibration",
     "Campaign",
     "Certificate",
     "Change",
@@ -31,6 +34,7 @@ __all__ = [
     "Noise",
     "PowerLaw",
     "RateFunction",
+    "RateTable",
     "Record",
     "SelfHeating",
     "Simulation",
@@ -39,6 +43,7 @@ __all__ = [
     "Table",
     "Weissenberg",
     "__version__",
+    "calibrate_companion",
     "certify",
     "creep",
     "crosscheck",

@@ -17,7 +17,7 @@ from probation.paper.hardening_modulus import expected_from_table_2
 from probation.paper.hardening_regression import hardening_regression
 from probation.paper.reproduction import Reproduction, reproduce
 from probation.paper.twins import necking_history
-from probation.paper.wavy_bias import ProfiledFit, bias_study, middle
+from probation.paper.wavy_bias import RISES, ProfiledFit, bias_study, middle
 from probation.records import Campaign, LawSettings, Record
 
 NOISE = 0.04  # MPa, of the twins
@@ -139,6 +139,12 @@ def test_such_a_bias_moves_e_u_against_alpha_and_hardly_their_product():
     study = bias_study(3, 0, 40)
     assert np.corrcoef(np.log(study.unrelaxed_modulus_4), np.log(study.alpha_4))[0, 1] < -0.9
     assert np.std(np.log(study.unrelaxed_modulus_4 * study.alpha_4)) < 0.25 * np.std(np.log(study.alpha_4))
+
+
+def test_the_later_a_bias_sets_in_the_less_it_moves_e_u():
+    """E_u acts on the stress below a strain of 0.1 only."""
+    spreads = [np.std(np.log(bias_study(3, 0, 40, rise).unrelaxed_modulus_4)) for rise in RISES]
+    assert spreads[0] > 1.2 * spreads[1] > 1.5 * spreads[2]
 
 
 def test_the_study_follows_its_seed():

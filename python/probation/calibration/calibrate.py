@@ -21,13 +21,14 @@ from probation.calibration.record_fits import (
     Modulus,
     RecordFits,
     RecordRate,
-    campaign_rates,
     fit_records,
+    record_rate,
     spread_warnings,
 )
 from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
+from probation.excitation import excite
 from probation.law import SCHEMES, Scheme
 from probation.records import Campaign
 from probation.report.provenance import samples_sha256
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
+    from probation.calibration.left_out import Foretold
 
     Progress = Callable[[int, int, str], None]
 
@@ -67,9 +69,9 @@ def calibrate_companion(
         "auto" takes the form with the lowest error on rates left out; else "weissenberg" (11), "exponential" (12),
         "power" or "table".
     route : {"auto", "by-rate", "direct"}
-        Of a campaign. "by-rate" fits each record alone with a constant tau_max and regresses these, and is refused where
-        a rate is not nearly constant; "direct" identifies the relation's parameters on all records at once, through the
-        law with alpha = 1; "auto" takes by-rate where it can, and checks it by the direct route.
+        Of a campaign. "by-rate" fits each record alone with a constant tau_max and regresses these, and is refused
+        where a rate is not nearly constant; "direct" identifies the relation's parameters on all records at once,
+        through the law with alpha = 1; "auto" takes by-rate where it can, and checks it by the direct route.
     modulus : {"shared", "free"}
         Whether E_u is one for all records (the default: it belongs to the material, and E_u and tau_max of one record
         are all but collinear) or each record's own. The direct route always shares it. `law.fixed` wins over both.
@@ -110,7 +112,12 @@ def calibrate_companion(
         return _on_table(source, form)
     if not isinstance(source, Campaign):
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
-    rates = campaign_rates(source)
+    told = progress or (lambda done, total, what: None)
+    driven = []
+    for at, record in enumerate(source.identify):
+        told(at, len(source.identify), f"strain rate of {record.id}")
+        driven.append(excite(record))
+    rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
     steady = all(each.spread <= NEARLY_CONSTANT for each in rates)
     if route == "by-rate" and not steady:
         worst = max(rates, key=lambda each: each.spread)
@@ -119,10 +126,10 @@ def calibrate_companion(
             f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
             f"{NEARLY_CONSTANT:g}): a tau_max of its own is confounded with the relation; use the direct route"
         )
-    told = progress or (lambda done, total, what: None)
+    problem = DirectProblem(source.identify, source.law, scheme, hardening, driven)
     if route == "direct" or not steady:
-        return _direct(source, rates, form, hardening, scheme, told)
-    return _by_rate(source, rates, form, modulus, hardening, scheme, told)
+        return _direct(source, problem, rates, form, told)
+    return _by_rate(source, problem, rates, form, modulus, told)
 
 
 def _on_table(table: RateTable, form: str) -> Calibration:
@@ -145,15 +152,14 @@ def _on_table(table: RateTable, form: str) -> Calibration:
 
 def _by_rate(
     campaign: Campaign,
+    problem: DirectProblem,
     rates: tuple[RecordRate, ...],
     form: str,
     modulus: Modulus,
-    hardening: Hardening,
-    scheme: Scheme,
     progress: Progress,
 ) -> Calibration:
     _need_two_rates(campaign, rates)
-    fits = fit_records(campaign, rates, modulus=modulus, scheme=scheme, progress=progress)
+    fits = fit_records(campaign, rates, modulus=modulus, scheme=problem.scheme, progress=progress)
     table = fits.table
     regressions = _regressions(table, form)
     scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
@@ -161,7 +167,6 @@ def _by_rate(
     check = None
     if chosen != "table":
         progress(1, 1, "all records at once, as a check")
-        problem = DirectProblem(campaign.identify, campaign.law, scheme, hardening)
         check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
     warnings = [*campaign.warnings, *spread_warnings(rates), *_table_warnings(table, regressions[chosen])]
     if fits.modulus_spread > _FAR:
@@ -186,19 +191,15 @@ def _by_rate(
 
 
 def _direct(
-    campaign: Campaign,
-    rates: tuple[RecordRate, ...],
-    form: str,
-    hardening: Hardening,
-    scheme: Scheme,
-    progress: Progress,
+    campaign: Campaign, problem: DirectProblem, rates: tuple[RecordRate, ...], form: str, progress: Progress
 ) -> Calibration:
     if form == "table":
-        raise InputError("form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential")
+        raise InputError(
+            "form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential"
+        )
     whole = _range(rates)
     if whole[1] < NEARLY_CONSTANT * whole[0]:
         _need_two_rates(campaign, rates)
-    problem = DirectProblem(campaign.identify, campaign.law, scheme, hardening)
     labels = tuple(each.id for each in rates)
     medians = np.array([each.rate for each in rates])
     groups = rate_groups(medians)
@@ -212,16 +213,17 @@ def _direct(
         progress(done, total, what)
         done += 1
 
-    anchor = _anchor(problem, whole)
+    coarse = problem.thinned()
+    anchor = _anchor(coarse, whole)
     fits: dict[str, DirectFit] = {}
     for name, each in forms.items():
         advance(f"{name} on all records")
-        fits[name] = problem.fit(each, _starts(each, anchor, whole), whole)
+        fits[name] = _from_coarse(problem, coarse, each, _starts(each, anchor, whole), whole)
     scores: dict[str, Score] = {}
-    foretold = ()
+    foretold: tuple[Foretold, ...] = ()
     if leaving:
         scores, foretold = foretell(
-            problem,
+            coarse,
             groups,
             forms,
             lambda each: _starts(each, anchor, whole),
@@ -232,7 +234,8 @@ def _direct(
     warnings = list(campaign.warnings)
     if len(groups) == 1:
         warnings.append(
-            f"all records run at one rate ({medians.min():.2g} to {medians.max():.2g} 1/s): the relation is read from how "
+            f"all records run at one rate ({medians.min():.2g} to {medians.max():.2g} 1/s): the relation is read "
+            "from how "
             "their rate changes with strain, and is confounded with whatever else changes with strain"
         )
     return Calibration(
@@ -240,17 +243,28 @@ def _direct(
         route="direct",
         table=None,
         candidates={
-            name: _direct_candidate(problem, FORMS[name], each, scores.get(name), labels) for name, each in fits.items()
+            name: _direct_candidate(coarse, FORMS[name], each, scores.get(name), labels) for name, each in fits.items()
         },
         chosen=chosen,
         chosen_by=how,
         told_apart=clear,
         record_rates=rates,
         foretold=foretold,
-        hardening=hardening,
+        hardening=problem.hardening,
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,
     )
+
+
+def _from_coarse(
+    problem: DirectProblem, coarse: DirectProblem, form: Form, starts: list[FloatArray], whole: tuple[float, float]
+) -> DirectFit:
+    """Search on few samples, end on all of them."""
+    begun = coarse.fit(form, starts, whole).companion.parameters
+    try:
+        return problem.fit(form, [begun], whole)
+    except InputError:  # a sample that was left out has a rate at which that relation gives no positive time
+        return problem.fit(form, starts, whole)
 
 
 def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
@@ -264,15 +278,15 @@ def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
     return found
 
 
-def _choice(form: str, scores: Mapping[str, Score]) -> tuple[str, str, bool]:
-    """The form, how it was chosen, and whether the runner-up is told apart from it."""
+def _choice(form: str, scores: Mapping[str, Score]) -> tuple[str, str, tuple[str, ...]]:
+    """The form, how it was chosen, and which others are told apart from it."""
     lowest = best(scores)
     if form != "auto":
-        return form, "request", False
+        return form, "request", ()
     if lowest is None:
-        return CHOOSABLE[0], "preference", False
+        return CHOOSABLE[0], "preference", ()
     others = [name for name in CHOOSABLE if name in scores and name != lowest]
-    return lowest, "cross-validation", all(apart(scores[lowest], scores[name]) for name in others)
+    return lowest, "cross-validation", tuple(name for name in others if apart(scores[lowest], scores[name]))
 
 
 def _candidate(regression: Regression, score: Score | None, fits: RecordFits | None) -> Candidate:
@@ -319,7 +333,8 @@ def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
         )
     elif chosen.degrees == 0 and chosen.form.parameter_names:
         found.append(
-            f"{len(table)} rates for {len(chosen.parameters)} parameters: the relation goes through every point, and its "
+            f"{len(table)} rates for {len(chosen.parameters)} parameters: the relation goes through every point, and "
+            "its "
             "errors are those of the points alone; a third rate would put the form to the test"
         )
     return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import fdtri
 
 from probation.calibration.forms import CHOOSABLE, FORMS
 from probation.calibration.regression import regress
@@ -81,8 +82,12 @@ def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str |
 
 
 def apart(one: Score, other: Score) -> bool:
-    """Whether the second is worse by more than a standard error of the paired difference of squared errors."""
-    difference = other.weights * (other.log_error**2 - one.log_error**2)
-    if len(difference) < 2 or not np.all(np.isfinite(difference)):
+    """Whether the second's mean square is above the first's by more than chance: an F test at 5 %.
+
+    Crude, since the errors of two forms on the same rates are no independent draws; it asks for a factor of 2.2 in the
+    rms with five rates, of 3 with three.
+    """
+    count = int(np.sum(np.isfinite(one.log_error)))
+    if count == 0 or not np.isfinite(other.rms):
         return False
-    return bool(np.mean(difference) > np.std(difference, ddof=1) / np.sqrt(len(difference)))
+    return bool(other.rms**2 > float(fdtri(count, count, 0.95)) * one.rms**2)

@@ -6,7 +6,7 @@ the other way where it is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -19,14 +19,17 @@ from probation.change import Direction
 from probation.errors import InputError
 from probation.excitation import excite
 from probation.identify.covariance import covariance
-from probation.identify.problem import RecordProblem
+from probation.identify.problem import Problem, RecordProblem
+from probation.identify.variable_projection import search, time_bounds
 from probation.law import Law
+from probation.records.record import Noise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.calibration.forms import Form
     from probation.companion import Companion
+    from probation.excitation import Excitation
     from probation.law import Scheme
     from probation.records import LawSettings, Record
 
@@ -34,7 +37,9 @@ Hardening = Literal["by-record", "shared"]
 HARDENINGS: tuple[Hardening, ...] = ("by-record", "shared")
 
 _REFUSED = 1e6  # whitened residual where the relation gives no positive time: the search turns back
-_REWEIGHINGS = 2
+
+ENOUGH_SAMPLES = 1000
+"""Samples of a record that tell a relation from another; more of them tell the noise better."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +71,9 @@ class DirectFit:
 class DirectProblem:
     """All records, ready to be solved for again and again.
 
+    Each is weighted by what scatters it around the law with a constant tau_max, E_u and G of its own: its noise and
+    what the law leaves out, the same for every form.
+
     Parameters
     ----------
     records : sequence of Record
@@ -76,11 +84,20 @@ class DirectProblem:
     """
 
     def __init__(
-        self, records: Sequence[Record], settings: LawSettings, scheme: Scheme, hardening: Hardening
+        self,
+        records: Sequence[Record],
+        settings: LawSettings,
+        scheme: Scheme,
+        hardening: Hardening,
+        excitations: Sequence[Excitation] | None = None,
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
-        self.records = [RecordProblem.prepare(each, excite(each), scheme, "exponential") for each in records]
-        self.weights = np.array([1.0 / each.noise for each in self.records])
+        driven = [excite(each) for each in records] if excitations is None else excitations
+        self.records = [
+            RecordProblem.prepare(record, each, scheme, "exponential")
+            for record, each in zip(records, driven, strict=True)
+        ]
+        self.weights = np.array([1.0 / max(each.noise, _own_rms(each, settings)) for each in self.records])
         self.held_modulus = settings.fixed.get("unrelaxed_modulus_MPa")
         self.held_hardening = settings.fixed.get("hardening_modulus_MPa")
 
@@ -89,6 +106,14 @@ class DirectProblem:
         part = DirectProblem([], self.settings, self.scheme, self.hardening)
         part.records = [self.records[at] for at in kept]
         part.weights = self.weights[list(kept)]
+        return part
+
+    def thinned(self) -> DirectProblem:
+        """The same on at most about `ENOUGH_SAMPLES` of each record: for searches, and where noise does not matter."""
+        if all(len(each.record) <= ENOUGH_SAMPLES for each in self.records):
+            return self
+        part = self.only(range(len(self.records)))
+        part.records = [thinned(each, ENOUGH_SAMPLES) for each in self.records]
         return part
 
     @property
@@ -154,41 +179,39 @@ class DirectProblem:
         InputError
             If no start gives a positive relaxation time on every record.
         """
-        first = self.weights
         found: tuple[float, FloatArray] | None = None
         for values in start:
             try:
-                search = _Search(self, form, calibrated, values)
+                trial = _Search(self, form, calibrated, values)
             except InputError:
                 continue
-            ended = search.run()
-            cost = search.cost(ended)
+            ended = trial.run() if len(start) > 1 else values
+            cost = trial.cost(ended)
             if found is None or cost < found[0]:
                 found = cost, ended
         if found is None:
             raise InputError(f"companion {form.name}: found no positive relaxation time at every rate of the records")
-        values = found[1]
-        search = _Search(self, form, calibrated, values)
-        for _ in range(_REWEIGHINGS if len(self.records) > 1 else 0):
-            self.weights = 1.0 / np.maximum([each.noise for each in self.records], search.rms(values))
-            search = _Search(self, form, calibrated, values)
-            values = search.run()
-        answer = search.describe(values)
-        self.weights = first
-        return answer
+        last = _Search(self, form, calibrated, found[1])
+        return last.describe(last.run() if len(start) == 1 else found[1])
 
 
 class _Search:
-    """The nonlinear search over the form's parameters alone; E_u and G are linear and follow (variable projection)."""
+    """The nonlinear search over the form's parameters alone; E_u and G are linear and follow (variable projection).
 
-    def __init__(
-        self, problem: DirectProblem, form: Form, calibrated: tuple[float, float], start: FloatArray
-    ) -> None:
+    What is searched over is ln tau_max at the ends of the range of rates (in its middle, for one parameter): hardly
+    correlated, and positive between the ends whatever is tried.
+    """
+
+    def __init__(self, problem: DirectProblem, form: Form, calibrated: tuple[float, float], start: FloatArray) -> None:
         self.problem, self.form, self.calibrated = problem, form, calibrated
-        self.size = np.maximum(np.abs(start), 1e-12)
-        self.start = start / self.size
-        self.relation_at(start)  # raises where it cannot be
+        low, high = calibrated
+        self.anchors = np.array([low, high] if len(start) == 2 and high > 1.01 * low else [np.sqrt(low * high)])
+        self.start = np.log(self.relation_at(start).relaxation_time(self.anchors))  # raises where it cannot be
         self._cache: dict[bytes, tuple[FloatArray, FloatArray, FloatArray]] = {}
+
+    def parameters(self, log_times: FloatArray) -> FloatArray:
+        """The form's parameters from ln tau_max at the anchors."""
+        return self.form.start(self.anchors, np.exp(np.clip(log_times, -200.0, 200.0)))
 
     def relation_at(self, values: FloatArray) -> Companion:
         relation = self.form.relation(values, np.empty(0), self.calibrated)
@@ -197,17 +220,22 @@ class _Search:
         return relation
 
     def run(self) -> FloatArray:
+        def residual(log_times: FloatArray) -> FloatArray:
+            return self._state(self.parameters(log_times))[0]
+
+        def jacobian(log_times: FloatArray) -> FloatArray:
+            return self._projected(self.parameters(log_times))
+
         found = least_squares(
-            lambda x: self._state(x * self.size)[0],
+            residual,
             self.start,
-            jac=lambda x: self._projected(x * self.size),  # type: ignore[arg-type]
-            x_scale="jac",
-            ftol=1e-12,
-            xtol=1e-10,
+            jac=jacobian,
+            ftol=1e-10,
+            xtol=1e-9,
             gtol=1e-12,
-            max_nfev=100,
+            max_nfev=60,
         )
-        return np.asarray(found.x * self.size)
+        return self.parameters(found.x)
 
     def _state(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Weighted residual, linear parameters (E_u, G's), and the Jacobian along (E_u, G's, form's parameters)."""
@@ -256,7 +284,7 @@ class _Search:
         """Which columns of the Jacobian are identified."""
         shared = self.problem.hardening == "shared" or self.problem.held_hardening is not None
         columns = 1 + (1 if shared else len(self.problem.records))
-        free = np.ones(columns + len(self.size), dtype=bool)
+        free = np.ones(columns + len(self.anchors), dtype=bool)
         free[0] = self.problem.held_modulus is None
         if self.problem.held_hardening is not None:
             free[1] = False
@@ -268,7 +296,11 @@ class _Search:
         design = jacobian[:, : len(linear)][:, self._free()[: len(linear)]]
         slopes = jacobian[:, len(linear) :]
         basis = np.linalg.qr(design)[0]
-        return np.asarray((slopes - basis @ (basis.T @ slopes)) * self.size)
+        try:
+            inward = np.linalg.inv(self.form.log_gradient(self.relation_at(values), self.anchors))
+        except InputError:  # refused: the residual is flat there
+            inward = np.zeros((len(values), len(values)))
+        return np.asarray((slopes - basis @ (basis.T @ slopes)) @ inward)
 
     def cost(self, values: FloatArray) -> float:
         """Weighted sum of squares."""
@@ -305,3 +337,40 @@ class _Search:
             self.rms(values),
             known.correlated,
         )
+
+
+def _own_rms(each: RecordProblem, settings: LawSettings) -> float:
+    """Rms of one record's own fit, constant tau_max, E_u and G free [MPa]."""
+    law = Law(unrelaxed_modulus=1.0, hardening_modulus=1.0, tau_max=1.0, modes=settings.modes, decades=settings.decades)
+    few = thinned(each, ENOUGH_SAMPLES)
+    alone = Problem(law, [few], (False, False, False))
+    best = search(alone, time_bounds(alone))
+    return float(np.sqrt(np.mean((few.stress(best) - few.record.true_stress) ** 2)))
+
+
+def thinned(each: RecordProblem, count: int) -> RecordProblem:
+    """A record and its excitation at every n-th sample, its jumps and its end kept."""
+    stride = -(-len(each.record) // count)
+    if stride == 1:
+        return each
+    drive = each.excitation
+    kept = np.unique([*range(0, len(each.record), stride), *drive.jumps, len(each.record) - 1])
+    record = replace(
+        each.record,
+        time=each.record.time[kept],
+        true_strain=each.record.true_strain[kept],
+        true_stress=each.record.true_stress[kept],
+        strain_rate=None if each.record.strain_rate is None else each.record.strain_rate[kept],
+        transverse_strain=None,
+        temperature=None,
+        noise=Noise(each.noise, each.record.noise.strain),
+    )
+    excitation = replace(
+        drive,
+        time=drive.time[kept],
+        true_strain=drive.true_strain[kept],
+        strain_rate=None if drive.strain_rate is None else drive.strain_rate[kept],
+        jumps=tuple(np.searchsorted(kept, drive.jumps).tolist()),
+        direction=drive.direction[kept[:-1]],
+    )
+    return RecordProblem.prepare(record, excitation, each.scheme, each.start)

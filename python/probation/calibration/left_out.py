@@ -55,6 +55,8 @@ class Foretold:
     form : str
     rms : float
         Of the prediction with nothing adjusted: E_u, relation and G are those of the other records [MPa].
+    hardening_rms : float
+        With G free: what of it is the relation's and E_u's [MPa].
     refit_rms : float
         With alpha and G free [MPa]: what is left of the form and the law.
     largest_stress : float
@@ -64,6 +66,7 @@ class Foretold:
     record: str
     form: str
     rms: float
+    hardening_rms: float
     refit_rms: float
     largest_stress: float
 
@@ -77,7 +80,7 @@ def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: 
     best = search(alone, _ALPHAS)
     residual, jacobian = alone.residual_and_jacobian(best)
     known = covariance(jacobian[:, alone.free], residual, [len(each.record)], best.parameters[alone.free])
-    rms = float(np.sqrt(np.mean((each.stress(best) - each.record.true_stress) ** 2)))
+    rms = _rms(each.stress(best) - each.record.true_stress)
     assert best.alpha is not None
     return RecordAlpha(float(np.log(best.alpha)), float(known.relative_error[0]), rms)
 
@@ -131,4 +134,12 @@ def _foretell(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> 
     error = each.stress(problem.law(relation, modulus, hardening)) - each.record.true_stress
     own = record_alpha(problem, at, relation, modulus)
     largest = float(np.max(np.abs(each.record.true_stress)))
-    return Foretold(each.record.id, form, float(np.sqrt(np.mean(error**2))), own.rms, largest), own
+    base = each.stress(problem.law(relation, modulus, 0.0))
+    slope = each.stress(problem.law(relation, modulus, 1.0)) - base  # the stress is linear in G
+    left = base - each.record.true_stress
+    left = left - slope * float(slope @ left) / float(slope @ slope)
+    return Foretold(each.record.id, form, _rms(error), _rms(left), own.rms, largest), own
+
+
+def _rms(error: FloatArray) -> float:
+    return float(np.sqrt(np.mean(error**2)))

@@ -64,7 +64,8 @@ class RateTable:
         if len(self.groups) < 2:
             found = ", ".join(f"{rate:.3g}" for rate in self.rates)
             raise InputError(
-                f"{self.source}: found one strain rate only ({found} 1/s in {', '.join(labels)}), expected at least two "
+                f"{self.source}: found one strain rate only ({found} 1/s in {', '.join(labels)}), expected at least "
+                "two "
                 f"that differ by more than {100 * (SAME_RATE - 1):.0f} %; a relation needs a second rate"
             )
 

@@ -10,7 +10,6 @@ import numpy as np
 from probation.calibration.rate_table import RateTable
 from probation.calibration.regression import excess_scatter
 from probation.errors import InputError
-from probation.excitation import excite
 from probation.identify import Fit, fit
 from probation.records import Campaign, LawSettings
 
@@ -98,11 +97,6 @@ def record_rate(record: Record, excitation: Excitation) -> RecordRate:
     return RecordRate(record.id, middle, slow, fast)
 
 
-def campaign_rates(campaign: Campaign) -> tuple[RecordRate, ...]:
-    """`record_rate` of every record to identify on."""
-    return tuple(record_rate(record, excite(record)) for record in campaign.identify)
-
-
 def fit_records(
     campaign: Campaign,
     rates: tuple[RecordRate, ...],
@@ -145,7 +139,8 @@ def fit_records(
     for record, time in zip(records, times, strict=True):
         if time.se is None:
             raise InputError(
-                f"record {record.id!r}: found no information on tau_max in it, expected a record past its elastic part; "
+                f"record {record.id!r}: found no information on tau_max in it, expected a record past its elastic "
+                "part; "
                 'give it role = "held-out"'
             )
     table = RateTable(
@@ -173,7 +168,8 @@ def _constant_time(campaign: Campaign) -> LawSettings:
     """The campaign's law without its companion relation."""
     if "tau_max_s" in campaign.law.fixed:
         raise InputError(
-            f"campaign {campaign.name!r}: found tau_max_s in law.fixed, expected it free: its dependence on the rate is "
+            f"campaign {campaign.name!r}: found tau_max_s in law.fixed, expected it free: its dependence on the rate "
+            "is "
             "what is calibrated"
         )
     fixed = {name: value for name, value in campaign.law.fixed.items() if name != "alpha"}
@@ -181,7 +177,7 @@ def _constant_time(campaign: Campaign) -> LawSettings:
 
 
 def _log_slope(alone: Fit) -> float:
-    """d ln tau_max / d ln E_u along the valley of one record's fit; -1 where the fit does not tell."""
+    """D ln tau_max / d ln E_u along the valley of one record's fit; -1 where the fit does not tell."""
     modulus, time = alone.parameters["unrelaxed_modulus"], alone.parameters["tau_max"]
     if not modulus.se or not time.se:
         return -1.0
@@ -195,7 +191,8 @@ def _shared_log_modulus(name: str, own: tuple[tuple[float, float | None], ...]) 
     known = [(np.log(value), se / value) for value, se in own if se]
     if not known:
         raise InputError(
-            f"campaign {name!r}: found no record that determines E_u, expected one, or unrelaxed_modulus_MPa in law.fixed"
+            f"campaign {name!r}: found no record that determines E_u, expected one, or unrelaxed_modulus_MPa in "
+            "law.fixed"
         )
     values, errors = (np.array(side) for side in zip(*known, strict=True))
     scatter = 0.0

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from probation.answers import json_answer
-from probation.calibration.summary import summary_text
+from probation.calibration.summary import percent, summary_text
 from probation.records.saving import companion_text
 from probation.records.settings import LawSettings
 
@@ -118,8 +118,8 @@ class Calibration:
     chosen : str
     chosen_by : {"cross-validation", "request", "preference"}
         "preference": too few rates to leave one out.
-    told_apart : bool
-        Whether every other form that could be chosen does worse by more than a standard error of the difference.
+    told_apart : tuple of str
+        Forms that foretell left-out rates worse than the chosen one by more than chance.
     record_rates : tuple of RecordRate
     record_fits : RecordFits or None
     check : DirectFit or None
@@ -138,7 +138,7 @@ class Calibration:
     candidates: dict[str, Candidate]
     chosen: str
     chosen_by: str
-    told_apart: bool
+    told_apart: tuple[str, ...]
     record_rates: tuple[RecordRate, ...] = ()
     record_fits: RecordFits | None = None
     check: DirectFit | None = None
@@ -175,11 +175,10 @@ class Calibration:
             largest = float(np.max(np.abs(chosen.percent_residual)))
             why = "as asked for" if self.chosen_by == "request" else "by preference: too few rates to leave one out"
             return f"{start} to {largest:.2g} % ({why})."
-        sentence = f"{start}; rates left out are foretold to {100.0 * chosen.score.rms:.2g} %"
-        if rivals:
-            others = ", ".join(f"{each.form.name} {100.0 * each.score.rms:.2g} %" for each in rivals if each.score)
-            how = "told apart from" if self.told_apart else "not told apart from"
-            sentence += f", {how} {others}" if self.chosen_by == "cross-validation" else f" ({others})"
+        sentence = f"{start}; rates left out are foretold to {percent(chosen.score.rms)} %"
+        for each in rivals if self.chosen_by == "cross-validation" else ():
+            how = "" if each.form.name in self.told_apart else ", not told apart"
+            sentence += f"; {each.form.name} to {percent(each.score.rms if each.score else np.nan)} %{how}"
         return sentence + "."
 
     def summary(self) -> str:
@@ -240,7 +239,13 @@ class Calibration:
             }
         if self.foretold:
             content["foretold"] = [
-                {"record": each.record, "form": each.form, "rms_MPa": each.rms, "refit_rms_MPa": each.refit_rms}
+                {
+                    "record": each.record,
+                    "form": each.form,
+                    "rms_MPa": each.rms,
+                    "hardening_free_rms_MPa": each.hardening_rms,
+                    "refit_rms_MPa": each.refit_rms,
+                }
                 for each in self.foretold
             ]
         if self.paper is not None:

@@ -85,13 +85,13 @@ def scores_table(found: Calibration) -> Table | None:
         if each.score is None:
             continue
         kind = "reference" if each.form.reference else "chosen" if name == found.chosen else ""
-        errors = ", ".join("–" if not np.isfinite(e) else f"{100 * e:+.2g}" for e in each.score.log_error)
-        rms = f"{100 * each.score.rms:.2g}" if np.isfinite(each.score.rms) else "–"
+        errors = ", ".join(percent(error, sign="+") for error in each.score.log_error)
+        rms = percent(each.score.rms)
         rows.append((name, kind, rms, errors))
     if not rows:
         return None
-    headings = ("form", "", "rms [%]", "each in turn [%]")
-    return Table(headings, tuple(rows), "Error in ln τ_max at rates left out of the calibration", left=2)
+    headings = ("form", "", "rms", "each in turn")
+    return Table(headings, tuple(rows), "Error in ln τ_max [%] at rates left out of the calibration", left=2)
 
 
 def foretold_table(found: Calibration) -> Table | None:
@@ -102,13 +102,14 @@ def foretold_table(found: Calibration) -> Table | None:
     rows = []
     for record in dict.fromkeys(each.record for each in found.foretold):
         own = {each.form: each for each in found.foretold if each.record == record}
-        any_one = next(iter(own.values()))
         cells = [
             f"{own[f].rms:.3g} ({100 * own[f].rms / own[f].largest_stress:.2g} %)" if f in own else "–" for f in forms
         ]
-        refit = min(each.refit_rms for each in own.values())
-        rows.append((record, *cells, f"{refit:.3g}", f"{any_one.largest_stress:.3g}"))
-    headings = ("record", *(f"{name}" for name in forms), "α, G refitted", "largest stress")
+        best = min(own.values(), key=lambda each: each.rms)
+        rows.append(
+            (record, *cells, f"{best.hardening_rms:.3g}", f"{best.refit_rms:.3g}", f"{best.largest_stress:.3g}")
+        )
+    headings = ("record", *forms, "G refitted", "α, G refitted", "largest stress")
     caption = "Records predicted from those at other rates, nothing adjusted: rms [MPa] (of the largest stress)"
     return Table(headings, tuple(rows), caption)
 
@@ -120,12 +121,15 @@ def notes_on(found: Calibration) -> list[str]:
     if fits is not None and fits.unrelaxed_modulus is not None:
         how = "held by the campaign" if fits.unrelaxed_modulus_se == 0.0 else "shared by all records"
         notes.append(
-            f"E_u = {fits.unrelaxed_modulus:.5g} ± {fits.unrelaxed_modulus_se:.2g} MPa, {how}: the errors of τ_max at each "
+            f"E_u = {fits.unrelaxed_modulus:.5g} ± {fits.unrelaxed_modulus_se:.2g} MPa, {how}: the errors of τ_max "
+            "at each "
             "rate are those at this E_u; the product E_u·τ_max is what is known. The relation's errors include E_u's."
         )
     elif companion.unrelaxed_modulus is not None:
         se = found.candidates[found.chosen].direct
-        error = "held by the campaign" if se is None or not se.unrelaxed_modulus_se else f"± {se.unrelaxed_modulus_se:.2g}"
+        error = (
+            "held by the campaign" if se is None or not se.unrelaxed_modulus_se else f"± {se.unrelaxed_modulus_se:.2g}"
+        )
         notes.append(
             f"E_u = {companion.unrelaxed_modulus:.5g} MPa ({error}), shared by all records; G {found.hardening}; α = 1."
         )
@@ -161,6 +165,14 @@ def parameters_text(companion: CalibratedCompanion) -> str:
     return ", ".join(f"{name} {_with_error(value, error)}" for name, value, error in pairs)
 
 
+def percent(error: float, sign: str = "") -> str:
+    """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
+    if not np.isfinite(error):
+        return "–"
+    digits = ".0f" if abs(error) >= 0.1 else ".2g"
+    return f"{100.0 * error:{sign}{digits}}"
+
+
 def _with_error(value: float, error: float) -> str:
     if not np.isfinite(error) or error <= 0.0:
         return f"{value:.5g}"
@@ -169,4 +181,4 @@ def _with_error(value: float, error: float) -> str:
 
 
 def _scatter_text(scatter: float) -> str:
-    return f"{100 * scatter:.2g}" if scatter > 0.0 else "–"
+    return percent(scatter) if scatter > 0.0 else "–"

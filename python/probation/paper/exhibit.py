@@ -194,7 +194,7 @@ class Exhibit:
             if each.verdict == "differs":
                 explained.setdefault(each.because, []).append(each.quantity)
         return tuple(
-            f"{', '.join(quantities)} {'differs' if len(quantities) == 1 else 'differ'}"
+            f"{'; '.join(quantities)} {'differs' if len(quantities) == 1 else 'differ'}"
             + (f": because {because}." if because else ", and we do not know why.")
             for because, quantities in explained.items()
         )

@@ -39,7 +39,8 @@ class CalibrationSettings:
     def __post_init__(self) -> None:
         if self.rates is not None and not (len(self.rates) == 2 and 0.0 < self.rates[0] <= self.rates[1]):
             raise InputError(
-                f"companion: found calibrated_rates_per_s = {list(self.rates)}, expected two positive rates, slowest first"
+                f"companion: found calibrated_rates_per_s = {list(self.rates)}, expected two positive rates, slowest "
+                "first"
             )
         if not (math.isfinite(self.log_scatter) and self.log_scatter >= 0.0):
             raise InputError(f"companion: found log_scatter = {self.log_scatter}, expected a number of at least 0")

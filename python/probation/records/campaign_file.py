@@ -132,7 +132,9 @@ def _calibration(table: TomlTable) -> CalibrationSettings | None:
         rates=rates,
         covariance=table.rows_of_numbers("covariance") if "covariance" in table.values else None,
         log_scatter=table.number("log_scatter", 0.0),
-        unrelaxed_modulus_MPa=table.number("unrelaxed_modulus_MPa") if "unrelaxed_modulus_MPa" in table.values else None,
+        unrelaxed_modulus_MPa=table.number("unrelaxed_modulus_MPa")
+        if "unrelaxed_modulus_MPa" in table.values
+        else None,
     )
 
 

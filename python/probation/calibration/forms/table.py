@@ -27,7 +27,7 @@ def _log_gradient(companion: Companion, rates: FloatArray) -> FloatArray:
     rows = np.arange(len(rates))
     gradient[rows, left] = 1.0 - part
     gradient[rows, left + 1] = part
-    return gradient / np.array(table.tau_max)
+    return np.asarray(gradient / np.array(table.tau_max))
 
 
 FORM = Form(

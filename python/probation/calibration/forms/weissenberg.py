@@ -19,7 +19,7 @@ def _start(rates: FloatArray, tau_max: FloatArray) -> FloatArray:
 
 
 def _log_gradient(companion: Companion, rates: FloatArray) -> FloatArray:
-    """ln tau_max = ln(slope log10 r + intercept) - ln r."""
+    """Ln tau_max = ln(slope log10 r + intercept) - ln r."""
     return np.stack([np.log10(rates), np.ones_like(rates)], axis=1) / companion.weissenberg_number(rates)[:, None]
 
 
