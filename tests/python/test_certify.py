@@ -179,7 +179,7 @@ def test_of_equal_values_one_in_a_hundred_sets_fails():
     p_values = []
     for _ in range(400):
         values = 1.0 + errors * random.standard_normal(4) + shifts * random.standard_normal()
-        estimates = {str(i): Estimate(values[i], errors[i], errors[i], shifts[i]) for i in range(4)}
+        estimates = {str(i): Estimate(values[i], errors[i], errors[i], (shifts[i],)) for i in range(4)}
         p_values.append(judge({"alpha": estimates})["alpha"].p_value)
     assert abs(np.mean(p_values) - 0.5) < 0.05  # 3.5 standard errors of the mean of 400 uniform numbers
     assert np.mean(np.array(p_values) < 0.05) < 0.09

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._arrays import as_number
+from probation.calibration import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import regress_hardening
-from probation.certificate.prediction import Prediction, predict
+from probation.certificate.prediction import predict
 from probation.certificate.result import Certificate
-from probation.certificate.trial import Trial, estimates, free_parameters, joint_covariance
+from probation.certificate.trial import Trial, estimates
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.identify.parameter import outside_name
@@ -101,13 +102,15 @@ def certify(
         return found
 
     base = step(trial.fit(campaign.identify))
+    relation = CalibratedCompanion.from_settings(campaign.law.companion)
     predictions = {
-        record.id: _predict(trial, source, record, tolerance) for source, record in _pairs(trial, base, step)
+        record.id: predict(source, record, tolerance, excitation, relation)
+        for source, record in _pairs(trial, base, step)
     }
     known_modulus = trial.holding(base, ["unrelaxed_modulus"])
     alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
     free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
-    parameters = _judge(base, alone, free)
+    parameters = _judge(base, alone, free, relation)
     failing = [name for name, each in parameters.items() if not each.passes]
     kept = [name for name in parameters if name not in failing]
     if failing:
@@ -157,17 +160,15 @@ def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fi
     ]
 
 
-def _predict(trial: Trial, source: Fit, record: Record, tolerance: float) -> Prediction:
-    free = free_parameters(source)
-    return predict(source, joint_covariance(source), free, record, tolerance, trial.excitation)
-
-
-def _judge(base: Fit, alone: Mapping[str, Fit], free: Mapping[str, Fit]) -> dict[str, Consistency]:
+def _judge(
+    base: Fit, alone: Mapping[str, Fit], free: Mapping[str, Fit], relation: CalibratedCompanion | None
+) -> dict[str, Consistency]:
     """Judge E_u on the fits with all parameters free, the others on those with E_u held."""
     modulus_error = base.parameters["unrelaxed_modulus"].se or 0.0
     by_parameter: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
     for record in alone:
-        values = estimates(free[record], record) | estimates(alone[record], record, modulus_error)
+        values = estimates(free[record], record, relation=relation)
+        values |= estimates(alone[record], record, modulus_error, relation)
         for name, value in values.items():
             by_parameter[name][record] = value
     return judge(by_parameter)

@@ -26,19 +26,20 @@ class Estimate:
         Standard error with noise and model bias; None where the record does not determine the parameter.
     se_noise : float or None
         The part that the fit's own residual explains.
-    shift : float
-        What one standard error of E_u, held on all records alike, moves it by; 0 for E_u itself.
+    shifts : tuple of float
+        What one standard error of each common cause moves it by: of E_u, held on all records alike, and of what the
+        companion relation was calibrated with.
     """
 
     value: float
     se: float | None
     se_noise: float | None
-    shift: float = 0.0
+    shifts: tuple[float, ...] = ()
 
     @property
     def total_se(self) -> float | None:
-        """Standard error with that of the held E_u."""
-        return None if self.se is None else float(np.hypot(self.se, self.shift))
+        """Standard error with those of the common causes."""
+        return None if self.se is None else float(np.linalg.norm([self.se, *self.shifts]))
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class Consistency:
     mean : float
         Weighted by the inverse of their covariance.
     p_value : float
-        Of Cochran's Q (1954), with the common shift by E_u: chance of values that differ at least so much, were the
+        Of Cochran's Q (1954), with the common shifts: chance of values that differ at least so much, were the
         true value the same.
     tested : bool
         Whether two records or more determine the parameter.
@@ -93,8 +94,8 @@ def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
     if not known:
         return float(np.mean([each.value for each in by_record.values()])), 1.0, False
     values = np.array([each.value for each in known])
-    shift = np.array([each.shift for each in known])
-    precision = np.linalg.inv(np.diag([each.se**2 for each in known if each.se]) + np.outer(shift, shift))
+    shifts = np.array([each.shifts for each in known])
+    precision = np.linalg.inv(np.diag([each.se**2 for each in known if each.se]) + shifts @ shifts.T)
     mean = float(precision.sum(axis=0) @ values / precision.sum())
     if len(values) < 2:
         return mean, 1.0, False

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.certificate.trial import companion_factor, free_parameters, joint_covariance
 from probation.excitation import excite
 from probation.identify.problem import RecordProblem
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from probation._arrays import FloatArray
+    from probation.calibration import CalibratedCompanion
     from probation.excitation import Excitation
     from probation.excitation import Method as ExcitationMethod
     from probation.identify import Fit
@@ -33,7 +33,7 @@ class Prediction:
         What drove the law.
     model_stress : ndarray, shape (n_times,) [MPa]
     standard_error : ndarray, shape (n_times,) [MPa]
-        Of the prediction, by the uncertainty of the parameters.
+        Of the prediction, by the uncertainty of the parameters and of the companion relation.
     noise_MPa : float
         Of the record.
     tolerance_MPa : float
@@ -113,27 +113,26 @@ class Prediction:
 
 
 def predict(
-    base: Fit, covariance: FloatArray, free: Sequence[int], record: Record, tolerance: float, method: ExcitationMethod
+    base: Fit, record: Record, tolerance: float, method: ExcitationMethod, relation: CalibratedCompanion | None = None
 ) -> Prediction:
     """Predict a record with the law of a fit.
 
     Parameters
     ----------
     base : Fit
-    covariance : ndarray, shape (free, free)
-        Of the identified parameters, noise and model bias together.
-    free : sequence of int
-        Which of the law's parameters those are.
     record : Record
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
     method : str
         How the strain is smoothed.
+    relation : CalibratedCompanion, optional
+        What is known of the law's companion relation.
     """
     problem = RecordProblem.prepare(record, excite(record, method), base.scheme, base.start, base.substeps)
     stress, sensitivity = problem.sensitivity(base.law)
-    slopes = sensitivity[:, list(free)]
-    variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)
+    slopes = sensitivity[:, free_parameters(base)]
+    variance = np.einsum("ij,jk,ik->i", slopes, joint_covariance(base), slopes)
+    variance += np.sum(companion_factor(base, problem.excitation, relation) ** 2, axis=1)
     return Prediction(
         id=record.id,
         time=record.time,

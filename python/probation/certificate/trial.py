@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from probation._arrays import FloatArray
+    from probation.calibration import CalibratedCompanion
+    from probation.excitation import Excitation
     from probation.excitation import Method as ExcitationMethod
     from probation.identify import Fit
     from probation.law import Scheme, Start
@@ -66,7 +68,30 @@ def free_parameters(found: Fit) -> list[int]:
     return [index for index, name in enumerate(found.law.parameter_names) if name in found.names]
 
 
-def estimates(found: Fit, record_id: str, modulus_error: float = 0.0) -> dict[str, Estimate]:
+def companion_factor(found: Fit, excitation: Excitation, relation: CalibratedCompanion | None) -> FloatArray:
+    """What independent errors of the companion relation's calibration do to the stress, (n_times, n_sources) [MPa].
+
+    No column where the campaign does not say how well its relation is known.
+    """
+    if relation is None:
+        return np.zeros((len(excitation.time), 0))
+    jumps = excitation.time[list(excitation.jumps)] if excitation.jumps else None
+    return relation.prediction_factor(
+        found.law,
+        excitation.time,
+        excitation.true_strain,
+        found.scheme,
+        strain_rate=excitation.strain_rate,
+        start=found.start,
+        jumps=jumps,
+        direction=excitation.direction,
+        scatter=False,
+    )
+
+
+def estimates(
+    found: Fit, record_id: str, modulus_error: float = 0.0, relation: CalibratedCompanion | None = None
+) -> dict[str, Estimate]:
     """What a fit on one record alone says of its parameters, with noise and model bias in the errors.
 
     Parameters
@@ -75,20 +100,27 @@ def estimates(found: Fit, record_id: str, modulus_error: float = 0.0) -> dict[st
     record_id : str
     modulus_error : float
         Standard error of E_u [MPa] where the fit holds it.
+    relation : CalibratedCompanion, optional
+        What is known of the law's companion relation.
     """
     free = free_parameters(found)
     record = found.records[record_id]
     bias = np.diag(model_bias(record, free).covariance)
-    moves = -np.linalg.lstsq(record.sensitivity[:, free], record.sensitivity[:, 0], rcond=None)[0] * modulus_error
+    common = np.column_stack(
+        [record.sensitivity[:, 0] * modulus_error, companion_factor(found, record.excitation, relation)]
+    )
+    moves = -np.linalg.lstsq(record.sensitivity[:, free], common, rcond=None)[0]
+    scatter = 0.0 if relation is None else relation.log_scatter  # of single tests: in tau_max, and so in alpha
     result = {}
     for position, index in enumerate(free):
         name = found.law.parameter_names[index]
         known = found.parameters[name]
-        error = None if known.se is None else float(np.hypot(known.se, np.sqrt(bias[position])))
+        own = scatter * known.value if name == "alpha" else 0.0
+        error = None if known.se is None else float(np.linalg.norm([known.se, np.sqrt(bias[position]), own]))
         if error is None or error > WEAKLY * abs(known.value):
             result[name] = Estimate(known.value, None, None)
         else:
-            result[name] = Estimate(known.value, error, known.se, float(moves[position]))
+            result[name] = Estimate(known.value, error, known.se, tuple(moves[position].tolist()))
     return result
 
 
