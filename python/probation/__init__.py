@@ -6,6 +6,7 @@ from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weis
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
 from probation.errors import ConvergenceError, InputError
+from probation.excitation import Excitation, excite
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
 from probation.identify import Fit, fit
@@ -21,6 +22,7 @@ __all__ = [
     "ConvergenceError",
     "CrossCheck",
     "Direction",
+    "Excitation",
     "Exponential",
     "Fit",
     "ImposedHistory",
@@ -39,6 +41,7 @@ __all__ = [
     "__version__",
     "creep",
     "crosscheck",
+    "excite",
     "fit",
     "haward_thackray_strain",
     "named_history",

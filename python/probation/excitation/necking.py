@@ -159,6 +159,12 @@ class NeckingFit:
     integrated: FloatArray
 
     @property
+    def strain_slope(self) -> FloatArray:
+        """The derivative of the strain's own fit, shape (n_times,) [1/s]."""
+        time, steps = self.strain.time, self.strain
+        return steps.history.strain_rate(time - time[0]) + steps.sines.derivative(time)
+
+    @property
     def largest_drift(self) -> float:
         """Largest distance between the integrated rate and the measured strain [-]."""
         return float(np.abs(self.integrated - self.strain.measured).max())
@@ -212,8 +218,7 @@ def smooth_necking(time: FloatArray, true_strain: FloatArray) -> Smoothed:
     """
     fit = fit_necking(time, true_strain)
     left, slopes, right = fit.strain.linearised()
-    rate = fit.strain.history.strain_rate(time - time[0]) + fit.strain.sines.derivative(time)
-    return _smoothed(fit, left, right, rate, slopes, right)
+    return _smoothed(fit, left, right, fit.strain_slope, slopes, right)
 
 
 def smooth_necking_as_printed(time: FloatArray, true_strain: FloatArray) -> Smoothed:
