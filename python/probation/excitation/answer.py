@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -87,7 +88,7 @@ class RecordExcitation:
         strain = np.empty_like(time)
         strain[0] = excitation.true_strain[0]
         borders = [0, *excitation.jumps, len(time) - 1]
-        for first, last in zip(borders[:-1], borders[1:], strict=True):
+        for first, last in pairwise(borders):
             rate = excitation.rate[first : last + 1].copy()
             if first > 0 and last > first + 1:  # the sample at a jump has the rate before it
                 ahead = (rate[2] - rate[1]) / (time[first + 2] - time[first + 1])
@@ -129,7 +130,7 @@ class RecordExcitation:
         excitation = self.excitation
         known = "given with the record" if self.record.noise.strain is not None else "estimated"
         rate, strain = excitation.rate, excitation.true_strain
-        error = self.relative_error if self.relative_error.size else np.zeros(1)
+        parts = [100.0 * each for each in _spread(self.relative_error)]
         rows = [
             ("method", f"{excitation.method}: {excitation.differentiator}"),
             ("samples", f"{len(self.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
@@ -137,7 +138,7 @@ class RecordExcitation:
             ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
             ("rate at the start", f"{rate[0]:.4g} ± {excitation.rate_se[0]:.2g} 1/s"),
             ("rate at the end", f"{rate[-1]:.4g} ± {excitation.rate_se[-1]:.2g} 1/s"),
-            ("standard error of the rate", " / ".join(f"{100 * q:.2g}" for q in _spread(error)) + " % of it"),
+            ("its standard error", "median {:.2g}, 95 % below {:.2g}, largest {:.2g} %".format(*parts)),
             ("integrated rate − measured strain", f"{np.abs(self.integrated - self.measured).max():.2g} at most"),
         ]
         if excitation.strain_rate is None:
@@ -149,7 +150,7 @@ class RecordExcitation:
                 ("sines", f"{len(fit.strain.sines.frequencies)} leave {np.std(fit.strain.final_residual):.2g}"),
                 (
                     "the rate's own fit",
-                    f"{len(fit.rate.sines.frequencies)} sines; integrated, {fit.largest_drift:.2g} off",
+                    f"{len(fit.rate.sines.frequencies)} sines; integrated {fit.largest_drift:.2g} off",
                 ),
             ]
         return tuple(rows)
@@ -161,8 +162,8 @@ class RecordExcitation:
         told = list(self.record.warnings)
         if excitation.noise_inflation > CORRELATED:
             told.append(
-                f"neighbouring samples err together: slow averages of the strain noise vary {excitation.noise_inflation:.2g} "
-                "times as much as white noise; the standard errors say so"
+                "neighbouring samples err together: slow averages of the strain noise vary "
+                f"{excitation.noise_inflation:.2g} times as much as white noise; the standard errors say so"
             )
         if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
             told.append("the differences of the strain are mostly noise: another method smooths it")
