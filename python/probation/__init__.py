@@ -8,6 +8,7 @@ from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weis
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
 from probation.errors import ConvergenceError, InputError
+from probation.excitation import Excitation, excite
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
 from probation.identify import Fit, fit
@@ -26,6 +27,7 @@ __all__ = [
     "ConvergenceError",
     "CrossCheck",
     "Direction",
+    "Excitation",
     "Exponential",
     "Fit",
     "ImposedHistory",
@@ -47,6 +49,7 @@ __all__ = [
     "certify",
     "creep",
     "crosscheck",
+    "excite",
     "fit",
     "haward_thackray_strain",
     "named_history",

@@ -8,6 +8,7 @@ from typing import Literal
 from probation.commands.campaign_options import add_campaign, add_control, campaign_from
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
+from probation.excitation import METHODS as EXCITATIONS
 
 NAME = "fit"
 
@@ -58,9 +59,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument(
         "--excitation",
-        choices=("auto", "raw", "spline"),
+        choices=EXCITATIONS,
         default="auto",
-        help="whether the strain is smoothed: auto does so where it is noisy",
+        help="whether, and how, the strain is smoothed: auto does so where it is noisy",
     )
     parser.add_argument(
         "--weighting",
