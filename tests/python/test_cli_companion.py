@@ -33,11 +33,17 @@ def table(tmp_path, rows, heading="rate_per_s,tau_max_s"):
 
 
 def test_table_2_tells_its_verdict_first_and_the_findings_after(tmp_path, capsys):
-    files = [f"--{kind}={tmp_path / name}" for kind, name in (("json", "a.json"), ("report", "a.html"), ("plot", "a.png"))]
+    files = [
+        f"--{kind}={tmp_path / name}" for kind, name in (("json", "a.json"), ("report", "a.html"), ("plot", "a.png"))
+    ]
     assert main(["companion", "--table-2", *files]) == 0
     out = capsys.readouterr().out
     assert out.startswith("Table 2 (André et al.): τ_max follows the form")
-    assert out.index("Relations") < out.index("left out of the calibration") < out.index("Eq. (11) as printed does not fit")
+    assert (
+        out.index("Relations")
+        < out.index("left out of the calibration")
+        < out.index("Eq. (11) as printed does not fit")
+    )
     assert "+7.2, +4.4, +3.9 %" in out
     assert "1.196 and 1.222" in out
     told = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
@@ -67,18 +73,20 @@ def test_a_campaign_is_written_with_its_relation_and_can_be_fitted(campaign, tmp
     assert abs(alpha["value"] - 1.0) < 4 * alpha["se"]
 
 
-def test_data_files_stand_in_for_a_campaign(campaign, tmp_path, capsys):
+def test_data_files_stand_in_for_a_campaign_and_each_is_foretold_by_the_right_form_only(campaign, tmp_path, capsys):
     files = sorted(str(path) for path in campaign.glob("*.csv"))
-    assert main(["companion", *files, "--control", "strain-rate", "--route", "direct", "--json", "-"]) == 0
+    page, plot = tmp_path / "a.html", tmp_path / "a.svg"
+    outputs = ["--json", "-", f"--report={page}", f"--plot={plot}"]
+    assert main(["companion", *files, "--control", "strain-rate", "--route", "direct", *outputs]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["route"] == "direct"
     assert told["chosen"] == "weissenberg"
-    assert {each["form"] for each in told["foretold"]} >= {"weissenberg", "power", "constant"}
-
-
-def test_the_page_and_plot_of_a_direct_calibration(campaign, tmp_path, capsys):
-    page, plot = tmp_path / "a.html", tmp_path / "a.svg"
-    assert main(["companion", str(campaign), "--route", "direct", f"--report={page}", f"--plot={plot}"]) == 0
+    middle = {each["form"]: each for each in told["foretold"] if each["record"] == "ramp-1"}
+    assert middle["weissenberg"]["rms_MPa"] == pytest.approx(0.04, rel=0.3)  # nothing adjusted: the noise is left
+    assert middle["power"]["rms_MPa"] > 0.1
+    assert middle["constant"]["hardening_free_rms_MPa"] > 1.0
+    scores = {name: each["left_out"]["rms"] for name, each in told["relations"].items()}
+    assert scores["weissenberg"] < 1e-3 < scores["power"] < scores["constant"]
     assert "Records predicted from those at other rates" in page.read_text(encoding="utf-8")
     assert plot.exists()
 

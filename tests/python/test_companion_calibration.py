@@ -1,5 +1,7 @@
 """From relaxation times, or ramps, at several rates to a companion relation: the paper's, and what is known of it."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -135,17 +137,17 @@ def test_each_form_knows_its_own_slope(form):
 
 @pytest.mark.parametrize("known", [True, False])
 def test_intervals_of_a_table_cover_the_truth_about_as_often_as_they_say(known):
-    """200 draws at 95 %: 180 hits or fewer have a chance below 0.2 %; known errors may cover more, never less."""
+    """150 draws at 95 %: 133 hits or fewer have a chance of 0.2 %; known errors may cover more, never less."""
     random = np.random.default_rng(3)
     tau_max = RELATION.relaxation_time(RATES)
     hits = np.zeros(2)
-    for _ in range(200):
+    for _ in range(150):
         drawn = tau_max * np.exp(0.03 * random.normal(size=5))
         found = regress(FORMS["weissenberg"], RateTable(RATES, drawn, 0.03 * drawn if known else None))
         spread = np.sqrt(np.diag(found.covariance)) * (1.96 if known else 3.182)  # Student's t, 3 degrees of freedom
         hits += np.abs(found.parameters - TRUTH) <= spread
-    assert np.all(hits > 180)
-    assert known or np.all(hits < 200)
+    assert np.all(hits > 133)
+    assert known or np.all(hits < 150)
 
 
 # Choice of the form
@@ -214,13 +216,13 @@ def test_both_routes_find_the_same_relation_on_ramps():
 
 
 def test_parameters_of_ramps_are_covered_as_often_as_told():
-    """20 draws at 95 %: 15 hits or fewer have a chance of 0.3 %. The shared E_u is most of these errors."""
+    """15 draws at 95 %: 11 hits or fewer have a chance of 0.5 %. The shared E_u is most of these errors."""
     hits = np.zeros(2)
-    for seed in range(20):
+    for seed in range(15):
         campaign = ramps(seed, rates=(1e-4, 1e-3, 1e-2), samples=100)
         interval = calibrate_companion(campaign, form="weissenberg").candidates["weissenberg"].interval95()
         hits += (interval[:, 0] <= TRUTH) & (interval[:, 1] >= TRUTH)
-    assert np.all(hits >= 16)
+    assert np.all(hits >= 12)
 
 
 def test_records_of_changing_rate_are_refused_one_by_one_and_give_the_relation_at_once():
@@ -233,14 +235,6 @@ def test_records_of_changing_rate_are_refused_one_by_one_and_give_the_relation_a
     assert abs(found.companion.unrelaxed_modulus - 3220.0) < 0.01 * 3220.0
     assert found.candidates["weissenberg"].direct.rms == pytest.approx([0.04, 0.04], rel=0.15)
     assert found.candidates["constant"].direct.rms.max() > 2.0  # MPa
-
-
-def test_a_record_left_out_is_foretold_to_the_noise_by_the_right_form_only():
-    found = calibrate_companion(ramps(rates=(1e-4, 1e-3, 1e-2)), route="direct", form="weissenberg")
-    told = {(each.record, each.form): each for each in found.foretold}
-    assert told["ramp-0.001", "weissenberg"].hardening_rms == pytest.approx(0.04, rel=0.2)
-    assert told["ramp-0.001", "constant"].hardening_rms > 1.0
-    assert found.candidates["weissenberg"].score.rms < 1e-3 < found.candidates["power"].score.rms
 
 
 def test_a_held_modulus_is_kept():
@@ -310,7 +304,9 @@ def test_the_uncertainty_grows_outside_the_calibrated_rates_and_is_warned_of(for
 def test_a_prediction_by_another_relation_is_refused():
     known = calibrate_companion(TABLE_2, form="weissenberg").companion
     other = Law(unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=Weissenberg(0.00464, 0.0367))
-    with pytest.raises(probation.InputError, match=r"law\.companion is Weissenberg\(slope=0\.00464.*calibrated relation"):
+    with pytest.raises(
+        probation.InputError, match=r"law\.companion is Weissenberg\(slope=0\.00464.*calibrated relation"
+    ):
         known.prediction_se(other, np.arange(5.0), 0.01 * np.arange(5.0))
     unknown = calibrate_companion(RateTable([1e-3, 1e-2], [25.0, 3.0])).companion
     law = Law(unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=unknown.relation)
@@ -366,6 +362,23 @@ def test_what_cannot_be_known_of_a_relation_is_refused(lines, message, tmp_path)
     path.write_text("\n".join(before.split("\n")[:4]).rstrip("\n") + "\n" + companion + after, encoding="utf-8")
     with pytest.raises(probation.InputError, match=message):
         Campaign.load(tmp_path)
+
+
+# Measured records
+
+
+DATA = Path(__file__).parents[2].parent / "shared" / "data"
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason="the measured records are not beside the checkout")
+def test_etfe_at_one_grip_speed_gives_a_relation_and_the_warning_that_it_is_confounded():
+    """A constant tau_max leaves 1.7 MPa; the same number of parameters with tau_max inverse to the rate, 0.6."""
+    files = [DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"]
+    found = calibrate_companion(Campaign.from_files(files, control="displacement-rate"), form="weissenberg")
+    rms = {name: each.direct.rms.max() for name, each in found.candidates.items()}
+    assert rms["constant-weissenberg"] < 0.5 * rms["constant"]
+    assert "at one rate" in found.verdict
+    assert any("confounded" in warning for warning in found.warnings)
 
 
 # Bad input
