@@ -374,4 +374,5 @@ def _starts(form: Form, anchor: float, whole: tuple[float, float]) -> list[Float
     """Relations through the anchor at the middle rate, steep and flat."""
     ends = np.array(whole)
     middle = np.sqrt(whole[0] * whole[1])
-    return [form.start(ends, anchor * (ends / middle) ** exponent) for exponent in (-1.0, -0.6, -0.2)]
+    exponents = (-1.0, -0.6, -0.2) if len(form.parameter_names) > 1 else (0.0,)
+    return [form.start(ends, anchor * (ends / middle) ** exponent) for exponent in exponents]

@@ -248,7 +248,7 @@ class _Search:
             ftol=1e-10,
             xtol=1e-9,
             gtol=1e-12,
-            max_nfev=60,
+            max_nfev=40,
         )
         return self.parameters(found.x)
 
