@@ -126,10 +126,14 @@ def calibrate_companion(
             f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
             f"{NEARLY_CONSTANT:g}): a tau_max of its own is confounded with the relation; use the direct route"
         )
-    problem = DirectProblem(source.identify, source.law, scheme, hardening, driven)
     if route == "direct" or not steady:
-        return _direct(source, problem, rates, form, told)
-    return _by_rate(source, problem, rates, form, modulus, told)
+        _need_spread(source, rates)
+        return _direct(source, DirectProblem(source.identify, source.law, scheme, hardening, driven), rates, form, told)
+    _need_two_rates(source, rates)
+    fits = fit_records(source, rates, modulus=modulus, scheme=scheme, progress=told)
+    rms = [each.rms_MPa for each in fits.fits]
+    problem = DirectProblem(source.identify, source.law, scheme, hardening, driven, rms)
+    return _by_rate(source, fits, problem, form, told)
 
 
 def _on_table(table: RateTable, form: str) -> Calibration:
@@ -151,16 +155,9 @@ def _on_table(table: RateTable, form: str) -> Calibration:
 
 
 def _by_rate(
-    campaign: Campaign,
-    problem: DirectProblem,
-    rates: tuple[RecordRate, ...],
-    form: str,
-    modulus: Modulus,
-    progress: Progress,
+    campaign: Campaign, fits: RecordFits, problem: DirectProblem, form: str, progress: Progress
 ) -> Calibration:
-    _need_two_rates(campaign, rates)
-    fits = fit_records(campaign, rates, modulus=modulus, scheme=problem.scheme, progress=progress)
-    table = fits.table
+    table, rates = fits.table, fits.rates
     regressions = _regressions(table, form)
     scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
     chosen, how, clear = _choice(form, scores)
@@ -198,8 +195,6 @@ def _direct(
             "form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential"
         )
     whole = _range(rates)
-    if whole[1] < NEARLY_CONSTANT * whole[0]:
-        _need_two_rates(campaign, rates)
     labels = tuple(each.id for each in rates)
     medians = np.array([each.rate for each in rates])
     groups = rate_groups(medians)
@@ -306,8 +301,14 @@ def _candidate(regression: Regression, score: Score | None, fits: RecordFits | N
         regression.percent_residual,
         regression.r_squared,
         score,
-        degrees=regression.degrees if regression.log_scatter > 0.0 else None,
+        degrees=regression.degrees if _scattered(regression) else None,
     )
+
+
+def _scattered(regression: Regression) -> bool:
+    """Whether the covariance is mostly a scatter that few rows tell: its intervals are Student's."""
+    error = regression.table.log_error
+    return regression.log_scatter > (0.0 if error is None else float(np.median(error)))
 
 
 def _direct_candidate(
@@ -350,6 +351,13 @@ def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
     )
 
 
+def _need_spread(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
+    """Refuse one rate, unless it changes within the records."""
+    slowest, fastest = _range(rates)
+    if fastest < NEARLY_CONSTANT * slowest:
+        _need_two_rates(campaign, rates)
+
+
 def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
     return min(each.slow for each in rates), max(each.fast for each in rates)
 
@@ -357,9 +365,8 @@ def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
 def _anchor(problem: DirectProblem, whole: tuple[float, float]) -> float:
     """A constant tau_max that fits all records best [s], for the searches to begin from."""
     form = FORMS["constant"]
-    steps = min(float(np.min(np.diff(each.record.time))) for each in problem.records)
-    longest = max(float(np.ptp(each.record.time)) for each in problem.records)
-    starts = [np.array([value]) for value in np.geomspace(10.0 * steps, longest, 6)]
+    shortest, longest = problem.time_bounds()
+    starts = [np.array([value]) for value in np.geomspace(100.0 * shortest, 1e-3 * longest, 6)]
     return float(problem.fit(form, starts, whole).companion.parameters[0])
 
 
@@ -367,4 +374,5 @@ def _starts(form: Form, anchor: float, whole: tuple[float, float]) -> list[Float
     """Relations through the anchor at the middle rate, steep and flat."""
     ends = np.array(whole)
     middle = np.sqrt(whole[0] * whole[1])
-    return [form.start(ends, anchor * (ends / middle) ** exponent) for exponent in (-1.0, -0.6, -0.2)]
+    exponents = (-1.0, -0.6, -0.2) if len(form.parameter_names) > 1 else (0.0,)
+    return [form.start(ends, anchor * (ends / middle) ** exponent) for exponent in exponents]

@@ -81,6 +81,10 @@ class DirectProblem:
         Spectrum, and what is held; its companion relation is not used.
     scheme : {"be2", "sa2", "sa3"}
     hardening : {"by-record", "shared"}
+    excitations : sequence of Excitation, optional
+        What drives the law along each record, where that is known already.
+    own_rms : sequence of float, optional
+        Rms of each record's own fit [MPa], where it is known already.
     """
 
     def __init__(
@@ -90,6 +94,7 @@ class DirectProblem:
         scheme: Scheme,
         hardening: Hardening,
         excitations: Sequence[Excitation] | None = None,
+        own_rms: Sequence[float] | None = None,
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
         driven = [excite(each) for each in records] if excitations is None else excitations
@@ -97,7 +102,9 @@ class DirectProblem:
             RecordProblem.prepare(record, each, scheme, "exponential")
             for record, each in zip(records, driven, strict=True)
         ]
-        self.weights = np.array([1.0 / max(each.noise, _own_rms(each, settings)) for each in self.records])
+        if own_rms is None:
+            own_rms = [_own_rms(each, settings) for each in self.records]
+        self.weights = np.array([1.0 / max(each.noise, own) for each, own in zip(self.records, own_rms, strict=True)])
         self.held_modulus = settings.fixed.get("unrelaxed_modulus_MPa")
         self.held_hardening = settings.fixed.get("hardening_modulus_MPa")
 
@@ -122,6 +129,12 @@ class DirectProblem:
         if self.held_hardening is not None:
             return 0
         return 1 if self.hardening == "shared" else len(self.records)
+
+    def time_bounds(self) -> tuple[float, float]:
+        """Relaxation times worth searching [s]: below, E_u of a constant tau_max grows without end."""
+        steps = min(float(np.min(np.diff(each.record.time))) for each in self.records)
+        longest = max(float(np.ptp(each.record.time)) for each in self.records)
+        return 0.1 * steps, 1e3 * longest
 
     def law(self, relation: Companion, modulus: float, hardening: float) -> Law:
         """The law with alpha = 1."""
@@ -226,14 +239,16 @@ class _Search:
         def jacobian(log_times: FloatArray) -> FloatArray:
             return self._projected(self.parameters(log_times))
 
+        low, high = np.log(self.problem.time_bounds())
         found = least_squares(
             residual,
-            self.start,
+            np.clip(self.start, low + 1e-6, high - 1e-6),
             jac=jacobian,
+            bounds=(low, high),
             ftol=1e-10,
             xtol=1e-9,
             gtol=1e-12,
-            max_nfev=60,
+            max_nfev=40,
         )
         return self.parameters(found.x)
 
@@ -319,7 +334,8 @@ class _Search:
         relation = self.relation_at(values)
         free, everything = self._free(), np.concatenate([linear, values])
         lengths = [len(each.record) for each in problem.records]
-        known = covariance(jacobian[:, free], residual, lengths, everything[free])
+        with np.errstate(over="ignore", invalid="ignore"):  # forms that do not fit may determine nothing
+            known = covariance(jacobian[:, free], residual, lengths, everything[free])
         # In the order of the form's parameters, then E_u.
         order = [*range(len(linear), len(everything)), 0]
         place = np.cumsum(free) - 1
@@ -333,7 +349,7 @@ class _Search:
             CalibratedCompanion(relation, matrix, 0.0, float(linear[0]), self.form),
             hardening,
             float(linear[0]),
-            float(np.sqrt(matrix[-1, -1])),
+            float(np.sqrt(max(matrix[-1, -1], 0.0))),
             self.rms(values),
             known.correlated,
         )

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from probation.answers import json_answer
+from probation.calibration.rate_table import rate_groups
 from probation.calibration.summary import percent, summary_text
 from probation.records.saving import companion_text
 from probation.records.settings import LawSettings
@@ -174,7 +175,10 @@ class Calibration:
         if chosen.score is None or not np.isfinite(chosen.score.rms):
             largest = float(np.max(np.abs(chosen.percent_residual)))
             why = "as asked for" if self.chosen_by == "request" else "by preference: too few rates to leave one out"
-            return f"{start} to {largest:.2g} % ({why})."
+            sentence = f"{start} to {largest:.2g} % ({why})"
+            if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
+                sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
+            return f"{sentence}."
         sentence = f"{start}; rates left out are foretold to {percent(chosen.score.rms)} %"
         for each in rivals if self.chosen_by == "cross-validation" else ():
             how = "" if each.form.name in self.told_apart else ", not told apart"

@@ -134,8 +134,10 @@ def _use(found: Calibration) -> Section:
 
 def _shortened(value: str) -> str:
     """Numbers to six digits, for reading."""
+    if value.startswith("[["):
+        return "… as printed by --toml"
     if value.startswith("["):
-        return value if len(value) < 60 else "… as printed by --toml"
+        return ", ".join(f"{float(entry):.4g}" for entry in value.strip("[]").split(","))
     try:
         return f"{float(value):.6g}"
     except ValueError:
