@@ -225,7 +225,8 @@ def _direct(
             lambda kept: _range([rates[at] for at in kept]),
             advance,
         )
-    chosen, how, clear = _choice(form, scores)
+    left = {name: float(np.sqrt(np.mean(np.square(each.rms)))) for name, each in fits.items()}
+    chosen, how, clear = _choice(form, scores, left)
     warnings = list(campaign.warnings)
     if len(groups) == 1:
         warnings.append(
@@ -273,12 +274,16 @@ def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
     return found
 
 
-def _choice(form: str, scores: Mapping[str, Score]) -> tuple[str, str, tuple[str, ...]]:
-    """The form, how it was chosen, and which others are told apart from it."""
+def _choice(
+    form: str, scores: Mapping[str, Score], left: Mapping[str, float] | None = None
+) -> tuple[str, str, tuple[str, ...]]:
+    """The form, how it was chosen, and which others are told apart from it; `left`: rms of each form's fit [MPa]."""
     lowest = best(scores)
     if form != "auto":
         return form, "request", ()
     if lowest is None:
+        if left:
+            return min((name for name in CHOOSABLE if name in left), key=lambda name: left[name]), "fit", ()
         return CHOOSABLE[0], "preference", ()
     others = [name for name in CHOOSABLE if name in scores and name != lowest]
     return lowest, "cross-validation", tuple(name for name in others if apart(scores[lowest], scores[name]))

@@ -104,6 +104,14 @@ class Candidate:
         }
 
 
+_REASONS = {
+    "request": "as asked for",
+    "fit": "it leaves least on these records; too few rates to leave one out",
+    "preference": "by preference: too few rates to leave one out",
+    "cross-validation": "it foretells left-out rates best",
+}
+
+
 @dataclass(frozen=True, eq=False)
 class Calibration:
     """Companion relations calibrated on one source.
@@ -117,8 +125,9 @@ class Calibration:
     candidates : dict of str to Candidate
         By form.
     chosen : str
-    chosen_by : {"cross-validation", "request", "preference"}
-        "preference": too few rates to leave one out.
+    chosen_by : {"cross-validation", "request", "fit", "preference"}
+        Where there are too few rates to leave one out, "fit": the form that leaves least on the records themselves;
+        "preference": nothing chooses, the forms' order does.
     told_apart : tuple of str
         Forms that foretell left-out rates worse than the chosen one by more than chance.
     record_rates : tuple of RecordRate
@@ -174,7 +183,7 @@ class Calibration:
         start = f"τ_max follows the form {self.chosen} between {low:.2g} and {high:.2g} 1/s"
         if chosen.score is None or not np.isfinite(chosen.score.rms):
             largest = float(np.max(np.abs(chosen.percent_residual)))
-            why = "as asked for" if self.chosen_by == "request" else "by preference: too few rates to leave one out"
+            why = _REASONS[self.chosen_by]
             sentence = f"{start} to {largest:.2g} % ({why})"
             if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
