@@ -7,6 +7,7 @@ from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weis
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
 from probation.errors import ConvergenceError, InputError
+from probation.excitation import Excitation, excite
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
 from probation.identify import Fit, fit
@@ -24,6 +25,7 @@ __all__ = [
     "ConvergenceError",
     "CrossCheck",
     "Direction",
+    "Excitation",
     "Exponential",
     "Fit",
     "ImposedHistory",
@@ -44,6 +46,7 @@ __all__ = [
     "calibrate_companion",
     "creep",
     "crosscheck",
+    "excite",
     "fit",
     "haward_thackray_strain",
     "named_history",

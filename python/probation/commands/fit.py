@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
+from probation.excitation import METHODS as EXCITATIONS
 
 if TYPE_CHECKING:
     from probation.records import Campaign
@@ -71,9 +72,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument(
         "--excitation",
-        choices=("auto", "raw", "spline"),
+        choices=EXCITATIONS,
         default="auto",
-        help="whether the strain is smoothed: auto does so where it is noisy",
+        help="whether, and how, the strain is smoothed: auto does so where it is noisy",
     )
     parser.add_argument(
         "--weighting",

@@ -11,6 +11,8 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, one_of
+from probation.errors import InputError
+from probation.excitation.differences import differences, differences_error
 from probation.excitation.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.excitation.operators import Operators
 from probation.excitation.segmented import smooth_segments
@@ -172,7 +174,7 @@ class Excitation:
         """The strain rate that was given or smoothed, else three-point differences; shape (n_times,) [1/s]."""
         if self.strain_rate is not None:
             return self.strain_rate
-        return np.gradient(self.true_strain, self.time)
+        return differences(self.time, self.true_strain)
 
 
 def excite(record: Record, method: Method = "auto") -> Excitation:
@@ -199,7 +201,15 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     if method == "raw":
         return _as_measured(record, jumps, noise)
     way = SMOOTHERS[method]
-    smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+    if jumps and not way.segmented:
+        raise InputError(
+            f"record {record.id!r}, excitation {method!r}: found a rate that jumps at "
+            f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use {DEFAULT!r}"
+        )
+    try:
+        smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+    except InputError as error:
+        raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
     # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
     noise = smoothed.noise if given is None else noise
     return Excitation(
@@ -224,7 +234,7 @@ def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
     strain, rate = record.true_strain, record.strain_rate
     if rate is None:
         name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
-        rate_se = noise * _gradient_error(record.time)
+        rate_se = noise * differences_error(record.time)
     else:
         name = "rate given with the record"
         rate_se = np.full(len(rate), scatter(record.time, rate))
@@ -241,16 +251,6 @@ def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
         rate_se=rate_se,
         freedom=float(len(strain)),
     )
-
-
-def _gradient_error(time: FloatArray) -> FloatArray:
-    """Standard error of `numpy.gradient` of white noise of standard deviation 1, shape (n_times,) [1/s]."""
-    step = np.diff(time)
-    before, after = step[:-1], step[1:]
-    whole = before + after
-    weights = (-after / (before * whole), (after - before) / (before * after), before / (after * whole))
-    inner = np.sqrt(sum(weight**2 for weight in weights))
-    return np.concatenate([[np.sqrt(2.0) / step[0]], inner, [np.sqrt(2.0) / step[-1]]])
 
 
 def _refine(

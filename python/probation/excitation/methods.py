@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from probation.excitation.necking import smooth_necking, smooth_necking_as_printed
 from probation.excitation.penalised_spline import smooth_cubic, smooth_quintic
+from probation.excitation.savitzky_golay import smooth_savitzky_golay
 
 if TYPE_CHECKING:
     from probation.excitation.smoothed import Smoother
@@ -34,6 +36,13 @@ class Way:
 SMOOTHERS: dict[Method, Way] = {
     "quintic-spline": Way(smooth_quintic, "quintic smoothing spline (generalised cross-validation)"),
     "spline": Way(smooth_cubic, "cubic smoothing spline (generalised cross-validation)"),
+    "savitzky-golay": Way(smooth_savitzky_golay, "local cubics, Savitzky-Golay (generalised cross-validation)"),
+    "necking": Way(smooth_necking, "(A-1) and sines through the strain, their derivative", segmented=False),
+    "necking-as-printed": Way(
+        smooth_necking_as_printed,
+        "(A-1) and sines through the strain, and through its three-point central difference",
+        segmented=False,
+    ),
 }
 
 DEFAULT: Method = "quintic-spline"

@@ -13,13 +13,10 @@ from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
 from probation.excitation.operators import Operators
-from probation.excitation.smoothed import Smoothed, inflation, polynomial
+from probation.excitation.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-PRUDENCE = 1.4
-"""Each degree of freedom counts this often in the cross-validation, which otherwise follows the noise now and then."""
 
 SAMPLES_PER_KNOT = 8
 """Fewer knots than samples by so much: correlated noise has less to hide in."""
@@ -35,9 +32,6 @@ BETTER = 0.5
 
 COARSE = 120
 """Points of the coarse search for the smoothness."""
-
-ROUNDS = 20
-"""Most rounds between smoothness and the autocorrelation of the residual."""
 
 NEIGHBOURHOOD = 0.05
 """Part of the samples over which the usual spacing is looked up."""

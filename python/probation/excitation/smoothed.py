@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
+PRUDENCE = 1.4
+"""Each degree of freedom counts this often in the cross-validation, which otherwise follows the noise now and then."""
+
+ROUNDS = 20
+"""Most rounds between smoothness and the autocorrelation of the residual."""
+
+
 @dataclass(frozen=True, eq=False)
 class Smoothed:
     """Strain and rate at the samples, and what is known about them.

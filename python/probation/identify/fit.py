@@ -57,8 +57,8 @@ def fit(
         Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa"); on top of the campaign's own.
     bounds : dict of str to (float, float), optional
         By name with unit; every parameter is positive in any case.
-    excitation : {"auto", "raw", "spline"}
-        Whether the strain is smoothed: "auto" does so where it is noisy.
+    excitation : str
+        Whether, and how, the strain is smoothed, one of `excitation.METHODS`: "auto" does so where it is noisy.
     start : {"exponential", "backward_euler"}
         bE2's first step.
     substeps : int or "auto"

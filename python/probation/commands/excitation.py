@@ -1,0 +1,115 @@
+"""``probation excitation``: strain, rate, and how well they are known."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from probation._files import write_whole
+from probation.commands.delivery import add_delivery, deliver, deliver_report, said
+from probation.commands.progress import shown
+from probation.errors import InputError
+from probation.excitation import DEFAULT, METHODS
+
+if TYPE_CHECKING:
+    from probation.records import Record
+
+NAME = "excitation"
+
+_DESCRIPTION = f"""\
+The strain and strain rate that drive the law, made of measured, noisy strain: how large, how well known, where the
+rate jumps.
+
+  probation excitation tension.csv
+  probation excitation tension.csv --method savitzky-golay --csv smooth.csv --plot smooth.png
+  probation excitation hdpe-2020/ --record grip-0.02 --method necking --report excitation.html
+  probation excitation --compare                every method on histories whose rate is known
+
+auto takes the strain as it is where it is clean (or the record has a rate of its own), and {DEFAULT} otherwise.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="strain, rate, and how well they are known", description=_DESCRIPTION)
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        nargs="?",
+        help="a data file, each specimen of which is a record; or a campaign: its folder or campaign.toml",
+    )
+    parser.add_argument("--record", metavar="ID", action="append", help="only this record; may be repeated")
+    parser.add_argument("--method", choices=METHODS, default="auto", help="how strain becomes strain and rate (auto)")
+    parser.add_argument(
+        "--csv", metavar="OUT.csv", help="write time, strain, rate and standard errors; - is standard output"
+    )
+    parser.add_argument("--compare", action="store_true", help="compare the methods on histories whose rate is known")
+    parser.add_argument("--draws", metavar="N", type=_draws, help="draws of the noise that are compared (5)")
+    parser.add_argument("--seed", metavar="N", type=int, help="of the noise that is compared (0)")
+    add_delivery(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    return _compare(options) if options.compare else _describe(options)
+
+
+def _describe(options: argparse.Namespace) -> int:
+    from probation.excitation.answer import describe_excitation  # noqa: PLC0415 - see the package
+
+    if options.file is None:
+        raise InputError("found no file, expected FILE or --compare")
+    if options.draws is not None or options.seed is not None:
+        raise InputError("found --draws or --seed without --compare")
+    if options.csv == "-" and options.json == "-":
+        raise InputError("found both --csv - and --json -, expected one of them on standard output")
+    records = _records(options.file, options.record)
+    several = [name for name in ("csv", "plot") if getattr(options, name)]
+    if several and len(records) > 1:
+        names = ", ".join(record.id for record in records)
+        raise InputError(
+            f"{options.file}: found the records {names}, expected one with --{several[0]}; add --record ID"
+        )
+    with shown("excitation") as advance:
+        answer = describe_excitation(records, options.method, source=Path(options.file).name, progress=advance)
+    if options.csv == "-":
+        sys.stdout.write(answer.to_csv())
+    else:
+        deliver(answer, options)
+    if options.csv not in (None, "-"):
+        write_whole(options.csv, answer.to_csv())
+        said("CSV", options.csv)
+    deliver_report(answer, options)
+    return 0
+
+
+def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
+    """Those of a campaign, or of a data file that stands in for one."""
+    from probation.records import Campaign  # noqa: PLC0415
+
+    place = Path(path)
+    data = place.is_file() and place.suffix != ".toml"
+    campaign = Campaign.from_files([place]) if data else Campaign.load(place)
+    return tuple(campaign.record(each) for each in wanted) if wanted else campaign.records
+
+
+def _compare(options: argparse.Namespace) -> int:
+    from probation.excitation.comparison import DRAWS, compare  # noqa: PLC0415
+
+    given = [name for name in ("file", "record", "csv", "report") if getattr(options, name)]
+    if given or options.method != "auto":
+        found = {"file": "FILE"}.get(given[0], f"--{given[0]}") if given else "--method"
+        raise InputError(f"found {found} beside --compare, expected only --draws, --seed, --json and --plot")
+    with shown("comparing") as advance:
+        answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
+    deliver(answer, options)
+    return 0
+
+
+def _draws(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number of at least 1")
+    return int(text)

@@ -1,0 +1,154 @@
+"""A sum of a few sines through residuals: their number by a criterion, their frequencies free."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import least_squares
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from probation._arrays import FloatArray
+
+MOST = 8
+"""Most sines that are tried."""
+
+FASTEST = 30.0
+"""Highest frequency [cycles per record]; and never fewer than `SAMPLES` samples to a cycle."""
+
+SLOWEST = 0.5
+"""Lowest frequency [cycles per record]."""
+
+SAMPLES = 8
+
+BLOCKS = 400
+"""Means of neighbouring samples that the search looks at."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sines:
+    r"""The sum.
+
+    .. math:: r(t) = \sum_k A_k \cos 2\pi f_k t + B_k \sin 2\pi f_k t
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (count,) [Hz]
+    weights : ndarray, shape (2 count,)
+        A, then B.
+    start : float [s]
+        Where t is zero.
+    criteria : tuple of float
+        The criterion with 0, 1, 2, … sines; the lowest won.
+    """
+
+    frequencies: FloatArray
+    weights: FloatArray
+    start: float
+    criteria: tuple[float, ...]
+
+    def __call__(self, time: FloatArray) -> FloatArray:
+        """The sum at `time` [s], shape (n_times,)."""
+        value: FloatArray = _waves(time - self.start, self.frequencies) @ self.weights
+        return value
+
+    def derivative(self, time: FloatArray) -> FloatArray:
+        """Its derivative by time, shape (n_times,) [1/s]."""
+        slope: FloatArray = _wave_slopes(time - self.start, self.frequencies) @ self.weights
+        return slope
+
+    def jacobian(self, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of the sum, and of its slope, along weights and frequencies; each (n_times, 3 count)."""
+        t = (time - self.start)[:, None]
+        angle = 2.0 * np.pi * self.frequencies * t
+        A, B = np.split(self.weights, 2)
+        turn = 2.0 * np.pi * (B * np.cos(angle) - A * np.sin(angle))  # by f, over t
+        bend = -2.0 * np.pi * (A * np.cos(angle) + B * np.sin(angle)) * 2.0 * np.pi * self.frequencies
+        values = np.hstack([_waves(t[:, 0], self.frequencies), t * turn])
+        slopes = np.hstack([_wave_slopes(t[:, 0], self.frequencies), turn + t * bend])
+        return values, slopes
+
+
+def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None = None) -> Sines:
+    """Fit 0, 1, 2, … sines and keep as many as the Bayesian information criterion wants.
+
+    Each is added where the periodogram of what is left peaks; then all frequencies move together (variable
+    projection). The criterion takes the noise as autoregressive, with the correlation of neighbours that the largest
+    sum leaves: correlated noise, whose slow part looks like sines, does not buy more of them.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n_times,) [s]
+    residual : ndarray, shape (n_times,)
+    weights : ndarray, shape (n_times,), optional
+        One over the noise of each sample, up to a factor.
+    """
+    weight = np.ones_like(time) if weights is None else weights
+    t, means, sums = _blocks(time - time[0], residual, weight)
+    fit = partial(_Fit, t, sums, sums * means)
+    count, duration = len(t), float(time[-1] - time[0])
+    fastest = min(FASTEST, count / SAMPLES)
+    grid = np.arange(SLOWEST, fastest, 0.25) / duration
+    found = [fit(np.empty(0))]
+    for _ in range(min(MOST, len(grid) // 4)):
+        left = partial(_Fit, t, sums, found[-1].rest)
+        peak = grid[int(np.argmin([left(np.array([each])).squares for each in grid]))]
+        found.append(_refined(fit, np.append(found[-1].frequencies, peak), SLOWEST / duration, fastest / duration))
+    last = found[-1].rest
+    neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
+    criteria = []
+    for number, each in enumerate(found):
+        innovation = each.rest[1:] - neighbours * each.rest[:-1]
+        criteria.append(count * np.log(max(float(innovation @ innovation), 1e-300)) + 3 * number * np.log(count))
+    best = found[int(np.argmin(criteria))].frequencies
+    whole = _Fit(time - time[0], weight, weight * residual, best)
+    return Sines(best, whole.weights, float(time[0]), tuple(criteria))
+
+
+def _blocks(t: FloatArray, values: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weighted means of neighbouring samples and one over their noise: `BLOCKS` of them know what slow sines need."""
+    size = max(len(t) // BLOCKS, 1)
+    first = np.arange(0, len(t), size)
+    total = np.add.reduceat(weight**2, first)
+    times, means = (np.add.reduceat(weight**2 * each, first) / total for each in (t, values))
+    return times, means, np.sqrt(total)
+
+
+class _Fit:
+    """Weighted least squares of waves of given frequencies."""
+
+    def __init__(self, t: FloatArray, weight: FloatArray, weighted: FloatArray, frequencies: FloatArray) -> None:
+        self.frequencies = frequencies
+        self.weights: FloatArray = np.empty(0)
+        waves = _waves(t, frequencies) * weight[:, None]
+        if len(frequencies):
+            self.weights = np.asarray(np.linalg.lstsq(waves, weighted, rcond=1e-10)[0], dtype=np.float64)
+        self.rest = weighted - waves @ self.weights
+        self.squares = float(self.rest @ self.rest)
+
+
+def _waves(t: FloatArray, frequencies: FloatArray) -> FloatArray:
+    angle = 2.0 * np.pi * np.outer(t, frequencies)
+    return np.hstack([np.cos(angle), np.sin(angle)])
+
+
+def _wave_slopes(t: FloatArray, frequencies: FloatArray) -> FloatArray:
+    turn = 2.0 * np.pi * frequencies
+    angle = np.outer(t, turn)
+    return np.hstack([-turn * np.sin(angle), turn * np.cos(angle)])
+
+
+def _refined(fit: Callable[[FloatArray], _Fit], start: FloatArray, lowest: float, highest: float) -> _Fit:
+    """The frequencies near `start` that leave the least, in units of the lowest, so that one step suits all."""
+    inside = np.clip(start / lowest, 1.0 + 1e-6, highest / lowest - 1e-6)
+    size = float(np.std(fit(start).rest)) or 1.0
+
+    def rest(scaled: FloatArray) -> FloatArray:
+        return fit(scaled * lowest).rest / size
+
+    found = least_squares(rest, inside, bounds=(1.0, highest / lowest), max_nfev=30)
+    return fit(np.asarray(found.x * lowest))
