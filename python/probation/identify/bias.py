@@ -33,7 +33,7 @@ class Bias:
     true_strain, time : float [-], [s]
         Where that is.
     threshold_MPa : float
-        What noise alone may reach.
+        What noise alone may reach there.
     """
 
     low: FloatArray
@@ -93,17 +93,20 @@ def bias_of(
         Strain noise as stress [MPa], as in `NoiseModel`.
     """
     low = low_frequency(residual)
-    at = int(np.argmax(np.abs(low)))
-    if len(residual) < SHORTEST:
-        passed = 1.0 / np.sqrt(len(residual))
-    else:  # near an end the parabola is held by one side only: twice the weights' norm
-        passed = 2.0 * float(np.linalg.norm(savgol_coeffs(_window(len(residual)), 2)))
+    window = _window(len(residual))
+    short = len(residual) < SHORTEST
+    passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(savgol_coeffs(window, 2)))
     passed *= float(np.sqrt((1.0 + correlation) / (1.0 - correlation)))
-    deviation = passed * noise
-    if carried is not None:
-        smooth = savgol_filter(carried, _window(len(residual)), 2, axis=0)
-        deviation = float(np.hypot(deviation, np.linalg.norm(smooth, axis=1).max()))
-    return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), SIGNIFICANT * deviation)
+    deviation = np.full_like(low, passed * noise)
+    if not short:  # near an end the parabola is held by one side only
+        deviation[: window // 2] *= 2.0
+        deviation[-(window // 2) :] *= 2.0
+        if carried is not None:
+            deviation = np.hypot(deviation, np.linalg.norm(savgol_filter(carried, window, 2, axis=0), axis=1))
+    threshold = SIGNIFICANT * deviation
+    stands_out = np.abs(low) > threshold
+    at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))
+    return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), float(threshold[at]))
 
 
 def _window(count: int) -> int:
