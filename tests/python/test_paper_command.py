@@ -12,7 +12,7 @@ def test_the_page_goes_where_the_help_says_and_the_verdict_comes_first(tmp_path,
     monkeypatch.chdir(tmp_path)
     assert main(["paper", "--only", "figure-s1"]) == 0
     out, err = capsys.readouterr()
-    assert out.startswith("2 of the paper's 2 numbers that were not put in are reproduced.")
+    assert out.startswith("Of 2 numbers of the paper 2 are reproduced.")
     assert "wrote report probation-paper.html" in err
     page = (tmp_path / "probation-paper.html").read_text(encoding="utf-8")
     assert "Figure S1" in page

@@ -9,14 +9,17 @@ from probation.errors import InputError
 from probation.histories.named import nearest
 from probation.paper import (
     figure_1,
+    figure_2,
     figure_3,
     figure_4,
     figure_5,
     figure_6,
     figure_s1,
     figure_s2,
+    figures_s3_to_s8,
     hardening_modulus,
     slips,
+    table_1_exhibit,
     table_2,
     table_3,
     table_4,
@@ -38,6 +41,8 @@ class Entry:
 
 EXHIBITS: tuple[Entry, ...] = (
     Entry("figure-1", figure_1.exhibit),
+    Entry("figure-2", figure_2.exhibit),
+    Entry("table-1", table_1_exhibit.exhibit),
     Entry("table-2", table_2.exhibit),
     Entry("figure-3", figure_3.exhibit),
     Entry("figure-4a", figure_4.figure_4a),
@@ -48,6 +53,7 @@ EXHIBITS: tuple[Entry, ...] = (
     Entry("figure-6", figure_6.exhibit),
     Entry("figure-s1", figure_s1.exhibit),
     Entry("figure-s2", figure_s2.exhibit),
+    Entry("figures-s3-s8", figures_s3_to_s8.exhibit),
     Entry("hardening-modulus", hardening_modulus.exhibit),
     Entry("slips", slips.exhibit),
 )

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.paper.exhibit import Comparison, Exhibit, Settings, compare
 from probation.paper.grip_tests import PUBLISHED, cost, fit_residual, identified
+from probation.paper.twins import SAMPLES
 from probation.paper.wavy_bias import RISES, bias_study, middle
 from probation.report.table import Table
 
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     from probation.identify import Fit
     from probation.paper.grip_tests import Grip
     from probation.paper.published import Printed, PrintedIdentification
-    from probation.paper.wavy_bias import BiasStudy
+    from probation.paper.twins import SAMPLES
+from probation.paper.wavy_bias import BiasStudy
 
 
 def grip_table(experiment: Grip, settings: Settings) -> Exhibit:
@@ -38,7 +40,7 @@ def grip_table(experiment: Grip, settings: Settings) -> Exhibit:
     why_cost = (
         "the paper's cost is its bias, ours the noise of the twin and, with (12), the misfit of a relation that the "
         f"twin was not made with. With a bias of the paper's size the cost of identification 2 is {costs[0]:.0f} to "
-        f"{costs[1]:.0f} MPa²"
+        f"{costs[1]:.0f} MPa² for {SAMPLES} samples; the paper does not print how many it has"
     )
     return Exhibit(
         title=f"Table {printed.number}: identifications on experiment {experiment} ({printed.grip_speed:g} mm/s)",

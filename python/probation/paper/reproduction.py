@@ -59,18 +59,14 @@ class Reproduction:
         reproduced, recovered, differ = (self.count(each) for each in ("reproduced", "recovered", "differs"))
         if not self.comparisons:
             return "No number of the paper is compared here."
-        parts = []
-        if reproduced + differ:
-            parts.append(
-                f"{reproduced} of the paper's {reproduced + differ} numbers that were not put in are reproduced"
-            )
+        sentence = f"Of {len(self.comparisons)} numbers of the paper {reproduced} {_are(reproduced)} reproduced"
+        if recovered:
+            sentence += f" and {recovered}, which the twins were made with, {_are(recovered)} recovered"
         if differ:
             left = len(self.unexplained)
-            explained = "each explained" if not left else f"{left} of them unexplained"
-            parts.append(f"{differ} {'differs' if differ == 1 else 'differ'}, {explained}")
-        if recovered:
-            parts.append(f"{recovered} that the twins were made with {'is' if recovered == 1 else 'are'} recovered")
-        return "; ".join(parts) + "."
+            sentence += f"; {differ} {'differs' if differ == 1 else 'differ'}, "
+            sentence += f"{left} of them unexplained" if left else "each explained"
+        return sentence + "."
 
     def overview(self) -> Table:
         """How the numbers of each exhibit came out."""
@@ -187,3 +183,7 @@ def reproduce(
             progress(at, len(entries), entry.name)
         made[entry.name] = entry.make(settings)
     return Reproduction(made, settings)
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"
