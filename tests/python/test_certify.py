@@ -134,7 +134,8 @@ def test_a_straight_line_over_haward_thackray_strain_is_returned():
     strain = np.linspace(0.0, 1.5, 200)
     line = regress_hardening(strain, 12.0 + 1.7 * probation.haward_thackray_strain(strain))
     assert (line.hardening_modulus, line.intercept) == (pytest.approx(1.7), pytest.approx(12.0))
-    assert regress_hardening(0.2 * strain, strain) is None
+    with pytest.raises(probation.InputError, match=r"found 0 samples above 0\.4"):
+        regress_hardening(0.2 * strain, strain)
 
 
 def test_without_held_out_records_each_is_predicted_from_the_others_and_temperatures_are_compared():

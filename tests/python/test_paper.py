@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import probation
+from probation.certificate import regress_hardening
 from probation.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED
 from probation.paper.constant_time import cost_over_time, onset
 from probation.paper.direct_prediction import direct_prediction
@@ -14,7 +15,6 @@ from probation.paper.exhibit import Exhibit, Settings, compare
 from probation.paper.exhibits import EXHIBITS, named_exhibits
 from probation.paper.grip_tests import OPTIONS, identified, identify, twin
 from probation.paper.hardening_modulus import expected_from_table_2
-from probation.paper.hardening_regression import hardening_regression
 from probation.paper.reproduction import Reproduction, reproduce
 from probation.paper.twins import necking_history
 from probation.paper.wavy_bias import RISES, ProfiledFit, bias_study, middle
@@ -46,7 +46,7 @@ def test_g_with_12_comes_out_without_having_been_put_in(number, hardening):
 @pytest.mark.parametrize(("number", "slope"), [(2, 1.565), (3, 1.660)])
 def test_the_slope_over_the_haward_thackray_strain_is_that_of_figure_s1(number, slope):
     test = twin(number, 0)
-    assert hardening_regression(test.true_strain, test.true_stress).hardening_modulus == pytest.approx(slope, abs=0.01)
+    assert regress_hardening(test.true_strain, test.true_stress).hardening_modulus == pytest.approx(slope, abs=0.01)
 
 
 @pytest.mark.parametrize(("number", "largest"), [(2, 10.1), (3, 8.8)])
@@ -159,7 +159,7 @@ def test_the_study_follows_its_seed():
 def test_the_regression_finds_the_slope_of_a_straight_line():
     strain = np.linspace(0.0, 1.5, 200)
     stress = 30.0 + 1.7 * probation.haward_thackray_strain(strain)
-    found = hardening_regression(strain, stress)
+    found = regress_hardening(strain, stress)
     assert found.hardening_modulus == pytest.approx(1.7)
     assert found.intercept == pytest.approx(30.0)
     assert found.curvature < 1e-9
@@ -167,7 +167,7 @@ def test_the_regression_finds_the_slope_of_a_straight_line():
 
 def test_a_record_that_ends_before_the_hardening_is_refused():
     with pytest.raises(probation.InputError, match=r"true_strain: found 0 samples above 0\.4"):
-        hardening_regression(np.linspace(0.0, 0.3, 50), np.ones(50))
+        regress_hardening(np.linspace(0.0, 0.3, 50), np.ones(50))
 
 
 def test_g_does_not_pass_on_the_papers_own_numbers(paper):

@@ -10,7 +10,7 @@ import numpy as np
 from probation._arrays import as_number
 from probation.calibration import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
-from probation.certificate.hardening import regress_hardening
+from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
 from probation.certificate.result import Certificate
 from probation.certificate.trial import Trial, estimates
@@ -140,9 +140,9 @@ def certify(
         described=described,
         without_companion=without,
         regressions={
-            record.id: found
+            record.id: regress_hardening(record.true_strain, record.true_stress)
             for record in records
-            if (found := regress_hardening(record.true_strain, record.true_stress)) is not None
+            if reaches_hardening(record.true_strain)
         },
         warnings=tuple(dict.fromkeys([*base.warnings, *_doubts(parameters, campaign)])),
         data_sha256=campaign.data_hash,

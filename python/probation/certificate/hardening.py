@@ -7,62 +7,84 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.errors import InputError
 from probation.kinematics import haward_thackray_strain
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 FROM_STRAIN = 0.4
-"""Least true strain of the regression, as in the paper."""
+"""True strain from which on the regression is taken, Figure S1."""
 
-FEWEST = 10
+FEWEST = 3
 
 
 @dataclass(frozen=True)
 class HardeningRegression:
-    """A straight line through stress over Haward-Thackray strain.
+    """Stress = G e_HT + intercept, a straight line.
 
     Attributes
     ----------
-    hardening_modulus : float
-        Its slope [MPa].
+    hardening_modulus : float [MPa]
     intercept : float [MPa]
-    r_squared : float
-    rms : float
-        Of what the line leaves [MPa].
-    from_strain : float
-        Least true strain of the samples taken.
+    se : float [MPa]
+        Standard error of G were the residuals white; they are not, where the law curves.
+    r_squared : float [-]
+    curvature : float [MPa]
+        Largest departure of the stress from the line.
+    from_strain : float [-]
     """
 
     hardening_modulus: float
     intercept: float
+    se: float
     r_squared: float
-    rms: float
+    curvature: float
     from_strain: float
+
+
+def reaches_hardening(true_strain: FloatArray, from_strain: float = FROM_STRAIN) -> bool:
+    """Whether enough samples exceed that strain for a regression."""
+    return int(np.count_nonzero(true_strain > from_strain)) >= FEWEST
 
 
 def regress_hardening(
     true_strain: FloatArray, true_stress: FloatArray, from_strain: float = FROM_STRAIN
-) -> HardeningRegression | None:
-    """Regress true stress on Haward-Thackray strain, eq. (3), where the true strain exceeds `from_strain`.
+) -> HardeningRegression:
+    """G from the slope of the stress over e_HT, eq. (3), Figure S1.
 
     Parameters
     ----------
-    true_strain, true_stress : ndarray, shape (n_times,) [-], [MPa]
-    from_strain : float
+    true_strain : ndarray, shape (n_times,) [-]
+    true_stress : ndarray, shape (n_times,) [MPa]
+    from_strain : float [-]
+        Samples of larger strain are taken.
 
     Returns
     -------
-    HardeningRegression or None
-        None where fewer than ten samples reach that strain.
+    HardeningRegression
+
+    Raises
+    ------
+    InputError
+        If fewer than three samples are left.
     """
-    large = true_strain > from_strain
-    if np.count_nonzero(large) < FEWEST:
-        return None
-    hardening, stress = haward_thackray_strain(true_strain[large]), true_stress[large]
-    columns = np.column_stack([hardening, np.ones_like(hardening)])
-    (slope, intercept), *_ = np.linalg.lstsq(columns, stress, rcond=None)
-    left = stress - columns @ (slope, intercept)
+    taken = true_strain > from_strain
+    if not reaches_hardening(true_strain, from_strain):
+        raise InputError(
+            f"true_strain: found {np.count_nonzero(taken)} samples above {from_strain}, expected at least {FEWEST}"
+        )
+    measure, stress = haward_thackray_strain(true_strain[taken]), true_stress[taken]
+    slope, intercept = np.polyfit(measure, stress, 1)
+    left = stress - (slope * measure + intercept)
+    degrees = max(len(left) - 2, 1)
+    error = np.sqrt(np.sum(left**2) / degrees / np.sum((measure - measure.mean()) ** 2))
     spread = float(np.sum((stress - stress.mean()) ** 2))
-    r_squared = 1.0 - float(left @ left) / spread if spread > 0.0 else 0.0
-    return HardeningRegression(float(slope), float(intercept), r_squared, float(np.sqrt(np.mean(left**2))), from_strain)
+    return HardeningRegression(
+        hardening_modulus=float(slope),
+        intercept=float(intercept),
+        se=float(error),
+        r_squared=1.0 - float(left @ left) / spread if spread > 0.0 else 0.0,
+        curvature=float(np.abs(left).max()),
+        from_strain=from_strain,
+    )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from probation.errors import InputError
 from probation.histories.named import nearest
 from probation.paper import (
+    certificate,
     figure_1,
     figure_2,
     figure_3,
@@ -54,6 +55,7 @@ EXHIBITS: tuple[Entry, ...] = (
     Entry("figure-s1", figure_s1.exhibit),
     Entry("figure-s2", figure_s2.exhibit),
     Entry("figures-s3-s8", figures_s3_to_s8.exhibit),
+    Entry("certificate", certificate.exhibit),
     Entry("hardening-modulus", hardening_modulus.exhibit),
     Entry("slips", slips.exhibit),
 )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.certificate import regress_hardening
 from probation.companion import WEISSENBERG_AS_PRINTED
 from probation.paper.direct_prediction import direct_prediction
 from probation.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation.paper.grip_tests import GRIPS, PUBLISHED, end_rate_ratio, identify, twin
-from probation.paper.hardening_regression import hardening_regression
 from probation.paper.published import PEAK_RATE, PREDICTION_ERROR, RATE_RATIO, STRAIN_RATE
 from probation.report.plots import strain_rates
 from probation.report.table import Table
@@ -65,7 +65,7 @@ def _sets(seed: int) -> Table:
         for name in SETS:
             test = twin(number, seed, name)
             law = identify(test, 3).law
-            slope = hardening_regression(test.true_strain, test.true_stress).hardening_modulus
+            slope = regress_hardening(test.true_strain, test.true_stress).hardening_modulus
             largest = direct_prediction(number, WEISSENBERG_AS_PRINTED, seed, name).largest
             found = (law.alpha or 0.0, law.hardening_modulus, slope)
             rows.append((f"experiment {number}", name, *(f"{each:.3f}" for each in found), f"{largest:.1f}"))

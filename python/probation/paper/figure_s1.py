@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.certificate.hardening import FROM_STRAIN, HardeningRegression, regress_hardening
 from probation.kinematics import haward_thackray_strain
 from probation.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation.paper.grip_tests import GRIPS, PUBLISHED, twin
-from probation.paper.hardening_regression import LEAST_STRAIN, Regression, hardening_regression
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 def exhibit(settings: Settings) -> Exhibit:
     """G regressed on both tests between grips."""
     twins = {number: twin(number, settings.seed) for number in GRIPS}
-    found = {number: hardening_regression(each.true_strain, each.true_stress) for number, each in twins.items()}
+    found = {number: regress_hardening(each.true_strain, each.true_stress) for number, each in twins.items()}
     truth = " and ".join(f"{each.truth.hardening_modulus:g}" for each in twins.values())
     bend = max(each.curvature for each in found.values())
     low = " and ".join(
@@ -54,20 +54,20 @@ def exhibit(settings: Settings) -> Exhibit:
             Drawing(
                 "figure-s1",
                 _figure(twins, found),
-                f"Figure S1 from the twins: true stress over ε_HT; the line is regressed on ε > {LEAST_STRAIN:g}.",
+                f"Figure S1 from the twins: true stress over ε_HT; the line is regressed on ε > {FROM_STRAIN:g}.",
             ),
         ),
         answer={"regression": {f"experiment-{number}": vars(each) for number, each in found.items()}},
     )
 
 
-def _figure(twins: Mapping[Grip, Twin], found: Mapping[Grip, Regression]) -> Figure:
+def _figure(twins: Mapping[Grip, Twin], found: Mapping[Grip, HardeningRegression]) -> Figure:
     with house_style():
         figure = new_figure(7.2, 3.4)
         for axes, number in zip(figure.subplots(1, 2, sharey=True), GRIPS, strict=True):
             each, line = twins[number], found[number]
             measure = haward_thackray_strain(each.true_strain)
-            start = float(haward_thackray_strain([LEAST_STRAIN])[0])
+            start = float(haward_thackray_strain([FROM_STRAIN])[0])
             axes.plot(*thinned(measure, each.true_stress, 400), ".", ms=5, mew=0, color=colour("data"), label="twin")
             ends = np.array([start, measure.max()])
             label = f"slope {line.hardening_modulus:.3f} MPa"
