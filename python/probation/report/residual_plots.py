@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.identify.bias import low_frequency
 from probation.identify.parameter import SYMBOLS
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour, series_colour
@@ -81,7 +82,8 @@ def residual_and_strain_error(
         Where the strain error is drawn on the right axis.
     """
     residual = magnified * (model - measured)
-    scale = float(np.std(residual) / max(float(np.std(strain_error)), 1e-300))
+    fast = residual - low_frequency(residual)
+    scale = float(np.std(fast) / max(float(np.std(strain_error)), 1e-300))
     with house_style():
         figure = new_figure(7.2, 4.4)
         axes = figure.subplots()
