@@ -99,7 +99,9 @@ class Change:
                 setattr(change, name, as_samples(np.atleast_1d(values), name))
         for feedback in self.feedbacks:
             if not isinstance(feedback, _core.Feedback):
-                raise InputError(f"feedbacks holds {feedback!r}; a StressActivation, PowerActivation or SelfHeating is needed")
+                raise InputError(
+                    f"feedbacks holds {feedback!r}; a StressActivation, PowerActivation or SelfHeating is needed"
+                )
         change.feedbacks = list(self.feedbacks)
         return change
 

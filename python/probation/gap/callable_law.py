@@ -51,9 +51,9 @@ class CallableLaw:
 
     Examples
     --------
-    >>> bar = CallableLaw(
-    ...     lambda time, strain, parameters, alteration: parameters[0] * strain, ("modulus_MPa",), (1000.0,), (0.0,), (1e5,)
-    ... )
+    >>> def elastic(time, true_strain, parameters, alteration):
+    ...     return parameters[0] * true_strain
+    >>> bar = CallableLaw(elastic, names=("modulus_MPa",), starts=(1000.0,), lower=(0.0,), upper=(1e5,))
     """
 
     function: StressFunction

@@ -82,9 +82,6 @@ def cause(effect: str | Effect, form: str | Form | None = None, records: str | S
         For an unknown name, suggesting the nearest.
     """
     found = named_effect(effect) if isinstance(effect, str) else effect
-    if form is None:
-        chosen = found.forms[0]
-    else:
-        chosen = found.form(form) if isinstance(form, str) else form
+    chosen = found.forms[0] if form is None else found.form(form) if isinstance(form, str) else form
     confined = (records,) if isinstance(records, str) else None if records is None else tuple(records)
     return Cause(found, chosen, confined)

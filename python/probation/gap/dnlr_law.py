@@ -70,7 +70,7 @@ class DnlrLaw:
     @property
     def start(self) -> FloatArray:
         """The base law's own values, shape (n_parameters,)."""
-        return self._values[self._free]
+        return np.asarray(self._values[self._free])
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
@@ -139,7 +139,9 @@ class DnlrLaw:
             weight = spectrum.modal_weight * ratio**alteration.weight_exponent
             spectrum = _core.Spectrum(ratio, weight * (spectrum.modal_weight.sum() / weight.sum()))
         # With a companion relation, its own or an effect's, tau_max = alpha companion(rate).
-        return _core.Law(modulus, hardening, 0.0 if companion else time, time if companion else 1.0, companion, spectrum)
+        return _core.Law(
+            modulus, hardening, 0.0 if companion else time, time if companion else 1.0, companion, spectrum
+        )
 
     @staticmethod
     def _change(law: _core.Law, view: RecordView, alteration: Alteration | None) -> _core.LawChange:

@@ -74,7 +74,9 @@ class EffectParameter:
         if not _SNAKE_CASE.fullmatch(self.name):
             raise InputError(f"effect parameter: found the name {self.name!r}, expected snake_case with its unit")
         if not self.lower <= self.centre <= self.upper or not self.lower < self.upper:
-            raise InputError(f"{self.name}: found bounds {self.lower}, {self.upper}, expected them around {self.centre}")
+            raise InputError(
+                f"{self.name}: found bounds {self.lower}, {self.upper}, expected them around {self.centre}"
+            )
         if not self.scale > 0.0:
             raise InputError(f"{self.name}: found the prior scale {self.scale!r}, expected a positive number")
         if self.log and not self.lower > 0.0:
@@ -162,7 +164,9 @@ class Form:
         if len(set(names)) < len(names):
             raise InputError(f"form {self.name!r}: found a parameter twice among {', '.join(names)}")
         if self.law_change is None and self.driving_strain is None and self.recorded_stress is None:
-            raise InputError(f"form {self.name!r}: found no hook, expected law_change, driving_strain or recorded_stress")
+            raise InputError(
+                f"form {self.name!r}: found no hook, expected law_change, driving_strain or recorded_stress"
+            )
         if self.threshold and self.starts is None:
             raise InputError(f"form {self.name!r}: a threshold needs starts that give the amplitude")
 

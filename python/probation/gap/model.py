@@ -181,7 +181,7 @@ class CampaignModel:
 
     def residual(self, parameters: FloatArray) -> FloatArray:
         """Fit residual, model - data, of all records stacked; shape (n_samples,) [MPa]."""
-        return np.concatenate(list(self.predict(parameters).values())) - self.data
+        return np.asarray(np.concatenate(list(self.predict(parameters).values())) - self.data)
 
     def jacobian(self, parameters: FloatArray) -> FloatArray:
         """Derivatives of the fit residual along all parameters; shape (n_samples, n_parameters)."""

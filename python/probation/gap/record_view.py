@@ -88,7 +88,7 @@ class RecordView:
     @property
     def elapsed(self) -> FloatArray:
         """Time since the start, shape (n,) [s]."""
-        return self.time - self.time[0]
+        return np.asarray(self.time - self.time[0])
 
     @property
     def duration(self) -> float:

@@ -73,7 +73,7 @@ EFFECT = Effect(
     name="finite_extensibility",
     title="finite extensibility of the network",
     physics=(
-        "Chains of finite length cannot be stretched for ever: the relaxed stress rises above Haward-Thackray and locks.\n"
+        "Chains have a finite length: the relaxed stress rises above Haward-Thackray and locks.\n"
         "Amplitude: 1/J_m (Gent), or 1/(5 N) for chains of N links (Langevin), the same to first order."
     ),
     source="Gent 1996, Rubber Chem. Technol. 69, 59; Arruda & Boyce 1993, J. Mech. Phys. Solids 41, 389",

@@ -19,8 +19,9 @@ def _lag(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
 
 
 def delayed(time: FloatArray, samples: FloatArray, delay: float) -> FloatArray:
-    """`samples` a `delay` [s] later: a cubic with three-point slopes, constant before the start, straight after the
-    end."""
+    """`samples` a `delay` [s] later: a cubic with three-point slopes, constant before the start and straight
+    after the end.
+    """
     if delay == 0.0:
         return samples
     slopes = np.gradient(samples, time)

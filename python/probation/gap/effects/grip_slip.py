@@ -63,7 +63,14 @@ EFFECT = Effect(
     shows_in="one record, from one instant on: the stress drops and recovers",
     kind="rig",
     forms=(
-        Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts),
-        Form("measured_section", _PARAMETERS, driving_strain=_slip, starts=_starts, converts=False),
+        Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts, placements=("one",)),
+        Form(
+            "measured_section",
+            _PARAMETERS,
+            driving_strain=_slip,
+            starts=_starts,
+            converts=False,
+            placements=("one",),
+        ),
     ),
 )

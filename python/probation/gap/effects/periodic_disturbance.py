@@ -54,7 +54,7 @@ def _on_stress(view: RecordView, values: Values, stress: FloatArray) -> FloatArr
 def _on_strain(view: RecordView, values: Values) -> FloatArray:
     """The specimen vibrates and the strain channel does not see it."""
     wave = _wave(view, values)
-    return view.true_strain + wave - wave[0]
+    return np.asarray(view.true_strain + wave - wave[0])
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:

@@ -41,7 +41,7 @@ EFFECT = Effect(
     title="rate-dependent hardening",
     physics=(
         "The network is stiffer the faster it is stretched: fewer of its junctions slip.\n"
-        "Amplitude: d ln G / d ln rate; G is that at the reference rate. The rate is that of the instant or of the path."
+        "Amplitude: d ln G / d ln rate, the rate being that of the instant or of the path so far."
     ),
     source="André et al., section 4; Wendlandt, Tervoort & Suter 2005, Polymer 46, 11786",
     shows_in="records at different rates reaching large strains",

@@ -29,7 +29,7 @@ EFFECT = Effect(
     name="volume_change",
     title="change of volume",
     physics=(
-        "Voids make the section larger than constant volume says: force over the assumed section overstates the stress.\n"
+        "Voids make the section larger than constant volume says: the true stress is overstated.\n"
         "Amplitude: volume strain per true strain."
     ),
     source="Farge et al. 2015, J. Polym. Sci. B 53, 1470; Bucknall & Clayton 1972",
