@@ -86,6 +86,40 @@ def test_residuals_tell_where_shapes_begin():
     assert min(abs(instant - 0.62) for instant in instants[19:]) < 0.02
 
 
+def test_a_quietened_record_drives_a_compliant_machine_without_its_noise():
+    """A dwell of a law with a companion relation: noise handed back to the strain would count as straining and let the
+    stress relax. With it taken off, the prediction is that of the noise-free record, and the gap of 1 MPa is kept."""
+    law = probation.Law(
+        unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=probation.Weissenberg(0.00464, 0.0367)
+    )
+    time = np.linspace(0.0, 400.0, 800)
+    strain = np.interp(time, [0.0, 100.0, 400.0], [0.0, 0.5, 0.5])
+    clean = law.stress(time, strain) + 1.0 * np.sin(2.0 * np.pi * time / 400.0)
+    noisy = clean + 0.04 * np.random.default_rng(0).standard_normal(800)
+    found = []
+    for stress in (clean, noisy):
+        each = Record(
+            id="dwell", time=time, true_strain=strain, true_stress=stress, control="strain-rate", noise=Noise(0.04, 0.0)
+        )
+        views = gap.views_of(probation.Campaign(name="dwell", records=(each,)))
+        model = gap.CampaignModel(gap.DnlrLaw(law), views, [gap.cause("machine_compliance")])
+        at = model.parameters(law.parameters, (1e-4,))
+        quiet = model.quietened(model.start)
+        found.append((model.predict(at)["dwell"], quiet.predict(at)["dwell"], quiet.views[0].nominal_data))
+    (raw, _, nominal), (loud, soft, soft_nominal) = found
+    assert np.max(np.abs(loud - raw)) > 1.0
+    assert np.max(np.abs(soft - raw)) < 0.1
+    assert np.sqrt(np.mean((soft_nominal - nominal) ** 2)) < 0.02
+
+
+def test_a_planned_test_takes_other_data():
+    view = MODEL.views[0].with_data(np.ones(200))
+    assert np.all(view.data == 1.0)
+    np.testing.assert_allclose(view.nominal_data, np.exp(-view.true_strain))
+    with pytest.raises(probation.InputError, match=r"found data of shape \(5,\), expected \(200,\)"):
+        view.with_data(np.ones(5))
+
+
 def test_a_threshold_begins_at_the_largest_force_recorded():
     """The secant's amplitude is one over a nominal stress just below the record's largest."""
     columns = gap.screen(MODEL, MODEL.start, [gap.effect("force_saturation")])

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.signal import savgol_filter
 
 from probation.errors import InputError
 from probation.gap.alteration import Alteration
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
 _PROBE = 1e-3
 """Stress by which what was recorded is probed for its derivative [MPa]."""
+
+_PARABOLA = 3
+"""Samples through which a parabola always goes."""
 
 CauseValues = tuple[tuple[Cause, tuple[float, ...]], ...]
 
@@ -162,6 +166,24 @@ class CampaignModel:
         ids = {view.id for view in views}
         kept = [each for each in self.causes if each.records is None or ids.issuperset(each.records)]
         return CampaignModel(self.law, views, kept)
+
+    def quietened(self, parameters: FloatArray) -> CampaignModel:
+        """The same model with the noise taken off the recorded stress where effects hand it back to the strain.
+
+        What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
+        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept.
+        """
+        base, causes = self.split(parameters)
+        views = []
+        for view in self.views:
+            predicted = self.recorded(view, base, causes)
+            missing = view.data - view.sampled(predicted)
+            window = 2 * (len(missing) // 50) + 1
+            if window > _PARABOLA:
+                missing = savgol_filter(missing, window, polyorder=2)
+            between = np.interp(view.time, view.sampled(view.time), missing)
+            views.append(replace(view, quiet_stress=predicted + between))
+        return CampaignModel(self.law, views, self.causes)
 
     def missing_notions(self, cause: Cause) -> frozenset[str]:
         """What the law would have to understand to follow a cause; empty if it can."""

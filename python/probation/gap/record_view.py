@@ -55,6 +55,9 @@ class RecordView:
     temperature : ndarray, shape (n_samples,) [°C], or None
     index, count : int
         Place among the records of the campaign, in order of test, and how many there are.
+    quiet_stress : ndarray, shape (n,) [MPa], or None
+        The recorded true stress without its noise, where that is known: see `CampaignModel.quietened`. Effects that
+        hand the recorded force back to the strain take it; with a companion relation noise would count as straining.
     reference_rate : float
         Rate at which a law without rate dependence and one with it agree [1/s]; one number for all records.
     """
@@ -75,6 +78,7 @@ class RecordView:
     index: int
     count: int
     reference_rate: float
+    quiet_stress: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -137,13 +141,24 @@ class RecordView:
 
     @cached_property
     def nominal_data(self) -> FloatArray:
-        """Recorded force over the initial section, linear between samples; shape (n,) [MPa]."""
+        """Recorded force over the initial section, quiet if that is known, else linear between samples; (n,) [MPa]."""
+        if self.quiet_stress is not None:
+            return self.quiet_stress / self.stretch
         samples = self.data / self.sampled(self.stretch)
         return samples if self.stride == 1 else np.interp(self.time, self.sampled(self.time), samples)
 
     def sampled(self, values: FloatArray) -> FloatArray:
         """Values at the samples, of values at the instants."""
         return values[:: self.stride]
+
+    def with_data(self, data: FloatArray) -> RecordView:
+        """The same test with other stresses recorded, shape (n_samples,) [MPa]: a bootstrap's, or a planned test's.
+
+        A planned test should have the base law's prediction: a machine's compliance acts on the force that there is.
+        """
+        if data.shape != self.sampled(self.time).shape:
+            raise InputError(f"{self.id}: found data of shape {data.shape}, expected {self.sampled(self.time).shape}")
+        return replace(self, data=data, quiet_stress=None)
 
     def driven(self, true_strain: FloatArray) -> RecordView:
         """The same record with another strain driving the law; given rates follow by the scheme's difference."""
