@@ -3,7 +3,7 @@
 from probation._core import __version__
 from probation.calibration import CalibratedCompanion, Calibration, RateTable, calibrate_companion
 from probation.certificate import Certificate, certify
-from probation.change import Change, Direction, SelfHeating, StressActivation
+from probation.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
@@ -34,6 +34,7 @@ __all__ = [
     "InputError",
     "Law",
     "Noise",
+    "PowerActivation",
     "PowerLaw",
     "RateFunction",
     "RateTable",
