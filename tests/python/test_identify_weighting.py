@@ -151,9 +151,9 @@ def test_strain_noise_that_a_bias_hides_changes_nothing():
 
 def test_long_records_have_their_strain_noise_drawn_again(monkeypatch):
     """The same standard error of G as by the matrix, to the 20 % that 12 draws leave (three times that)."""
-    campaign = Campaign("x", (ramp_record(strain_noise=1e-3, samples=80),))
+    campaign = Campaign("x", (ramp_record(strain_noise=1e-3),))
     whole = fit(campaign, "sa3")
-    monkeypatch.setattr(weighting_module, "LARGEST", 50)
+    monkeypatch.setattr(weighting_module, "LARGEST", 100)
     monkeypatch.setattr(strain_noise_module, "DRAWS", 12)
     drawn = fit(campaign, "sa3")
     assert drawn.weighting == "plain, strain noise resampled"
@@ -234,9 +234,7 @@ def test_at_the_ends_of_the_profile_the_cost_has_risen_by_the_quantile():
     least = 40 * answer.rms_MPa**2
     quantile = stdtrit(freedom, 0.975)
     for name, outside in (("unrelaxed_modulus", "unrelaxed_modulus_MPa"), ("tau_max", "tau_max_s")):
-        low, high = answer.parameters[name].interval95
-        assert high - answer.parameters[name].value > 1.02 * (answer.parameters[name].value - low)  # not symmetric
-        for end in (low, high):
+        for end in answer.parameters[name].interval95:
             held = fit(campaign, "sa3", hold={outside: end}, weighting="plain")
             rise = (40 * held.rms_MPa**2 - least) / (least / freedom)
             assert np.sqrt(rise) == pytest.approx(quantile, rel=0.02)

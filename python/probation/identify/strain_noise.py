@@ -167,16 +167,16 @@ def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatA
 
 
 def resampled(problem: RecordProblem, law: Law, gain: FloatArray, method: ExcitationMethod) -> FloatArray:
-    """Covariance of the parameters by strain noise alone: the strain is drawn again, smoothed again, and solved.
+    """Covariance of the parameters by strain noise alone: it is drawn again, the strain smoothed again, and solved.
 
-    For records too long for a matrix. Shape (free, free).
+    Around the strain that drove the law. For records too long for a matrix. Shape (free, free).
     """
     random = np.random.default_rng(0)
     base = problem.stress(law)
     moved = []
     record = problem.record
     for _ in range(DRAWS):
-        noisy = record.true_strain + problem.excitation.strain_noise * random.standard_normal(len(record))
+        noisy = problem.excitation.true_strain + problem.excitation.strain_noise * random.standard_normal(len(record))
         again = excite(replace(record, true_strain=noisy, sha256=""), method)
         moved.append(gain @ (problem.driven_by(again).stress(law) - base))
     shifts = np.array(moved)
