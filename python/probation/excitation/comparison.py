@@ -143,9 +143,9 @@ class Comparison:
 
 
 def compare(
-    histories: Sequence[str] = tuple(KNOWN_HISTORIES),
-    noises: Sequence[float] = NOISES,
-    methods: Sequence[str] = COMPARED,
+    histories: Sequence[str] | None = None,
+    noises: Sequence[float] | None = None,
+    methods: Sequence[str] | None = None,
     *,
     draws: int = DRAWS,
     seed: int = 0,
@@ -155,10 +155,12 @@ def compare(
 
     Parameters
     ----------
-    histories : sequence of str
-        Of `KNOWN_HISTORIES`.
-    noises : sequence of float [-]
-    methods : sequence of str
+    histories : sequence of str, optional
+        Of `KNOWN_HISTORIES`; all if left out.
+    noises : sequence of float [-], optional
+        `NOISES` if left out.
+    methods : sequence of str, optional
+        `COMPARED` if left out.
     draws : int
         Draws of the white noise for each.
     seed : int
@@ -166,12 +168,15 @@ def compare(
         Called with (done, total, what).
     """
     results: dict[Key, Closeness | str] = {}
-    cases = [(history, noise, method) for history in histories for noise in noises for method in methods]
+    noises, methods = tuple(noises or NOISES), tuple(methods or COMPARED)
+    cases = [
+        (history, noise, method) for history in histories or KNOWN_HISTORIES for noise in noises for method in methods
+    ]
     for done, key in enumerate(cases):
         if progress:
             progress(done, len(cases), f"{key[2]} on {key[0]}")
         results[key] = _closeness(key, draws, seed)
-    return Comparison(results, tuple(noises), tuple(methods), draws, seed)
+    return Comparison(results, noises, methods, draws, seed)
 
 
 def _closeness(key: Key, draws: int, seed: int) -> Closeness | str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 from typing import TYPE_CHECKING, Literal
 
@@ -187,9 +187,15 @@ def fit_necking(time: FloatArray, true_strain: FloatArray) -> NeckingFit:
     ----------
     André et al., supplementary information, "Curve fitting process for the command/excitation signal", eq. (A-1).
     """
+    return _fitted(np.ascontiguousarray(time).tobytes(), np.ascontiguousarray(true_strain).tobytes())
+
+
+@lru_cache(maxsize=2)
+def _fitted(time_bytes: bytes, strain_bytes: bytes) -> NeckingFit:
+    """`fit_necking`, remembered: strain and rate, figures and tables all ask for the same fit."""
+    time, true_strain = np.frombuffer(time_bytes), np.frombuffer(strain_bytes)
     _check(time, true_strain)
-    ones = np.ones_like(time)
-    strain = _two_steps("strain", time, true_strain, ones, None)
+    strain = _two_steps("strain", time, true_strain, np.ones_like(time), None)
     extent = float(np.ptp(true_strain))
     missed = float(np.sqrt(np.mean(strain.first_residual**2)))
     if missed > WORST * extent:

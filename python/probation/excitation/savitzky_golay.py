@@ -36,7 +36,7 @@ def smooth_savitzky_golay(time: FloatArray, true_strain: FloatArray) -> Smoothed
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     largest = count - 1 + count % 2
     sizes = np.geomspace(SMALLEST, largest, WINDOWS)
-    tried = [_LocalCubics(time, true_strain, window) for window in sorted({2 * int(size / 2) + 1 for size in sizes})]
+    tried = [LocalCubics(time, true_strain, window) for window in sorted({2 * int(size / 2) + 1 for size in sizes})]
     grown = 1.0
     for _ in range(ROUNDS):
         found = tried[int(np.argmin([each.score(PRUDENCE * grown) for each in tried]))]
@@ -56,7 +56,7 @@ def smooth_savitzky_golay(time: FloatArray, true_strain: FloatArray) -> Smoothed
     )
 
 
-class _LocalCubics:
+class LocalCubics:
     """Least-squares cubics through `window` samples around each sample; at the ends, through the outermost ones."""
 
     def __init__(self, time: FloatArray, values: FloatArray, window: int) -> None:

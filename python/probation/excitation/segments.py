@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from probation import _core
 
@@ -18,7 +19,13 @@ LEAST_CHANGE = 0.3
 SIGNIFICANCE = 8.0
 """... and by this many standard errors."""
 
+EVIDENCE = 12.0
+"""... and its corner leaves less than the best cubic does: in the sum of squares, so many variances of the noise."""
+
 SMALLEST_WINDOW, LARGEST_WINDOW = 8, 60
+WIDER = 3
+"""Windows so many times larger are searched, too: noisier jumps stand out in them."""
+
 CLEAN = 1e-9
 """Strain noise below which the samples are taken as they are."""
 
@@ -37,8 +44,8 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
 
     Clean samples are searched step by step (`History.find_rate_jumps`). Noisy ones are searched with straight lines
     through a window on each side: their slopes must differ by `LEAST_CHANGE` of the steeper one and by `SIGNIFICANCE`
-    standard errors (of the samples around, where they scatter more), most so within a window, and both lines must
-    describe their samples.
+    standard errors (of the samples around, where they scatter more), most so within a window, and the corner between
+    them must describe the samples better than a cubic by `EVIDENCE`. It is put where it leaves least.
 
     Parameters
     ----------
@@ -54,25 +61,37 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     """
     if noise < CLEAN:
         return _core.History.find_rate_jumps(time, true_strain)
-    window = int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
-    if len(time) < 4 * window:
-        return []
+    jumps: list[int] = []
+    smallest = int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
+    for window in (smallest, WIDER * smallest):
+        if len(time) >= 4 * window:
+            jumps += _jumps_in_windows(time, true_strain, noise, window, jumps)
+    return sorted(jumps)
+
+
+def _jumps_in_windows(
+    time: FloatArray, true_strain: FloatArray, noise: float, window: int, known: list[int]
+) -> list[int]:
+    """Jumps that windows of one size show, none within a window of a known one."""
     slopes = _slopes(time, true_strain, window, noise)
     change = np.abs(slopes.after - slopes.before)
     steepest = np.maximum(np.abs(slopes.before), np.abs(slopes.after))
     # A slow part of the record may bend without a jump: its slopes are small beside the record's own speed.
     speed = np.median(np.abs(np.concatenate([slopes.before, slopes.after])))
-    stands_out = (change > LEAST_CHANGE * np.maximum(steepest, 0.2 * speed)) & (
-        change > SIGNIFICANCE * slopes.standard_error
+    stands_out = (
+        (change > LEAST_CHANGE * np.maximum(steepest, 0.2 * speed))
+        & (change > SIGNIFICANCE * slopes.standard_error)
+        & (change == maximum_filter1d(change, window))
     )
     jumps: list[int] = []
-    candidates = np.flatnonzero(stands_out)
-    for index in sorted(candidates, key=lambda i: -change[i]):
+    for index in sorted(np.flatnonzero(stands_out), key=lambda i: -change[i]):
         centre = int(index) + window
-        apart = all(abs(centre - jump) > window for jump in jumps)
-        if apart and _is_sharp(time, true_strain, centre, window, noise, SIGNIFICANCE * slopes.standard_error[index]):
-            jumps.append(centre)
-    return sorted(jumps)
+        if any(abs(centre - jump) <= window for jump in known + jumps):
+            continue
+        corner = _corner(time, true_strain, centre, window, noise)
+        if corner is not None and corner.change > SIGNIFICANCE * slopes.standard_error[index] * corner.scatter / noise:
+            jumps.append(corner.at)
+    return jumps
 
 
 def _slopes(time: FloatArray, values: FloatArray, window: int, noise: float) -> _Slopes:
@@ -90,20 +109,30 @@ def _slopes(time: FloatArray, values: FloatArray, window: int, noise: float) -> 
     return _Slopes(before, after, error)
 
 
-def _is_sharp(
-    time: FloatArray, values: FloatArray, centre: int, window: int, noise: float, least_change: float
-) -> bool:
-    """Two straight lines that meet near `centre` describe the samples as well as a cubic or better.
+@dataclass(frozen=True)
+class _Corner:
+    """Two straight lines that meet at a sample: how much their slopes differ [1/s], and how much they leave [-]."""
 
-    Where the samples scatter more than the record's noise, their slopes must differ by as much more than
-    `least_change` [1/s].
+    at: int
+    change: float
+    scatter: float
+
+
+def _corner(time: FloatArray, values: FloatArray, centre: int, window: int, noise: float) -> _Corner | None:
+    """The corner around `centre` that leaves least, if it leaves `EVIDENCE` less than the best cubic.
+
+    A smooth curve that bends much has different slopes on either side, too, but a cubic describes it as well.
     """
     part = slice(centre - window, centre + window + 1)
     t, y = time[part] - time[centre], values[part]
     smooth = np.polynomial.Polynomial.fit(t, y, 3)
-    hinge = np.column_stack([np.ones_like(t), t, np.maximum(t, 0.0)])
-    solution = np.linalg.lstsq(hinge, y, rcond=None)[0]
-    cost_smooth = float(np.sum((y - smooth(t)) ** 2))
-    cost_sharp = float(np.sum((y - hinge @ solution) ** 2))
-    scatter = float(np.sqrt(cost_sharp / (len(y) - 3)))
-    return cost_sharp < cost_smooth + noise**2 and abs(solution[2]) > least_change * max(scatter / noise, 1.0)
+    least = np.inf
+    for offset in range(-(window // 2), window // 2 + 1):
+        hinge = np.column_stack([np.ones_like(t), t, np.maximum(t - t[window + offset], 0.0)])
+        solution = np.linalg.lstsq(hinge, y, rcond=None)[0]
+        cost = float(np.sum((y - hinge @ solution) ** 2))
+        if cost < least:
+            least, best, change = cost, offset, abs(float(solution[2]))
+    scatter = max(float(np.sqrt(least / (len(y) - 3))), noise)
+    evidence = float(np.sum((y - smooth(t)) ** 2)) - least
+    return _Corner(centre + best, change, scatter) if evidence > EVIDENCE * scatter**2 else None
