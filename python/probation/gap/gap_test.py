@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,8 @@ from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
     from probation.gap.whitening import Whitened
@@ -27,6 +30,9 @@ DIRECTED_SHARE = 0.7
 
 LEVEL = 0.005
 """A gap is declared below this p-value: false alarms of 1 % leave room for noise that is not as it was modelled."""
+
+DEPENDENT = 1e-4
+"""Part of a smooth column that smoother ones and the base parameters leave, below which it adds nothing."""
 
 ABSORBED = 1e-8
 """Squared norm of a projected direction over the whole one's, below which the base parameters hide it altogether."""
@@ -80,8 +86,8 @@ class GapTester:
     The statistic is the smallest p-value of a family: T = |B_s^T z|^2 on nested smooth bases, orthonormalised in
     P-space over all records (Neyman's smooth test, data-driven); the same on each record alone; and the scores along
     known effects, which need no more room than a smooth basis spends on what no effect could do. The family's own
-    distribution is that of a parametric bootstrap with refit and with the level's own error (`Whitened.joint_draws`);
-    the refit is linearised, which is a projection.
+    distribution is that of a parametric bootstrap with refit and with the level's own error (`Reduced`); the refit is
+    linearised, which is a projection.
 
     Parameters
     ----------
@@ -109,36 +115,43 @@ class GapTester:
         self.whitened = whitened
         self.inflation = float(np.sqrt(1.0 + drift))
         self._spread = whitened.scale_spread
-        smooth, order = _smooth_columns(whitened)
+        waves, order, owner = _smooth_columns(whitened)
+        given = {name: np.reshape(columns, (len(whitened), -1)) for name, columns in (directions or {}).items()}
+        self._reduced = whitened.reduced(np.hstack([waves, *given.values()]))
+        span = self._reduced.of(whitened.span)
+
+        def visible(columns: FloatArray) -> FloatArray:
+            return np.asarray(columns - span @ (span.T @ columns), dtype=np.float64)
+
+        waves = self._reduced.of(waves)
+        smooth, kept = _orthonormal(visible(waves))
+        full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
-        parts = [smooth]
-        # Nested: the smoother columns come first.
-        for most in ORDERS:
+        for most in ORDERS:  # nested: the smoother columns come first
             count = int(np.count_nonzero(order < most))
             if count and (not self._families or count > self._families[-1][1].stop):
                 self._families.append((f"smooth-{most}", slice(0, count)))
+        self._nested = len(self._families)
         at = smooth.shape[1]
         if len(whitened.records) > 1:
-            for record, part in zip(whitened.records, whitened.slices, strict=True):
-                own = smooth_basis(record.time, record.jumps).up_to(RECORD_ORDER)
-                columns = np.zeros((len(whitened), own.shape[1]))
-                columns[part] = whitened.noises[whitened.records.index(record)].whiten(own)
-                columns = _orthonormal(whitened.project(columns))
+            for index, record in enumerate(whitened.records):
+                ours = waves[:, (owner == index) & (full_order < RECORD_ORDER)]
+                columns = _orthonormal(visible(ours))[0]
                 parts.append(columns)
                 self._families.append((f"record {record.name}", slice(at, at + columns.shape[1])))
                 at += columns.shape[1]
         self._effects: list[str] = []
-        for name, given in (directions or {}).items():
-            columns = np.reshape(given, (len(whitened), -1))
-            visible = whitened.project(columns)
-            norm = np.sum(visible**2, axis=0)
-            seen = norm > ABSORBED * np.maximum(np.sum(columns**2, axis=0), 1e-300)
-            parts.append(visible[:, seen] / np.sqrt(norm[seen]))
+        for name, whole in given.items():
+            size_of = np.sum(whole**2, axis=0)
+            columns = visible(self._reduced.of(whole))
+            norm = np.sum(columns**2, axis=0)
+            seen = norm > ABSORBED * np.maximum(size_of, 1e-300)
+            parts.append(columns[:, seen] / np.sqrt(norm[seen]))
             self._effects += [name] * int(np.count_nonzero(seen))
         self._effect_slice = slice(at, at + len(self._effects))
         self._features = np.hstack(parts)
         rng = np.random.default_rng(seed)
-        products = whitened.joint_draws(self._features, rng, size)
+        products = self._reduced.draws(self._features, rng, size)
         # How many independent directions the effects amount to, read off the draws' own tail.
         self._effective = 1.0
         if self._effects:
@@ -159,20 +172,21 @@ class GapTester:
         """
         whitened = self.whitened
         z = whitened.residual if residual is None else residual
-        products = (self._features.T @ z / self.inflation)[None]
+        products = (self._features.T @ self._reduced.of(z) / self.inflation)[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
-        scores = {}
+        scores: dict[str, float] = {}
         for name, score in zip(self._effects, products[0, self._effect_slice], strict=True):
             if abs(score) >= abs(scores.get(name, 0.0)):
                 scores[name] = float(score)
         statistics |= {f"effect {name}": score**2 for name, score in scores.items()}
         values = {name: float(p[0]) for name, p in single.items()}
         values |= {f"effect {name}": float(2.0 * normal_tail(abs(s), self._spread)) for name, s in scores.items()}
-        last = self._families[-1 if len(whitened.records) == 1 else len(self._families) - len(whitened.records) - 1][1]
-        fitted = self._features[:, last] @ products[0, last]
-        power = np.array([float(np.sum(fitted[part] ** 2)) for part in whitened.slices])
+        last = self._families[self._nested - 1][1]
+        fitted = np.square(self._features[:, last] @ products[0, last])
+        borders = np.cumsum([0, *(frame.shape[1] for frame in self._reduced.frames)])
+        power = np.array([fitted[first:stop].sum() for first, stop in pairwise(borders)])
         share = power / max(float(power.sum()), 1e-300)
         names = [record.name for record in whitened.records]
         return GapTest(
@@ -197,7 +211,7 @@ class GapTester:
             return np.asarray(smooth, dtype=np.float64)
         largest = np.max(np.abs(products[:, self._effect_slice]), axis=1)
         directed = self._effective * 2.0 * normal_tail(largest, self._spread)
-        return np.minimum(directed / DIRECTED_SHARE, smooth / (1.0 - DIRECTED_SHARE))
+        return np.asarray(np.minimum(directed / DIRECTED_SHARE, smooth / (1.0 - DIRECTED_SHARE)), dtype=np.float64)
 
 
 def gap_test(
@@ -213,25 +227,22 @@ def gap_test(
     return GapTester(whitened, directions, drift=drift, size=size, seed=seed)(level=level)
 
 
-def _smooth_columns(whitened: Whitened) -> tuple[FloatArray, FloatArray]:
-    """Smooth waves of every record, smoothest first, whitened, projected, orthonormal; and their orders."""
+def _smooth_columns(whitened: Whitened) -> tuple[FloatArray, NDArray[np.intp], NDArray[np.intp]]:
+    """Whitened smooth waves of all records, the smoothest first; their orders, and the record each lives in."""
     bases = [smooth_basis(record.time, record.jumps) for record in whitened.records]
-    total = sum(basis.columns.shape[1] for basis in bases)
-    columns, order, at = np.zeros((len(whitened), total)), np.zeros(total), 0
-    for basis, part, noise in zip(bases, whitened.slices, whitened.noises, strict=True):
-        width = basis.columns.shape[1]
-        columns[part, at : at + width] = noise.whiten(basis.columns)
-        order[at : at + width] = basis.order
-        at += width
-    ranking = np.argsort(order, kind="stable")
-    columns, order = columns[:, ranking], order[ranking]
+    order = np.concatenate([basis.order for basis in bases])
+    owner = np.repeat(np.arange(len(bases)), [len(basis.order) for basis in bases])
+    columns = np.zeros((len(whitened), len(order)))
+    for index, (basis, part, noise) in enumerate(zip(bases, whitened.slices, whitened.noises, strict=True)):
+        columns[part, owner == index] = noise.whiten(basis.columns)
     columns /= np.linalg.norm(columns, axis=0)
-    left, upper = np.linalg.qr(whitened.project(columns))
-    kept = np.abs(np.diag(upper)) > 1e-4  # what depends on smoother columns adds nothing
-    return np.asarray(left[:, kept], dtype=np.float64), order[kept]
+    ranking = np.argsort(order, kind="stable")
+    return columns[:, ranking], order[ranking], owner[ranking]
 
 
-def _orthonormal(columns: FloatArray) -> FloatArray:
+def _orthonormal(columns: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Orthonormal columns in the given order; one that hangs on those before it is left out."""
     size = np.linalg.norm(columns, axis=0)
     left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
-    return np.asarray(left[:, np.abs(np.diag(upper)) > 1e-4], dtype=np.float64)
+    kept = np.abs(np.diag(upper)) > DEPENDENT
+    return np.asarray(left[:, kept], dtype=np.float64), kept

@@ -100,25 +100,16 @@ class Whitened:
         shape = max((noise.shape_variance for noise in self.noises), default=0.0)
         return 0.5 * float(np.sqrt(shape + level))
 
-    def joint_draws(self, features: FloatArray, rng: np.random.Generator, size: int) -> FloatArray:
-        """Draws of features^T z under "no gap", shape (size, m): a parametric bootstrap with refit, reduced.
-
-        Noise is drawn, whitened with the *estimated* level (whose error is drawn too), and refitted in linearised form,
-        which is the projection P. Only its products with the features are needed; these are Gaussian given the
-        levels, with the features' Gram matrices as covariances, so that nothing of length N is ever drawn.
-
-        Parameters
-        ----------
-        features : ndarray, shape (N, m)
-            Whitened *and projected* columns.
-        rng : numpy.random.Generator
-        size : int
-        """
-        scales = self.scales(rng, size)
-        total = np.zeros((size, features.shape[1]))
-        for index, part in enumerate(self.slices):
-            total += scales[:, index, None] * _gaussian(features[part], rng, size)
-        return total
+    def reduced(self, columns: FloatArray) -> Reduced:
+        """The few coordinates per record that carry `columns` (N, m, whitened) and the refit of the base parameters."""
+        both = np.hstack([columns, self.span])
+        frames = []
+        for part in self.slices:
+            own = both[part]
+            size = np.linalg.norm(own, axis=0)
+            used = size > 0.0
+            frames.append(np.linalg.qr(own[:, used] / size[used])[0] if used.any() else np.zeros((len(own), 0)))
+        return Reduced(self, tuple(frames))
 
     def local_draws(self, features: Sequence[FloatArray], rng: np.random.Generator, size: int) -> list[FloatArray]:
         """Draws of P-projected local features' products with z: per record an array (size, m_r).
@@ -140,6 +131,36 @@ class Whitened:
             drawn - along @ (self.span[part].T @ feature)
             for drawn, part, feature in zip(own, self.slices, features, strict=True)
         ]
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced:
+    """Whitened records seen through an orthonormal frame each.
+
+    White noise stays white in it, so that a parametric bootstrap with (linearised) refit, which would draw every
+    sample's noise, whiten it with the *estimated* level and project it, draws a few numbers per record instead: the
+    distribution of everything that lies in the frames is the same.
+
+    Attributes
+    ----------
+    whitened : Whitened
+    frames : tuple of ndarray, shape (n_r, k_r)
+    """
+
+    whitened: Whitened
+    frames: tuple[FloatArray, ...]
+
+    def of(self, columns: FloatArray) -> FloatArray:
+        """Whitened columns (N,) or (N, m) in the frames, stacked."""
+        parts = zip(self.frames, self.whitened.slices, strict=True)
+        return np.concatenate([frame.T @ columns[part] for frame, part in parts])
+
+    def draws(self, features: FloatArray, rng: np.random.Generator, size: int) -> FloatArray:
+        """Draws of features^T z under "no gap", shape (size, m), for reduced *and projected* features."""
+        scales = self.whitened.scales(rng, size)
+        widths = [frame.shape[1] for frame in self.frames]
+        noise = rng.standard_normal((size, sum(widths))) * np.repeat(scales, widths, axis=1)
+        return np.asarray(noise @ features, dtype=np.float64)
 
 
 def _gaussian(columns: FloatArray, rng: np.random.Generator, size: int) -> FloatArray:
