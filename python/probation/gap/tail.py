@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 ENOUGH = 20
 """Draws beyond the observed value that make a bootstrap p-value; fewer, and the tail is continued."""
 
+MANY = 300
+"""Points of the table that serves more values than that."""
+
 _NODES, _WEIGHTS = np.polynomial.hermite_e.hermegauss(9)
 _WEIGHTS = _WEIGHTS / _WEIGHTS.sum()
 
@@ -25,7 +28,12 @@ def normal_tail(size: FloatArray | float, spread: float = 0.0) -> FloatArray:
 
 
 def chi_square_tail(size: FloatArray | float, freedom: FloatArray | int, spread: float = 0.0) -> FloatArray:
-    """P(chi^2 > size) under the same mixture of levels."""
+    """P(chi^2 > size) under the same mixture of levels; many sizes at once by interpolating its logarithm."""
+    values = np.asarray(size, dtype=np.float64)
+    if values.size > MANY and np.ndim(freedom) == 0:
+        grid = np.linspace(0.0, float(np.sqrt(values.max())), MANY)
+        logs = np.log(np.maximum(chi_square_tail(grid**2, freedom, spread), 1e-300))
+        return np.asarray(np.exp(np.interp(np.sqrt(values), grid, logs)), dtype=np.float64)
     scales = np.exp(2.0 * spread * _NODES) if spread > 0.0 else np.ones(1)
     weights = _WEIGHTS if spread > 0.0 else np.ones(1)
     ratio = np.divide.outer(size, scales)

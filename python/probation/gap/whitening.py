@@ -73,6 +73,10 @@ class Whitened:
     def __len__(self) -> int:
         return len(self.residual)
 
+    def clean(self, index: int) -> FloatArray:
+        """A record's residual without its spikes, shape (n_r,) [MPa]."""
+        return without_spikes(self.records[index].residual, self.noises[index].spikes)
+
     def whiten(self, blocks: Sequence[FloatArray]) -> FloatArray:
         """One (n_r, m) block per record, all of the same m, whitened and stacked: shape (N, m)."""
         return np.vstack([noise.whiten(block) for noise, block in zip(self.noises, blocks, strict=True)])
