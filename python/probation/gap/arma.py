@@ -26,6 +26,9 @@ _CENTRES = np.sqrt(_EDGES[1:] * _EDGES[:-1])
 DIM = 0.05
 """Spectrum over its largest value below which a bin all but loses its say."""
 
+EARNS, EARNS_LOW = 9.0, 25.0
+"""What a shape must take off the deviance: any, and one that rises where little was looked at."""
+
 GRID, REFINED = 21, 3
 """Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
 
@@ -153,20 +156,37 @@ class ArmaFit:
     level_variance: tuple[float, ...]
 
 
-def fit_arma(periodograms: list[Periodogram], most_phi: float) -> ArmaFit:
+def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     """Fit ARMA(1,1) to periodograms by Whittle's likelihood, one shape and a level for each.
 
-    White noise is kept unless the shape earns twice its two parameters (AIC's step, which forgets no correlation that
-    matters at low frequency); `most_phi` keeps the fit from a rise at frequencies that nobody has looked at.
+    White noise is kept unless the shape earns `EARNS`; a rise towards the very lowest frequencies that were looked at,
+    which the foot of a gap can feign in one record, must earn `EARNS_LOW` over the best shape without one. A rise
+    below them is never fitted.
 
     Parameters
     ----------
     periodograms : list of Periodogram
-    most_phi : float
-        Largest phi allowed.
+    lowest : float
+        Lowest frequency that was looked at [rad per sample].
     """
     binned = [each.binned() for each in periodograms]
-    white = float(_deviance(binned, np.zeros((1, 1, BINS)))[0, 0])
+    deviance, best = float(_deviance(binned, np.zeros((1, 1, BINS)))[0, 0]), (0.0, 0.0)
+    for corner, earns in ((3.0, EARNS), (0.7, EARNS_LOW)):
+        tried, shape_of = _search(binned, max(1.0 - corner * lowest, 0.1))
+        if deviance - tried > earns:
+            deviance, best = tried, shape_of
+    shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
+    levels = [float(_level(each, shape)) for each in binned]
+    return ArmaFit(
+        tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
+        deviance,
+        _shape_variance(binned, best),
+        tuple(2.0 / float(each.weight.sum()) for each in binned),
+    )
+
+
+def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:
+    """Least deviance over phi and theta, on ever finer grids, and where it is."""
     steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(MOST_THETA)]) / (GRID - 1)
     middle = np.array([np.arctanh(most_phi) - np.arctanh(0.7), 0.0]) / 2.0
     reach, deviance, best = (GRID - 1) // 2, np.inf, (0.0, 0.0)
@@ -179,16 +199,7 @@ def fit_arma(periodograms: list[Periodogram], most_phi: float) -> ArmaFit:
         if table[row, column] < deviance:
             deviance, best = float(table[row, column]), (float(phi[row]), float(theta[column]))
         middle, steps, reach = np.arctanh(np.array(best)), steps / REFINED, REFINED
-    if white - deviance < 4.0:
-        best, deviance = (0.0, 0.0), white
-    shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
-    levels = [float(_level(each, shape)) for each in binned]
-    return ArmaFit(
-        tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
-        deviance,
-        _shape_variance(binned, best),
-        tuple(2.0 / float(each.weight.sum()) for each in binned),
-    )
+    return deviance, best
 
 
 def _table(phi: FloatArray, theta: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.fft import dct
 from scipy.ndimage import uniform_filter1d
+from scipy.special import chdtrc
 
 from probation.gap.arma import Arma, ArmaFit, Periodogram, fit_arma
 from probation.gap.noise_model import Growth, NoiseModel
@@ -36,8 +37,11 @@ BLOCK = 40
 OUTLIER = 4.0
 """A stretch with this many times the median low-frequency power holds a transient of the model, and is left out."""
 
-AGREES = 3.5
-"""Lower frequencies are believed to be noise within so many standard errors of what the rough ones foretell."""
+AGREES = 1e-3
+"""Probability below which the power at lower frequencies is no longer believed to be what the rough ones foretell."""
+
+CERTAIN = 3.0
+"""Standard errors by which a level must differ to be taken down."""
 
 LOWEST = 12
 """Coefficients next to the bias's own, where it would show first."""
@@ -323,13 +327,12 @@ def _fit_all(prepared: list[_Prepared], pool: bool) -> list[_Known]:
 
 def _groups(parts: list[Periodogram], bottom: float, pool: bool) -> list[tuple[list[int], ArmaFit]]:
     """One fit for all records where a shape of the spectrum for each earns no more than chance would, else one each."""
-    most_phi = 1.0 - 0.7 * bottom
     everyone = list(range(len(parts)))
     if pool or len(parts) == 1:
-        shared = fit_arma(parts, most_phi)
+        shared = fit_arma(parts, bottom)
         if len(parts) == 1:
             return [(everyone, shared)]
-    alone = [fit_arma([part], most_phi) for part in parts]
+    alone = [fit_arma([part], bottom) for part in parts]
     extra = 2.0 * (len(parts) - 1)  # chi-square: mean + 3 standard deviations
     if pool and shared.deviance - sum(each.deviance for each in alone) <= extra + 3.0 * np.sqrt(2.0 * extra):
         return [(everyone, shared)]
@@ -342,7 +345,7 @@ def _lifted(parts: list[Periodogram], found: ArmaFit) -> list[tuple[Arma, float]
     total = sum(weight for _, weight in low)
     together = sum(ratio * weight for ratio, weight in low) / total
     if together < 1.0:  # taken down only where chance cannot explain it, up in any case: false alarms cost more
-        together = min(together * (1.0 + AGREES * np.sqrt(2.0 / total)), 1.0)
+        together = min(together * (1.0 + CERTAIN * np.sqrt(2.0 / total)), 1.0)
     result = []
     for model, (ratio, weight), level in zip(found.models, low, found.level_variance, strict=True):
         # A record's own low band counts as far as it is known; all records' together tell the rest.
@@ -364,8 +367,9 @@ def _agree(whole: Periodogram | None, own: Periodogram, first: ArmaFit, at: int)
         weight = whole.weight[part]
         expected = first.models[at].spectrum(whole.frequency[part])
         ratio = float(np.sum(weight * whole.power[part] / expected) / np.sum(weight))
-        chance = np.sqrt(2.0 / float(np.sum(weight)) + min(first.shape_variance, FORETELLS**2))
-        if np.log(max(ratio, 1e-300)) > AGREES * chance:
+        allowed = np.exp(1.5 * min(float(np.sqrt(first.shape_variance)), FORETELLS))
+        freedom = float(np.sum(weight))
+        if chdtrc(freedom, ratio * freedom / allowed) < AGREES:
             return False
     return True
 
