@@ -14,7 +14,7 @@ from scipy.signal import lfilter
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-START_UP = 400
+START_UP = 150
 """Most steps of the exact start; the innovation variance settles like theta^2t."""
 
 BINS = 60
@@ -28,6 +28,9 @@ DIM = 0.05
 
 EARNS, EARNS_LOW = 9.0, 25.0
 """What a shape must take off the deviance: any, and one that rises where little was looked at."""
+
+PROMISED = 2.0
+"""Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
 
 GRID, REFINED = 21, 3
 """Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
@@ -82,7 +85,7 @@ class Arma:
         exact = np.empty_like(moved)
         innovation, done = moved[0], 1
         exact[0] = innovation / np.sqrt(variance)
-        while done < min(count, START_UP) and abs(variance - 1.0) > 1e-9:
+        while done < min(count, START_UP) and abs(variance - 1.0) > 1e-7:
             innovation = moved[done] - theta / variance * innovation
             variance = 1.0 + theta**2 - theta**2 / variance
             exact[done] = innovation / np.sqrt(variance)
@@ -180,9 +183,15 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     return ArmaFit(
         tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
         deviance,
-        _shape_variance(binned, best),
+        PROMISED * _shape_variance(binned, best),
         tuple(2.0 / float(each.weight.sum()) for each in binned),
     )
+
+
+def matched_level(periodogram: Periodogram, model: Arma) -> float:
+    """Innovation with which a model of this shape has a periodogram's power."""
+    shape = _table(np.array([model.phi]), np.array([model.theta]))[0, 0]
+    return float(np.sqrt(_level(periodogram.binned(), shape)))
 
 
 def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:

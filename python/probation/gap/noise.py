@@ -12,7 +12,7 @@ from scipy.fft import dct
 from scipy.ndimage import uniform_filter1d
 from scipy.special import chdtrc
 
-from probation.gap.arma import Arma, ArmaFit, Periodogram, fit_arma
+from probation.gap.arma import Arma, ArmaFit, Periodogram, fit_arma, matched_level
 from probation.gap.noise_model import Growth, NoiseModel
 from probation.gap.quantisation import quantisation_noise, quantisation_step
 from probation.gap.smooth_basis import WAVES, smooth_basis, waves
@@ -35,13 +35,17 @@ BLOCK = 40
 """Least samples of a stretch."""
 
 OUTLIER = 4.0
-"""A stretch with this many times the median low-frequency power holds a transient of the model, and is left out."""
+"""A stretch whose low frequencies hold this many times as much, beside its high ones, as the median stretch's holds a
+transient of the model, and is left out."""
 
 AGREES = 1e-3
 """Probability below which the power at lower frequencies is no longer believed to be what the rough ones foretell."""
 
 CERTAIN = 3.0
 """Standard errors by which a level must differ to be taken down."""
+
+MOST_ALIKE = 0.75
+"""Part of the records that must agree with each other for their lower frequencies to be taken for noise."""
 
 LOWEST = 12
 """Coefficients next to the bias's own, where it would show first."""
@@ -87,7 +91,8 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 stretches are projected out;
     Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a stretch is
     gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
-    agree with that ARMA(1,1) in every record: then noise and only noise is there, and the fit is repeated with them.
+    agree with that ARMA(1,1) in every record, or else in those records where the others foretell them: then noise
+    and only noise is there, and it is fitted with them.
     (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet stretches and
     replicates override (2) and (3).
 
@@ -200,7 +205,8 @@ def _rough(stretches: list[FloatArray], profiles: list[FloatArray], degree: int,
     if not rows:
         return None
     if robust and len(rows) >= 3:
-        low = np.array([np.sum(power[:8]) / np.sum(weight[:8]) for _, power, weight in rows])
+        # Low against high: a burst of noise has both.
+        low = np.array([np.mean(power[:8]) / max(float(np.mean(power[8:])), 1e-300) for _, power, _ in rows])
         rows = [row for row, size in zip(rows, low, strict=True) if size <= OUTLIER * np.median(low)]
     frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
     return Periodogram(frequency, power, weight)
@@ -306,17 +312,16 @@ class _Known:
 def _fit_all(prepared: list[_Prepared], pool: bool) -> list[_Known]:
     """ARMA(1,1) of the rough leftovers; of the whole records where all of these agree with it."""
     rough = [each.rough for each in prepared if each.rough is not None]
-    wholes = [each.whole for each in prepared]
-    bottom = min(float((whole or own).frequency.min()) for whole, own in zip(wholes, rough, strict=True))
+    wholes = [own if each.whole is None else each.whole for each, own in zip(prepared, rough, strict=True)]
+    bottom = min(float(part.frequency.min()) for part in wholes)
     groups = _groups(rough, bottom, pool)
-    chosen = rough
-    if all(
-        _agree(wholes[index], rough[index], fit_of, at) for group, fit_of in groups for at, index in enumerate(group)
-    ):
-        chosen = [own if whole is None else whole for whole, own in zip(wholes, rough, strict=True)]
-        groups = _groups(chosen, bottom, pool)
-    else:  # nothing is known of the lower frequencies
-        groups = _groups(rough, min(float(own.frequency.min()) for own in rough), pool)
+    chosen = list(rough)
+    if all(_foretold(wholes[i], rough[i], found, at) for group, found in groups for at, i in enumerate(group)):
+        chosen = wholes
+    elif len(groups) == 1:
+        alike = _alike(wholes, rough, bottom)
+        chosen = [wholes[i] if i in alike else rough[i] for i in range(len(rough))]
+    groups = _groups(chosen, bottom, pool)
     known: dict[int, _Known] = {}
     for group, found in groups:
         lifted = _lifted([chosen[index] for index in group], found)
@@ -344,8 +349,9 @@ def _lifted(parts: list[Periodogram], found: ArmaFit) -> list[tuple[Arma, float]
     low = [_low_level(part, model) for part, model in zip(parts, found.models, strict=True)]
     total = sum(weight for _, weight in low)
     together = sum(ratio * weight for ratio, weight in low) / total
-    if together < 1.0:  # taken down only where chance cannot explain it, up in any case: false alarms cost more
-        together = min(together * (1.0 + CERTAIN * np.sqrt(2.0 / total)), 1.0)
+    # Taken down only where chance cannot explain it, up more readily: false alarms cost more.
+    chance = float(np.sqrt(2.0 / total))
+    together = max(together - chance, 1.0) if together > 1.0 else min(together * (1.0 + CERTAIN * chance), 1.0)
     result = []
     for model, (ratio, weight), level in zip(found.models, low, found.level_variance, strict=True):
         # A record's own low band counts as far as it is known; all records' together tell the rest.
@@ -356,22 +362,44 @@ def _lifted(parts: list[Periodogram], found: ArmaFit) -> list[tuple[Arma, float]
     return result
 
 
-def _agree(whole: Periodogram | None, own: Periodogram, first: ArmaFit, at: int) -> bool:
-    """Whether a record's lower frequencies hold what its rough leftovers foretell: in its lowest band, and in all."""
-    if whole is None:
-        return True
+def _fits(whole: Periodogram, own: Periodogram, arma: Arma, slack: float) -> float:
+    """Probability of as much power below the rough leftovers' frequencies: in the lowest band, or in all of them."""
     below = np.flatnonzero(whole.frequency < own.frequency.min())
+    least = 1.0
     for part in (below[:LOWEST], below):
-        if not part.size:
-            continue
-        weight = whole.weight[part]
-        expected = first.models[at].spectrum(whole.frequency[part])
-        ratio = float(np.sum(weight * whole.power[part] / expected) / np.sum(weight))
-        allowed = np.exp(1.5 * min(float(np.sqrt(first.shape_variance)), FORETELLS))
-        freedom = float(np.sum(weight))
-        if chdtrc(freedom, ratio * freedom / allowed) < AGREES:
-            return False
-    return True
+        if part.size:
+            weight = whole.weight[part]
+            power = float(np.sum(weight * whole.power[part] / arma.spectrum(whole.frequency[part]))) / slack
+            least = min(least, float(chdtrc(float(np.sum(weight)), power)))
+    return least
+
+
+def _foretold(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
+    """Whether a record's lower frequencies hold what the rough leftovers foretell, within what these can tell."""
+    slack = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), FORETELLS)))
+    return _fits(whole, own, found.models[at], slack) >= AGREES
+
+
+def _alike(wholes: list[Periodogram], rough: list[Periodogram], bottom: float) -> set[int]:
+    """Records whose lower frequencies are what all the other records' are, beside their own rough leftovers.
+
+    A noise is the same in every record; a bias is another in each. The record that the others foretell worst is left
+    out, again and again; where too many go, the bias is in all of them, and nothing is known of the lower frequencies.
+    """
+    left = set(range(len(wholes)))
+    while len(left) >= max(2, int(np.ceil(MOST_ALIKE * len(wholes)))):
+        probability = {}
+        for index in left:
+            others = fit_arma([wholes[other] for other in sorted(left - {index})], bottom)
+            level = matched_level(rough[index], others.models[0])
+            arma = replace(others.models[0], innovation=level)
+            slack = float(np.exp(min(float(np.sqrt(others.shape_variance)), FORETELLS)))
+            probability[index] = _fits(wholes[index], rough[index], arma, slack)
+        worst = min(probability, key=lambda index: probability[index])
+        if probability[worst] >= AGREES:
+            return left
+        left.remove(worst)
+    return set()
 
 
 def _low_level(part: Periodogram, model: Arma) -> tuple[float, float]:
