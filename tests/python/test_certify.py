@@ -11,8 +11,10 @@ import probation
 from probation.certificate import Estimate, regress_hardening
 from probation.certificate.bias import model_bias
 from probation.certificate.consistency import judge
+from probation.certificate.verdict import decide
 from probation.companion import WEISSENBERG_AS_PRINTED
 from probation.paper.twins import experiment, twin_campaign
+from probation.records import LawSettings
 
 NOISE = 0.04
 QUICK = "sa2"  # as good as be2 on these smooth histories, with fewer substeps
@@ -151,6 +153,74 @@ def test_without_held_out_records_each_is_predicted_from_the_others_and_temperat
         assert len(prediction.identified_on) == 2
     assert any("no record is held out" in warning for warning in found.warnings)
     assert any("experiment-1 was tested at 20 °C, experiment-2 at 40 °C" in warning for warning in found.warnings)
+
+
+def ramps(*tests, **settings):
+    """Ramps to a strain of 1.5 answered by laws (rate, E_u, tau_max, G, role), with noise."""
+    random = np.random.default_rng(7)
+    records = []
+    for at, (rate, modulus, tau, hardening, role) in enumerate(tests):
+        time = np.linspace(0.0, 1.5 / rate, 300)
+        law = probation.Law(unrelaxed_modulus=modulus, tau_max=tau, hardening_modulus=hardening)
+        stress = law.stress(time, rate * time, scheme="exact") + NOISE * random.standard_normal(len(time))
+        records.append(probation.Record(f"ramp{at}", time, rate * time, stress, control="strain-rate", role=role))
+    return probation.Campaign("ramps", tuple(records), LawSettings(**settings))
+
+
+def test_a_time_that_differs_between_the_records_identified_together_is_what_fails():
+    # tau_max by (11): one constant bends the joint fit to an E_u that is far from every record's
+    found = probation.certify(
+        ramps(
+            (0.001, 3000.0, 22.78, 2.0, "identify"),
+            (0.005, 3000.0, 5.2046, 2.0, "identify"),
+            (0.02, 3000.0, 1.4408, 2.0, "held-out"),
+        ),
+        QUICK,
+    )
+    assert found.verdict == "intrinsic_except"
+    assert {name: each.passes for name, each in found.parameters.items()} == {
+        "unrelaxed_modulus": True,
+        "tau_max": False,
+        "hardening_modulus": True,
+    }
+    assert found.parameters["tau_max"].by_record["ramp2"].value == pytest.approx(1.4408, rel=0.01)
+
+
+def test_an_e_u_that_changes_is_not_held_when_the_other_parameters_are_judged():
+    # E_u tau_max is the same on both: with E_u held, tau_max would look unchanged
+    found = probation.certify(
+        ramps((0.005, 3000.0, 5.0, 2.0, "identify"), (0.005, 3300.0, 5.0 / 1.1, 2.0, "held-out")), QUICK
+    )
+    assert not found.parameters["unrelaxed_modulus"].passes
+    assert not found.parameters["tau_max"].passes
+    assert found.parameters["hardening_modulus"].passes
+
+
+def test_a_value_held_by_the_campaign_that_the_records_contradict_is_named():
+    found = probation.certify(
+        ramps(
+            (0.005, 3000.0, 5.0, 2.0, "identify"),
+            (0.02, 3000.0, 5.0, 2.0, "held-out"),
+            fixed={"hardening_modulus_MPa": 2.5},
+        ),
+        QUICK,
+    )
+    assert found.verdict == "not_intrinsic"
+    assert "contradict what the campaign holds: G 2.5 MPa" in found.reason
+
+
+def test_a_parameter_that_is_not_tested_is_not_said_to_keep_its_value():
+    judged = judge(
+        {
+            "unrelaxed_modulus": {"a": Estimate(3000.0, 3.0, 3.0), "b": Estimate(3001.0, 3.0, 3.0)},
+            "tau_max": {"a": Estimate(5.0, 0.01, 0.01), "b": Estimate(6.0, 0.01, 0.01)},
+            "hardening_modulus": {"a": Estimate(1.4, 0.4, 0.4), "b": Estimate(0.0, None, None)},
+        }
+    )
+    prediction = next(iter(certificate_of("one law").predictions.values()))
+    verdict, reason = decide(judged, {"b": prediction}, {"a": 0.0, "b": 0.0}, {"a": 1.0, "b": 1.0})
+    assert verdict == "intrinsic_except"
+    assert "while E_u keeps its value" in reason
 
 
 def test_a_bias_widens_the_errors_by_what_it_may_have_pulled():

@@ -179,6 +179,7 @@ def test_two_rates_make_a_relation_and_no_choice():
     assert (found.chosen, found.chosen_by) == ("weissenberg", "preference")
     assert_allclose(found.companion.relaxation_time([1e-3, 1e-2]), [25.0, 3.0], rtol=1e-9)
     assert_allclose(found.companion.log_time_se([1e-3, 1e-2]), 0.02, rtol=1e-6)
+    assert "nothing to test it by" in found.verdict
     assert "a third rate" in found.summary()
     unknown = calibrate_companion(RateTable([1e-3, 1e-2], [25.0, 3.0]))
     assert unknown.companion.covariance is None

@@ -184,7 +184,9 @@ class Calibration:
         if chosen.score is None or not np.isfinite(chosen.score.rms):
             largest = float(np.max(np.abs(chosen.percent_residual)))
             why = _REASONS[self.chosen_by]
-            sentence = f"{start} to {largest:.2g} % ({why})"
+            points = self.table is not None and len(self.table.groups) <= len(chosen.form.parameter_names)
+            how_well = "through every rate, which leaves nothing to test it by" if points else f"to {largest:.2g} %"
+            sentence = f"{start} {how_well} ({why})"
             if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
             return f"{sentence}."

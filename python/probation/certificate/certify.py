@@ -49,7 +49,7 @@ def certify(
     2. The others are predicted with nothing adjusted. Without held-out records each is predicted from all others.
     3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
        (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps
-       its value; no prediction uses them.
+       its value; no prediction uses them. Where E_u itself changes, all are judged on the latter.
     4. If the law has a companion relation, each record is also identified without it (Figure 3).
 
     Parameters
@@ -107,14 +107,19 @@ def certify(
         record.id: predict(source, record, tolerance, excitation, relation)
         for source, record in _pairs(trial, base, step)
     }
-    known_modulus = trial.holding(base, ["unrelaxed_modulus"])
-    alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
     free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
-    parameters = _judge(base, alone, free, relation)
+    modulus, modulus_error = _modulus(base, free, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
+    known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
+    alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
+    parameters = _judge(base, alone, free, modulus_error, relation)
     failing = [name for name, each in parameters.items() if not each.passes]
     kept = [name for name in parameters if name not in failing]
     if failing:
-        described = {record.id: step(trial.fit([record], trial.holding(base, kept))) for record in records}
+        shared = trial.holding(base, kept)
+        if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
+            means = {outside_name(name): parameters[name].mean for name in kept if parameters[name].tested}
+            shared = replace(shared, fixed={**shared.fixed, **means})
+        described = {record.id: step(trial.fit([record], shared)) for record in records}
     else:
         described = free
     without = {}
@@ -123,7 +128,15 @@ def certify(
         without = {record.id: step(trial.fit([record], bare)) for record in records}
     tolerances = {record.id: tolerance * float(np.max(np.abs(record.true_stress))) for record in records}
     verdict, reason = decide(
-        parameters, predictions, {name: each.bias_MPa for name, each in described.items()}, tolerances
+        parameters,
+        predictions,
+        {name: each.bias_MPa for name, each in described.items()},
+        tolerances,
+        {
+            name: campaign.law.fixed[outside_name(name)]
+            for name in parameters
+            if outside_name(name) in campaign.law.fixed
+        },
     )
     if progress:
         progress(1.0)
@@ -160,18 +173,42 @@ def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fi
     ]
 
 
+def _modulus(base: Fit, free: Mapping[str, Fit], *, held: bool) -> tuple[float, float]:
+    """E_u that is held on each record, and its standard error [MPa].
+
+    As identified. Where several records were identified together it is the mean of what each says alone: if another
+    parameter differs between them, the joint fit bends E_u to make up for it.
+    """
+    name = "unrelaxed_modulus"
+    if held or len(base.records) == 1:
+        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
+    own = {record: estimates(free[record], record)[name] for record in base.records}
+    errors = [each.se for each in own.values() if each.se]
+    if not errors:
+        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
+    return judge({name: own})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)
+
+
 def _judge(
-    base: Fit, alone: Mapping[str, Fit], free: Mapping[str, Fit], relation: CalibratedCompanion | None
+    base: Fit,
+    alone: Mapping[str, Fit],
+    free: Mapping[str, Fit],
+    modulus_error: float,
+    relation: CalibratedCompanion | None,
 ) -> dict[str, Consistency]:
-    """Judge E_u on the fits with all parameters free, the others on those with E_u held."""
-    modulus_error = base.parameters["unrelaxed_modulus"].se or 0.0
-    by_parameter: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
+    """Judge E_u on the fits with all parameters free, the others on those with E_u held; on the former if E_u fails."""
+    own: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
+    held: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
     for record in alone:
         values = estimates(free[record], record, relation=relation)
-        values |= estimates(alone[record], record, modulus_error, relation)
+        known = values | estimates(alone[record], record, modulus_error, relation)
         for name, value in values.items():
-            by_parameter[name][record] = value
-    return judge(by_parameter)
+            own[name][record], held[name][record] = value, known[name]
+    judged = judge(held)
+    if judged["unrelaxed_modulus"].passes:
+        return judged
+    judged_on_own = judge(own)  # an E_u that is not the record's would push its error into the others
+    return judged if judged_on_own["unrelaxed_modulus"].passes else judged_on_own
 
 
 def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:
@@ -191,7 +228,10 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
             f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "
             "the temperature rather than the strain-rate history; these records cannot tell the two apart"
         )
-    held = ", ".join(f"{name} = {value:g}" for name, value in campaign.law.fixed.items())
-    if held:
-        doubts.append(f"held by the campaign, tested by letting it go: {held}")
+    for name, each in parameters.items():
+        if outside_name(name) not in campaign.law.fixed:
+            continue
+        held = campaign.law.fixed[outside_name(name)]
+        found = "contradict it" if each.contradicts(held) else "agree" if each.tested else "say little of it"
+        doubts.append(f"{outside_name(name)} is held at {held:g} by the campaign; the records alone {found}")
     return doubts

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 SIGNIFICANCE = 0.01
 """Probability of failing some parameter of a law that is intrinsic, over all its parameters."""
 
+CLEARLY = 4.0
+"""Standard errors by which a record's value must miss one that is held to contradict it."""
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -71,6 +74,12 @@ class Consistency:
         """Highest over lowest value, less one."""
         values = [each.value for each in self.by_record.values() if each.se is not None]
         return max(values) / min(values) - 1.0 if len(values) > 1 and min(values) > 0.0 else 0.0
+
+    def contradicts(self, value: float) -> bool:
+        """Whether some record says, by more than `CLEARLY` standard errors, that the parameter has another value."""
+        return any(
+            each.total_se and abs(each.value - value) > CLEARLY * each.total_se for each in self.by_record.values()
+        )
 
 
 def judge(estimates: Mapping[str, Mapping[str, Estimate]]) -> dict[str, Consistency]:

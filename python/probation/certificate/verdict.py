@@ -26,6 +26,7 @@ def decide(
     predictions: Mapping[str, Prediction],
     described_MPa: Mapping[str, float],
     tolerances_MPa: Mapping[str, float],
+    held: Mapping[str, float] | None = None,
 ) -> tuple[Verdict, str]:
     """Decide, and say why.
 
@@ -40,6 +41,8 @@ def decide(
         are free where none fails [MPa].
     tolerances_MPa : dict of str to float
         Bias that is let pass on each record [MPa].
+    held : dict of str to float, optional
+        Parameters that the campaign holds, by name.
 
     Returns
     -------
@@ -58,7 +61,9 @@ def decide(
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
     )
     if not failing and worst.passes:
-        return "intrinsic", f"one set of parameters serves every record ({_listed(kept)}); {predicted}"
+        tested = [name for name in kept if parameters[name].tested]
+        seen = _listed(tested) if tested else "none is determined by two of them"
+        return "intrinsic", f"one set of parameters serves every record ({seen}); {predicted}"
     beyond = [name for name, left in described_MPa.items() if left > tolerances_MPa[name]]
     if beyond:
         name = max(beyond, key=lambda each: described_MPa[each] / tolerances_MPa[each])
@@ -68,14 +73,23 @@ def decide(
             f"(tolerance {tolerances_MPa[name]:.2g} MPa); {predicted}"
         )
     if not failing:
-        return "not_intrinsic", f"{predicted}, and {_why_missed(worst, described_MPa[worst.id])}"
+        return (
+            "not_intrinsic",
+            f"{predicted}, and {_why_missed(worst, described_MPa[worst.id], parameters, held or {})}",
+        )
     return _exceptions(failing, kept, parameters, worst, predicted)
 
 
-def _why_missed(worst: Prediction, left: float) -> str:
+def _why_missed(
+    worst: Prediction, left: float, parameters: Mapping[str, Consistency], held: Mapping[str, float]
+) -> str:
     """Why a prediction errs though no parameter fails; `left` stays with parameters of its own [MPa]."""
     if left > OWN_FAULT * worst.systematic_MPa:
         return f"{left:.2g} MPa stay with parameters of its own: the law's form is at fault rather than a parameter"
+    wrong = [name for name, value in held.items() if parameters[name].contradicts(value)]
+    if wrong:
+        values = " and ".join(f"{SYMBOLS[name]} {held[name]:.4g} {UNITS[name]}".rstrip() for name in wrong)
+        return f"the records contradict what the campaign holds: {values}"
     return "no parameter is seen to change: the records do not determine them well enough to tell which one does"
 
 
@@ -90,8 +104,11 @@ def _exceptions(
         return "not_intrinsic", f"no parameter keeps its value from record to record: {changes}; {predicted}"
     if worst.relative > FAR and not worst.passes:
         return "not_intrinsic", f"{changes}; {predicted}"
-    keep = "keep theirs" if len(kept) > 1 else "keeps its value"
-    return "intrinsic_except", f"{changes}, while {_listed(kept)} {keep}; {predicted}"
+    tested = [name for name in kept if parameters[name].tested]
+    if not tested:
+        return "intrinsic_except", f"{changes}, while {_listed(kept)} cannot be compared between records; {predicted}"
+    keep = "keep theirs" if len(tested) > 1 else "keeps its value"
+    return "intrinsic_except", f"{changes}, while {_listed(tested)} {keep}; {predicted}"
 
 
 def _listed(names: list[str]) -> str:
