@@ -56,8 +56,8 @@ def test_the_level_that_matters_at_low_frequency_is_found_beside_a_bias_of_forty
     for seed in range(2):
         records = gap_noise.records(kind, rng(seed), bias=wave(bias))
         found += [noise.arma.long_run for noise in estimate_noise(records)]
-    # With a bias the low frequencies are no evidence: AR(1) with phi = 0.9 is then known to a fifth only.
-    allowed = 0.25 if bias and kind in ("slow", "sum") else 0.1
+    # With a bias the low frequencies are no evidence: slow noise is then known to a third only.
+    allowed = 0.3 if bias and kind in ("slow", "sum") else 0.1
     assert np.median(found) == pytest.approx(gap_noise.SIGMA * gap_noise.long_run(kind), rel=allowed)
 
 

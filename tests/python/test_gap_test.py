@@ -43,15 +43,15 @@ def test_the_reduced_bootstrap_is_the_full_one():
     features = np.column_stack(list(directions(whitened).values())[:4])
     tangent = whitened.whiten([record.tangent for record in records])
     full = []
-    for _ in range(3000):
+    for _ in range(2000):
         noise = rng.standard_normal(len(whitened))
         refitted = noise - tangent @ np.linalg.lstsq(tangent, noise, rcond=None)[0]
         full.append(features.T @ refitted)
     reduced = whitened.reduced(features)
-    drawn = reduced.draws(reduced.of(whitened.project(features)), rng, 3000)
+    drawn = reduced.draws(reduced.of(whitened.project(features)), rng, 2000)
     scale = np.std(full, axis=0)
     assert_allclose(np.cov(drawn.T) / np.outer(scale, scale), np.corrcoef(np.transpose(full)), atol=0.1)
-    local = whitened.local_draws([features[part] for part in whitened.slices], rng, 3000)
+    local = whitened.local_draws([features[part] for part in whitened.slices], rng, 2000)
     assert_allclose(np.cov(sum(local).T) / np.outer(scale, scale), np.corrcoef(np.transpose(full)), atol=0.1)
 
 
@@ -70,22 +70,22 @@ def test_a_linearised_refit_leaves_what_a_full_refit_leaves():
 
 
 def test_p_values_are_uniform_on_the_noise_that_is_assumed():
-    """Known white noise: one tester, 1500 draws of the campaign's noise, all of the distribution."""
+    """Known white noise: one tester, 800 draws of the campaign's noise, all of the distribution."""
     rng = np.random.default_rng(2)
     records = gap_noise.records("white", rng, COUNT)
     whitened = Whitened.of(records, known_noise(records))
     test = GapTester(whitened, directions(whitened))
-    p_values = np.array([test(whitened.project(rng.standard_normal(len(whitened)))).p_value for _ in range(1500)])
+    p_values = np.array([test(whitened.project(rng.standard_normal(len(whitened)))).p_value for _ in range(800)])
     assert stats.kstest(p_values, "uniform").pvalue > 1e-3
-    assert stats.binom.sf(np.sum(p_values < 0.005) - 1, 1500, 0.005) > 1e-3
+    assert stats.binom.sf(np.sum(p_values < 0.005) - 1, 800, 0.005) > 1e-3
 
 
 @pytest.mark.parametrize("kind", gap_noise.KINDS)
 def test_few_false_alarms_on_noise_of_every_kind(kind):
-    """Declared at 0.5 %: three alarms in 24 have a chance of 2e-4; a level that is 30 % too low makes many more."""
+    """Declared at 0.5 %: three alarms in 14 have a chance of 5e-5; a level that is 30 % too low makes many more."""
     rng = np.random.default_rng([3, gap_noise.KINDS.index(kind)])
     p_values = []
-    for _ in range(24):
+    for _ in range(14):
         whitened = Whitened.of(gap_noise.records(kind, rng, 500))
         p_values.append(gap_test(whitened, directions(whitened, 500), size=1000).p_value)
     assert np.sum(np.array(p_values) < 0.005) < 3

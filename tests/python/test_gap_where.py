@@ -45,10 +45,10 @@ def test_a_bump_in_one_record_is_found_in_that_record_and_there():
 
 
 def test_nothing_is_found_in_noise_and_familywise_p_values_hold_over_all_regions():
-    """The smallest of a campaign is uniform: 12 campaigns, mean 0.5 +- 0.083 times three; two below 1 %: 0.6 %."""
-    found = [locate(campaign(100 + seed, count=200), size=400) for seed in range(12)]
+    """The smallest of a campaign is uniform: 8 campaigns, mean 0.5 +- 0.1 times three; two below 1 %: 0.3 %."""
+    found = [locate(campaign(100 + seed, count=200), size=400) for seed in range(8)]
     assert sum(bool(each.located) for each in found) < 2
-    assert 0.25 < np.mean([min(region.p_value for region in each.regions) for each in found]) < 0.75
+    assert 0.2 < np.mean([min(region.p_value for region in each.regions) for each in found]) < 0.8
 
 
 def test_a_gap_in_the_dwell_is_said_to_be_in_the_dwell():
@@ -126,9 +126,9 @@ def test_a_parameter_that_depends_on_rate_drifts_along_it():
 
 
 def test_parameters_that_hold_still_show_no_drift():
-    """Three parameters, Q and two slopes each, 15 campaigns: p-values uniform."""
+    """Three parameters, Q and two slopes each, 12 campaigns: p-values uniform."""
     values = []
-    for seed in range(15):
+    for seed in range(12):
         for drift in parameter_drift(campaign(20 + seed), NAMES):
             values += [drift.heterogeneity_p_value, *drift.slope_p_value.values()]
     assert np.mean(np.array(values) < 0.05) < 0.15

@@ -29,6 +29,9 @@ DIM = 0.05
 EARNS, EARNS_LOW = 9.0, 25.0
 """What a shape must take off the deviance: any, and one that rises where little was looked at."""
 
+STEEP = 4.0
+"""Rise from the middle of the band to frequency zero from which on slow noise is no surprise."""
+
 PROMISED = 2.0
 """Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
 
@@ -64,6 +67,12 @@ class Arma:
     def long_run(self) -> float:
         """Square root of the spectrum at frequency zero: what sqrt(m) times the mean of m samples scatters by."""
         return self.innovation * (1.0 + self.theta) / (1.0 - self.phi)
+
+    @property
+    def rise(self) -> float:
+        """Spectrum at frequency zero over that at a quarter of the sampling rate."""
+        zero, middle = self.spectrum(np.array([0.0, 0.5 * np.pi]))
+        return float(zero / middle)
 
     def spectrum(self, frequency: FloatArray) -> FloatArray:
         """Variance of an orthonormal Fourier coefficient at `frequency` [rad per sample]."""
@@ -163,8 +172,8 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     """Fit ARMA(1,1) to periodograms by Whittle's likelihood, one shape and a level for each.
 
     White noise is kept unless the shape earns `EARNS`; a rise towards the very lowest frequencies that were looked at,
-    which the foot of a gap can feign in one record, must earn `EARNS_LOW` over the best shape without one. A rise
-    below them is never fitted.
+    which the foot of a gap can feign in one record, must earn `EARNS_LOW` over the best shape without one, unless the
+    spectrum is steep all along. A rise below them is never fitted.
 
     Parameters
     ----------
@@ -174,10 +183,12 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     """
     binned = [each.binned() for each in periodograms]
     deviance, best = float(_deviance(binned, np.zeros((1, 1, BINS)))[0, 0]), (0.0, 0.0)
-    for corner, earns in ((3.0, EARNS), (0.7, EARNS_LOW)):
-        tried, shape_of = _search(binned, max(1.0 - corner * lowest, 0.1))
-        if deviance - tried > earns:
-            deviance, best = tried, shape_of
+    tried, shape_of = _search(binned, max(1.0 - 3.0 * lowest, 0.1))
+    if deviance - tried > EARNS:
+        deviance, best = tried, shape_of
+    tried, shape_of = _search(binned, max(1.0 - 0.7 * lowest, 0.1))
+    if deviance - tried > (EARNS_LOW if Arma(*best).rise < STEEP else 0.0):
+        deviance, best = tried, shape_of
     shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
     levels = [float(_level(each, shape)) for each in binned]
     return ArmaFit(
