@@ -38,6 +38,25 @@ def test_a_smooth_noisy_history_has_no_jumps(seed):
     assert find_jumps(time, strain, 1e-4) == []
 
 
+@pytest.mark.parametrize("samples", [201, 301])
+def test_a_bend_of_few_noisy_samples_is_no_jump(samples):
+    """Slopes on either side of a window differ by ten standard errors, but a cubic describes them as well."""
+    history = NECKING_SETS["P2"]
+    time = np.linspace(0.0, history.duration, samples)
+    for seed in range(20):
+        strain = history.true_strain(time) + 1e-3 * np.random.default_rng(seed).normal(size=samples)
+        assert find_jumps(time, strain, 1e-3) == []
+
+
+def test_a_jump_in_much_noise_is_found_in_wider_windows():
+    """Noise 2e-3 and a jump from 1.7e-3 to 1.7e-2 1/s: within four samples, every time."""
+    time = np.linspace(0.0, 80.0, 1501)
+    strain = np.where(time < 40.02, 1.7e-3 * time, 1.7e-3 * 40.02 + 1.7e-2 * (time - 40.02))
+    for seed in range(20):
+        (jump,) = find_jumps(time, strain + 2e-3 * np.random.default_rng(seed).normal(size=1501), 2e-3)
+        assert abs(time[jump] - 40.02) <= 4.0 * time[1]
+
+
 def test_smoothing_recovers_the_rate_on_both_sides_of_a_jump():
     """Noise 2e-5: three-point differences err by 70 % of the slow rate; 95 % of the spline's rates are within 0.2 %."""
     time, strain = jump_history(2e-5)

@@ -41,7 +41,7 @@ REFINED = 4
 """Starts that are refined, of all that are tried."""
 
 OUTLYING = 3.0
-"""Residuals beyond so many times the usual one count less than squared."""
+"""Strains that are off by more than so many times the usual residual count less than squared."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +99,8 @@ class TwoSteps:
     def linearised(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Gauss-Newton: the fit moves by ``left @ right @ change`` when the samples do.
 
+        Where two sines of nearly one frequency all but cancel, this is rough: their fit hardly knows where to settle.
+
         Returns
         -------
         left : ndarray, shape (n_times, p)
@@ -107,8 +109,10 @@ class TwoSteps:
         right : ndarray, shape (p, n_times)
         """
         jacobian, slopes = self._formula_jacobian()
-        size = float(np.median(np.abs(self.weights * self.first_residual))) or 1.0
-        robust = self.weights / (1.0 + (self.weights * self.first_residual / (OUTLYING * size)) ** 2) ** 0.25
+        robust = self.weights
+        if self.signal == "strain":
+            size = float(np.median(np.abs(robust * self.first_residual))) or 1.0
+            robust = robust / (1.0 + (robust * self.first_residual / (OUTLYING * size)) ** 2) ** 0.25
         first = np.linalg.pinv(robust[:, None] * jacobian, rcond=1e-10) * robust
         if not len(self.sines.frequencies):
             return jacobian, slopes, first
@@ -219,8 +223,8 @@ def _fitted(time_bytes: bytes, strain_bytes: bytes) -> NeckingFit:
 def smooth_necking(time: FloatArray, true_strain: FloatArray) -> Smoothed:
     """Strain by both steps of `fit_necking`, rate by its derivative.
 
-    Thirty times closer to the true rate than a fit of the differentiated strain: the slow part of differences
-    telescopes to their outermost samples, whatever was measured in between.
+    Closer to the true rate than a fit of the differentiated strain, whose slow part telescopes to the outermost
+    samples, whatever was measured in between, and whose noise hides the sines; docs/excitation.md has the figures.
     """
     fit = fit_necking(time, true_strain)
     left, slopes, right = fit.strain.linearised()
@@ -287,7 +291,11 @@ def _two_steps(
 def _fit_formula(
     signal: Signal, t: FloatArray, measured: FloatArray, weights: FloatArray, near: NeckingHistory | None
 ) -> tuple[NeckingHistory, float]:
-    """The first step, b and the offset by linear least squares within: (A-1) is linear in them."""
+    """The first step, b and the offset by linear least squares within: (A-1) is linear in them.
+
+    The strain's is robust. The rate's is not: the noise of neighbouring differences cancels in plain least squares, and
+    a robust loss, which weighs each by itself, would spoil that (by a factor of 6 in the error of the rate).
+    """
     duration = float(t[-1])
 
     def solved(x: FloatArray) -> tuple[NeckingHistory, float, FloatArray]:
@@ -305,9 +313,12 @@ def _fit_formula(
     size = float(np.ptp(weights * measured))
     best = sorted(starts, key=lambda x: float(np.sum(residual(x) ** 2)))[:REFINED]
     limits = ([-np.inf, -8.0, -12.0], [np.inf, 8.0, 30.0])
-    found = min((least_squares(residual, x, bounds=limits, x_scale=1.0) for x in best), key=lambda each: each.cost)
+    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda each: each.cost)
     size *= max(float(np.median(np.abs(found.fun))), 1e-12)  # a second time, outliers held at bay
-    found = least_squares(residual, found.x, bounds=limits, loss="soft_l1", f_scale=OUTLYING)
+    loss: Literal["soft_l1", "linear"] = "soft_l1" if signal == "strain" else "linear"
+    found = least_squares(
+        residual, found.x, bounds=limits, loss=loss, f_scale=OUTLYING, ftol=1e-13, xtol=1e-13, gtol=1e-13
+    )
     history, offset, _ = solved(found.x)
     return history, offset
 

@@ -76,9 +76,9 @@ class Sines:
 def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None = None) -> Sines:
     """Fit 0, 1, 2, … sines and keep as many as the Bayesian information criterion wants.
 
-    Each is added where the periodogram of what is left peaks; then all frequencies move together (variable
-    projection). The criterion takes the noise as autoregressive, with the correlation of neighbours that the largest
-    sum leaves: correlated noise, whose slow part looks like sines, does not buy more of them.
+    Each is added where the periodogram of what is left peaks; then all frequencies move (variable projection). The
+    criterion takes the noise as autoregressive, with the correlation of neighbours that the largest sum leaves:
+    correlated noise, whose slow part looks like sines, does not buy more of them.
 
     Parameters
     ----------
@@ -88,16 +88,16 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
         One over the noise of each sample, up to a factor.
     """
     weight = np.ones_like(time) if weights is None else weights
-    t, means, sums = _blocks(time - time[0], residual, weight)
-    fit = partial(_Fit, t, sums, sums * means)
-    count, duration = len(t), float(time[-1] - time[0])
-    fastest = min(FASTEST, count / SAMPLES)
-    grid = np.arange(SLOWEST, fastest, 0.25) / duration
+    start, duration = float(time[0]), float(time[-1] - time[0])
+    x, means, sums = _blocks((time - start) / duration, residual, weight)  # frequencies in cycles per record
+    fit = partial(_Fit, x, sums, sums * means)
+    count = len(x)
+    grid = np.arange(SLOWEST, min(FASTEST, count / SAMPLES), 0.25)
     found = [fit(np.empty(0))]
     for _ in range(min(MOST, len(grid) // 4)):
-        left = partial(_Fit, t, sums, found[-1].rest)
+        left = partial(_Fit, x, sums, found[-1].rest)
         peak = grid[int(np.argmin([left(np.array([each])).squares for each in grid]))]
-        found.append(_refined(fit, np.append(found[-1].frequencies, peak), SLOWEST / duration, fastest / duration))
+        found.append(_refined(fit, np.append(found[-1].frequencies, peak), float(grid[-1])))
     last = found[-1].rest
     neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
     criteria = []
@@ -105,8 +105,8 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
         innovation = each.rest[1:] - neighbours * each.rest[:-1]
         criteria.append(count * np.log(max(float(innovation @ innovation), 1e-300)) + 3 * number * np.log(count))
     best = found[int(np.argmin(criteria))].frequencies
-    whole = _Fit(time - time[0], weight, weight * residual, best)
-    return Sines(best, whole.weights, float(time[0]), tuple(criteria))
+    whole = _Fit((time - start) / duration, weight, weight * residual, best)
+    return Sines(best / duration, whole.weights, start, tuple(criteria))
 
 
 def _blocks(t: FloatArray, values: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -142,13 +142,13 @@ def _wave_slopes(t: FloatArray, frequencies: FloatArray) -> FloatArray:
     return np.hstack([-turn * np.sin(angle), turn * np.cos(angle)])
 
 
-def _refined(fit: Callable[[FloatArray], _Fit], start: FloatArray, lowest: float, highest: float) -> _Fit:
-    """The frequencies near `start` that leave the least, in units of the lowest, so that one step suits all."""
-    inside = np.clip(start / lowest, 1.0 + 1e-6, highest / lowest - 1e-6)
-    size = float(np.std(fit(start).rest)) or 1.0
+def _refined(fit: Callable[[FloatArray], _Fit], start: FloatArray, highest: float) -> _Fit:
+    """The frequencies near `start` that leave the least."""
+    inside = np.clip(start, SLOWEST + 1e-6, highest - 1e-6)
+    size = float(np.std(fit(inside).rest)) or 1.0
 
-    def rest(scaled: FloatArray) -> FloatArray:
-        return fit(scaled * lowest).rest / size
+    def rest(frequencies: FloatArray) -> FloatArray:
+        return fit(frequencies).rest / size
 
-    found = least_squares(rest, inside, bounds=(1.0, highest / lowest), max_nfev=30)
-    return fit(np.asarray(found.x * lowest))
+    found = least_squares(rest, inside, bounds=(SLOWEST, highest), max_nfev=60)
+    return fit(np.asarray(found.x))
