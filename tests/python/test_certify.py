@@ -295,6 +295,21 @@ def test_the_page_holds_figures_and_tables_and_stays_small(tmp_path):
     assert len(page) < 2_000_000
 
 
+def test_a_law_that_is_given_whole_predicts_every_record():
+    """Figures 4a, 4b: everything given, nothing adjusted; then with a G that the records were not made with."""
+    campaign = one_law_everywhere()
+    everything = {"unrelaxed_modulus_MPa": 3220.0, "alpha": 1.05, "hardening_modulus_MPa": 1.8}
+    true = probation.certify(replace(campaign, law=replace(campaign.law, fixed=everything)), QUICK)
+    assert true.verdict == "intrinsic"
+    assert true.predictions["experiment-3"].rms_MPa == pytest.approx(NOISE, rel=0.12)
+    wrong = {**everything, "hardening_modulus_MPa": 2.5}
+    found = probation.certify(replace(campaign, law=replace(campaign.law, fixed=wrong)), QUICK)
+    assert found.verdict == "not_intrinsic"
+    assert "contradict" in found.reason
+    json.loads(found.to_json())
+    assert found.summary()
+
+
 def test_one_record_is_refused():
     with pytest.raises(probation.InputError, match="found one record, expected at least two"):
         probation.certify(twin_campaign((1,)))

@@ -13,7 +13,7 @@ from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
 from probation.certificate.result import Certificate
-from probation.certificate.trial import Trial, estimates
+from probation.certificate.trial import PARAMETERS, Trial, estimates
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.identify.parameter import outside_name
@@ -45,7 +45,7 @@ def certify(
 ) -> Certificate:
     """Put the law on probation, to see whether it is intrinsic to the material.
 
-    1. The parameters are identified on the records with role "identify".
+    1. The parameters are identified on the records with role "identify"; if the campaign holds them all, they are given.
     2. The others are predicted with nothing adjusted. Without held-out records each is predicted from all others.
     3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
        (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps
@@ -101,7 +101,7 @@ def certify(
             progress(done / total)
         return found
 
-    base = step(trial.fit(campaign.identify))
+    base = step(trial.base())
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
     predictions = {
         record.id: predict(source, record, tolerance, excitation, relation)
@@ -165,8 +165,8 @@ def certify(
 def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fit, Record]]:
     """What predicts what: the identified law every held-out record; without such, each record by all others."""
     campaign = trial.campaign
-    if campaign.held_out:
-        return [(base, record) for record in campaign.held_out]
+    if campaign.held_out or trial.all_given:
+        return [(base, record) for record in campaign.held_out or campaign.records]
     return [
         (step(trial.fit(other for other in campaign.records if other.id != record.id)), record)
         for record in campaign.records
@@ -217,7 +217,7 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
         for name, each in parameters.items()
         if not each.tested
     ]
-    if not campaign.held_out:
+    if not campaign.held_out and len(campaign.law.fixed) < PARAMETERS:
         doubts.append("no record is held out: each was predicted from all others")
     warm = {
         record.id: float(np.mean(record.temperature)) for record in campaign.records if record.temperature is not None

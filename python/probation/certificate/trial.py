@@ -10,6 +10,7 @@ import numpy as np
 from probation.certificate.bias import model_bias
 from probation.certificate.consistency import Estimate
 from probation.identify import fit
+from probation.identify.given import given
 from probation.identify.parameter import WEAKLY, outside_name
 from probation.records import Campaign
 
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
     from probation.identify import Fit
     from probation.law import Scheme, Start
     from probation.records import LawSettings, Record
+
+
+PARAMETERS = 3
+"""Of the law: E_u, tau_max or alpha, G."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,17 @@ class Trial:
     scheme: Scheme
     start: Start
     excitation: ExcitationMethod
+
+    @property
+    def all_given(self) -> bool:
+        """Whether the campaign holds every parameter: a law that is given, not identified."""
+        return len(self.campaign.law.fixed) == PARAMETERS
+
+    def base(self) -> Fit:
+        """The law on the records with role "identify": identified, or as it is given."""
+        if self.all_given:
+            return given(self.campaign, self.scheme, excitation=self.excitation, start=self.start)
+        return self.fit(self.campaign.identify)
 
     def fit(
         self, records: Iterable[Record], law: LawSettings | None = None, hold: Mapping[str, float] | None = None
@@ -130,6 +146,8 @@ def joint_covariance(found: Fit) -> FloatArray:
     Every record's bias acts on the joint estimate by its share of the information; shape (free, free).
     """
     free = free_parameters(found)
+    if not free:
+        return np.zeros((0, 0))
     information = {}
     for name, record in found.records.items():
         slopes = record.sensitivity[:, free]

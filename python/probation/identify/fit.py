@@ -93,7 +93,7 @@ def fit(
         raise InputError(f"scheme is {scheme!r}; identification needs sensitivities: use be2, sa2 or sa3")
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
-    law, held = _base_law(campaign, hold or {})
+    law, held = base_law(campaign, hold or {})
     limits = _limits(law, bounds or {})
     prepared = []
     for index, record in enumerate(campaign.identify):
@@ -103,7 +103,10 @@ def fit(
             progress(0.3 * (index + 1) / len(campaign.identify))
     problem = Problem(law, prepared, held)
     if problem.held.all():
-        raise InputError("all parameters are held; nothing is left to identify")
+        raise InputError(
+            f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to identify; "
+            "probation certify predicts with a law that is given"
+        )
     adapting = substeps == "auto" and scheme != "sa3"
     told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
     best = _least_squares(problem, prepared, method, limits, adapting, told)
@@ -161,7 +164,8 @@ def _with_more_substeps(
     return weigh(problem, weighted.law, weighting, limits, excitation)
 
 
-def _base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[bool, bool, bool]]:
+def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[bool, bool, bool]]:
+    """The campaign's law, with placeholders for what is not held, and which parameters are."""
     settings = campaign.law
     companion = from_settings(settings.companion)
     names = ("unrelaxed_modulus", "tau_max" if companion is None else "alpha", "hardening_modulus")
