@@ -16,6 +16,7 @@ from probation.certificate import certify
 from probation.crosscheck import crosscheck
 from probation.identify import fit
 from probation.paper.twins import Twin, experiment, twin_campaign
+from probation.report.estimate import plus_minus
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
@@ -80,7 +81,7 @@ def identification() -> Outcome:
             truth = getattr(twin.truth, name)
             distance = abs(parameter.value - truth) / parameter.se
             farthest = max(farthest, distance)
-            identified = f"{parameter.value:.6g} ± {parameter.se:.2g}"
+            identified = plus_minus(parameter.value, parameter.se)
             status = parameter.status.replace("_", " ")
             rows.append((twin.name, PARAMETER_KEYS[name], f"{truth:g}", identified, f"{distance:.1f}", status))
         record = found.records[twin.name]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -162,22 +163,15 @@ def parameters_text(companion: CalibratedCompanion) -> str:
     if not companion.form.parameter_names:
         return f"{len(errors)} points"
     pairs = zip(companion.parameter_names, companion.parameters, errors, strict=True)
-    return ", ".join(f"{name} {_with_error(value, error)}" for name, value, error in pairs)
+    return ", ".join(f"{name} {plus_minus(value, error)}" for name, value, error in pairs)
 
 
 def percent(error: float, sign: str = "") -> str:
     """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
     if not np.isfinite(error):
         return "–"
-    digits = ".0f" if abs(error) >= 0.1 else ".2g"
+    digits = ".0f" if abs(error) >= 0.1 else ".1f" if abs(error) >= 0.0005 else ".1g"
     return f"{100.0 * error:{sign}{digits}}"
-
-
-def _with_error(value: float, error: float) -> str:
-    if not np.isfinite(error) or error <= 0.0:
-        return f"{value:.5g}"
-    digits = max(int(np.ceil(-np.log10(error))) + 1, 0)
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def _scatter_text(scatter: float) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from probation.answers import json_answer
 from probation.identify.parameter import SYMBOLS, UNITS, outside_name
+from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -234,7 +235,7 @@ class Certificate:
 def _estimate(found: Estimate) -> str:
     if found.total_se is None:
         return f"{found.value:.4g}, not determined"
-    return f"{found.value:.5g} ± {found.total_se:.2g}"
+    return plus_minus(found.value, found.total_se)
 
 
 def _probability(value: float) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -179,9 +180,11 @@ class Exhibit:
                 each.quantity,
                 each.verdict,
                 ("≤ " if each.relation == "≤" else "") + number(each.paper),
-                number(each.ours) + ("" if each.spread is None else f" ± {each.spread:.2g}"),
+                number(each.ours) if each.spread is None else plus_minus(each.ours, each.spread),
                 each.unit or "–",
-                f"{100.0 * each.difference + 0.0:+.1f} %".replace("-0.0", "+0.0"),
+                "within"
+                if each.relation == "≤" and each.difference <= 0.0
+                else f"{100.0 * each.difference + 0.0:+.1f} %".replace("-0.0", "+0.0"),
             )
             for each in self.comparisons
         )

@@ -61,6 +61,10 @@ EXHIBITS: tuple[Entry, ...] = (
 )
 
 
+_TOGETHER = tuple(f"figure-s{number}" for number in range(3, 9))
+"""Names of single figures that are made as one exhibit, "figures-s3-s8"."""
+
+
 def named_exhibits(names: Sequence[str]) -> tuple[Entry, ...]:
     """Those exhibits, in the order of the page; all of them if no name is given.
 
@@ -70,6 +74,7 @@ def named_exhibits(names: Sequence[str]) -> tuple[Entry, ...]:
         For an unknown name.
     """
     known = [entry.name for entry in EXHIBITS]
+    names = ["figures-s3-s8" if name in _TOGETHER else name for name in names]
     for name in names:
         if name not in known:
             raise InputError(f"--only: found {name!r}; {nearest(name, known)}")

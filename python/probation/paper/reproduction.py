@@ -87,6 +87,13 @@ class Reproduction:
             if exhibit.comparisons:
                 parts += ["", exhibit.title, exhibit.comparison_table().text()]
                 parts += [f"  {reason}" for reason in exhibit.reasons()]
+            else:
+                parts += ["", exhibit.title]
+                for part in exhibit.parts:
+                    if isinstance(part, Table):
+                        parts.append(part.text())
+                    elif isinstance(part, str):
+                        parts.append(f"  {part}")
         return "\n".join(parts)
 
     def plot(self) -> Figure:

@@ -63,8 +63,8 @@ def _record(left: Axes, right: Axes, found: Certificate, record: str) -> None:
     tolerance = found.tolerance * float(np.max(np.abs(stress)))
     right.axhspan(-tolerance, tolerance, color=colour("data"), alpha=0.15, lw=0)
     right.axhline(0.0, color=colour("muted"), lw=0.8)
-    note = f"band: tolerance, ±{tolerance:.2g} MPa"
-    right.text(0.985, 0.97, note, transform=right.transAxes, ha="right", va="top", fontsize=8, color=colour("muted"))
+    note = f"band: ±{tolerance:.2g} MPa"
+    right.set_title(note, loc="right", fontsize=8, fontweight="normal", color=colour("muted"))  # curves fill the axes
     left.set_ylabel(record)
     left.legend(loc="best", fontsize=7.5)
 
@@ -85,7 +85,8 @@ def parameter_figure(found: Certificate) -> Figure:
             for at, (_, value, error) in enumerate(entries):
                 shade = colour("model" if good else "bad")
                 axes.errorbar(value, at, xerr=1.96 * (error or 0.0), fmt="o", ms=4, capsize=3, lw=1.2, color=shade)
-            axes.axvline(each.mean, color=colour("muted"), lw=0.8)
+            if good:  # values that differ have no common one
+                axes.axvline(each.mean, color=colour("muted"), lw=0.8)
             axes.set_yticks(range(len(entries)), [record for record, *_ in entries])
             axes.set_ylim(len(entries) - 0.5, -0.5)
             axes.grid(axis="y", visible=False)
@@ -162,7 +163,10 @@ def _prediction(found: Certificate) -> Section:
             found.prediction_table(),
             "The error is judged without the noise: the tolerance is "
             f"{100 * found.tolerance:g} % of the largest stress of each record.",
-            picture(certificate_figure(found), "Measured, predicted and identified stress, and what they differ by."),
+            picture(
+                certificate_figure(found),
+                "Measured, predicted and identified stress, and what they differ by; band: the tolerance.",
+            ),
             picture(rates, "What drives the records: strain rate over strain (Figure 1 of the paper)."),
         ),
     )
@@ -178,7 +182,10 @@ def _parameters(found: Certificate) -> Section:
             "behind the parameters), and the uncertainty of the E_u that is held. p is the chance of values that "
             "differ at least so much if the parameter were the same; a parameter fails below 1 %, shared between the "
             "parameters (Holm).",
-            picture(parameter_figure(found), "Each parameter over the records, with 95 % intervals; line: their mean."),
+            picture(
+                parameter_figure(found),
+                "Each parameter over the records, with 95 % intervals; line: their common value, where they have one.",
+            ),
         ),
     )
 

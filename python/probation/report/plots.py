@@ -69,7 +69,9 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
         figure.canvas.draw()
         for at, axes in enumerate(below):
             prefix = f"{curves[at].name}, " if count > 1 else ""
-            _note(axes, f"{prefix}model − measured, magnified {float(f'{_magnification(above, axes):.2g}'):g} times")
+            times = float(f"{_magnification(above, axes):.2g}")
+            magnified = f", magnified {times:g} times" if times > 1.2 else ""  # at about one it says nothing
+            _note(axes, f"{prefix}model − measured{magnified}")
     return figure
 
 

@@ -92,7 +92,7 @@ def residual_and_strain_error(
         axes.plot(*thinned(true_strain, model), color=series_colour(0), lw=1.1, label="model")
         right.plot(*thinned(true_strain, residual), color=series_colour(1), lw=0.6, label=f"residual × {magnified:g}")
         shifted = level + scale * strain_error
-        label = f"strain error × {scale:.2g} MPa, shifted to {level:g}"
+        label = f"strain error × {float(f'{scale:.2g}'):g} MPa, shifted to {level:g}"
         right.plot(*thinned(true_strain, shifted), color=series_colour(2), lw=0.6, label=label)
         right.spines["right"].set_visible(True)
         right.grid(visible=False)
