@@ -45,7 +45,7 @@ def certify(
 ) -> Certificate:
     """Put the law on probation, to see whether it is intrinsic to the material.
 
-    1. The parameters are identified on the records with role "identify"; if the campaign holds them all, they are given.
+    1. The parameters are identified on the records with role "identify", unless the campaign holds them all.
     2. The others are predicted with nothing adjusted. Without held-out records each is predicted from all others.
     3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
        (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps

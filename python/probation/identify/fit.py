@@ -104,8 +104,8 @@ def fit(
     problem = Problem(law, prepared, held)
     if problem.held.all():
         raise InputError(
-            f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to identify; "
-            "probation certify predicts with a law that is given"
+            f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to "
+            "identify; probation certify predicts with a law that is given"
         )
     adapting = substeps == "auto" and scheme != "sa3"
     told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
