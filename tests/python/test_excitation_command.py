@@ -32,6 +32,16 @@ def test_the_verdict_comes_first(jump_file, capsys):
     assert "strain noise" in said
 
 
+def test_strain_alone_will_do_and_is_said(jump_file, capsys):
+    rows = [line.rsplit(",", 1)[0] for line in jump_file.read_text().splitlines()]
+    jump_file.write_text("\n".join(rows))
+    assert main(["excitation", str(jump_file)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("jump: strain rate 0.0017 … 0.017 1/s")
+    assert "warning: strain alone was read" in said
+    assert "no stress column" in said
+
+
 def test_csv_json_plot_and_page_are_written(jump_file, tmp_path, capsys):
     names = [str(tmp_path / name) for name in ("out.csv", "out.json", "out.png", "out.html")]
     arguments = ["--csv", names[0], "--json", names[1], "--plot", names[2], "--report", names[3]]
