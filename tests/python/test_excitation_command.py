@@ -121,6 +121,17 @@ def test_noise_that_is_left_in_the_rate_is_warned_of():
     assert any("mostly noise" in warning for warning in found.warnings)
 
 
+def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
+    """The machine reaches its speed within two samples: so short a bend is no segment, and no spline follows it."""
+    time = np.linspace(0.0, 20.0, 1001)
+    strain = 0.01 * np.maximum(time - 0.05, 0.0) + 1e-6 * np.random.default_rng(0).normal(size=1001)
+    record = Record("run-up", time, strain, np.zeros(1001))
+    (found,) = describe_excitation([record], "quintic-spline").records
+    assert any("more than 8 times the noise" in warning and "raw takes" in warning for warning in found.warnings)
+    (found,) = describe_excitation([record], "raw").records
+    assert not any("times the noise" in warning for warning in found.warnings)
+
+
 def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("probation.excitation.comparison.NOISES", (2e-5,))
     monkeypatch.setattr("probation.excitation.comparison.COMPARED", ("raw", "quintic-spline"))
