@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "probation/companion/exponential.hpp"
 #include "probation/companion/power_law.hpp"
+#include "probation/companion/rate_shift.hpp"
 #include "probation/companion/table.hpp"
 #include "probation/companion/weissenberg.hpp"
 
@@ -31,4 +32,7 @@ void bind_companion(py::module_& m) {
            "rate_floor"_a = floor)
       .def_property_readonly("rates", &Table::rates)
       .def_property_readonly("tau_max", &Table::tau_max);
+  py::class_<RateShift, CompanionRelation, std::shared_ptr<RateShift>>(m, "RateShift")
+      .def(py::init<std::shared_ptr<CompanionRelation>, double, double, double, double>(),
+           "base"_a.none(true), "reference_rate"_a, "exponent"_a, "curvature"_a, "rate_floor"_a = floor);
 }

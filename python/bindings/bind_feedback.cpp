@@ -1,6 +1,7 @@
 // feedback.hpp and feedback/: one line per form.
 
 #include "bindings.hpp"
+#include "probation/feedback/power_activation.hpp"
 #include "probation/feedback/self_heating.hpp"
 #include "probation/feedback/stress_activation.hpp"
 
@@ -39,6 +40,8 @@ void bind_feedback(py::module_& m) {
       .def_property_readonly("parameters", &Feedback::parameters);
   as_values(py::class_<StressActivation, Feedback, std::shared_ptr<StressActivation>>(m, "StressActivation")
                 .def(py::init<double>(), "activation_stress"_a));
+  as_values(py::class_<PowerActivation, Feedback, std::shared_ptr<PowerActivation>>(m, "PowerActivation")
+                .def(py::init<double, double>(), "activation_stress"_a, "exponent"_a));
   as_values(py::class_<SelfHeating, Feedback, std::shared_ptr<SelfHeating>>(m, "SelfHeating")
                 .def(py::init<double, double, double, double>(), "heating"_a, "cooling_rate"_a, "softening"_a,
                      "hardening_loss"_a));

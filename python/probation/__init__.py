@@ -1,7 +1,9 @@
 """Put a constitutive law on probation."""
 
 from probation._core import __version__
-from probation.change import Change, Direction, SelfHeating, StressActivation
+from probation.calibration import CalibratedCompanion, Calibration, RateTable, calibrate_companion
+from probation.certificate import Certificate, certify
+from probation.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
@@ -17,7 +19,10 @@ from probation.records import Campaign, Noise, Record, preview
 from probation.simulate import Simulation, simulate
 
 __all__ = [
+    "CalibratedCompanion",
+    "Calibration",
     "Campaign",
+    "Certificate",
     "Change",
     "ConvergenceError",
     "CrossCheck",
@@ -29,8 +34,10 @@ __all__ = [
     "InputError",
     "Law",
     "Noise",
+    "PowerActivation",
     "PowerLaw",
     "RateFunction",
+    "RateTable",
     "Record",
     "SelfHeating",
     "Simulation",
@@ -39,6 +46,8 @@ __all__ = [
     "Table",
     "Weissenberg",
     "__version__",
+    "calibrate_companion",
+    "certify",
     "creep",
     "crosscheck",
     "excite",

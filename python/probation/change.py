@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 StressActivation = _core.StressActivation
 """Feedback: flow activated by stress; ``StressActivation(activation_stress)`` [MPa]."""
 
+PowerActivation = _core.PowerActivation
+"""Feedback: flow activated by a power of the stress; ``PowerActivation(activation_stress, exponent)`` [MPa], [-]."""
+
 SelfHeating = _core.SelfHeating
 """Feedback: plastic work warms; ``SelfHeating(heating, cooling_rate, softening, hardening_loss)``."""
 
@@ -96,7 +99,9 @@ class Change:
                 setattr(change, name, as_samples(np.atleast_1d(values), name))
         for feedback in self.feedbacks:
             if not isinstance(feedback, _core.Feedback):
-                raise InputError(f"feedbacks holds {feedback!r}; a StressActivation or SelfHeating is needed")
+                raise InputError(
+                    f"feedbacks holds {feedback!r}; a StressActivation, PowerActivation or SelfHeating is needed"
+                )
         change.feedbacks = list(self.feedbacks)
         return change
 

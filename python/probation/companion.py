@@ -6,7 +6,7 @@ A new form is one class here with its engine part in ``cpp/include/probation/com
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -261,7 +261,9 @@ def from_settings(settings: CompanionSettings | None) -> Companion | None:
     """The companion relation that a campaign names."""
     if settings is None:
         return None
-    values = dict(settings.parameters)
+    values: dict[str, Any] = dict(settings.parameters)
+    if settings.calibration is not None and settings.calibration.rates is not None:
+        values["calibrated"] = settings.calibration.rates
     if settings.form == "table":
-        return Table(rates=values["rates"], tau_max=values["tau_max_s"])  # type: ignore[arg-type]
+        values["tau_max"] = values.pop("tau_max_s")
     return FORMS[settings.form](**values)

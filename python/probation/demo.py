@@ -6,15 +6,17 @@ What is shown is the list `STEPS`; a new part is a function here or elsewhere an
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from probation._files import write_whole
 from probation.answers import PARAMETER_KEYS, json_answer
+from probation.certificate import certify
 from probation.crosscheck import crosscheck
 from probation.identify import fit
 from probation.paper.twins import Twin, experiment, twin_campaign
+from probation.report.estimate import plus_minus
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
@@ -79,7 +81,7 @@ def identification() -> Outcome:
             truth = getattr(twin.truth, name)
             distance = abs(parameter.value - truth) / parameter.se
             farthest = max(farthest, distance)
-            identified = f"{parameter.value:.6g} ± {parameter.se:.2g}"
+            identified = plus_minus(parameter.value, parameter.se)
             status = parameter.status.replace("_", " ")
             rows.append((twin.name, PARAMETER_KEYS[name], f"{truth:g}", identified, f"{distance:.1f}", status))
         record = found.records[twin.name]
@@ -120,8 +122,28 @@ def schemes() -> Outcome:
     )
 
 
+def probation_test() -> Outcome:
+    """Identify on experiment 1 and predict 2 and 3: the paper's own question, on its own numbers."""
+    campaign = twin_campaign((1,), held_out=(2, 3), seed=SEED)
+    found = certify(replace(campaign, law=replace(campaign.law, fixed={})))
+    figure = found.plot()
+    return Outcome(
+        verdict=f"Probation test: {found.headline[0].lower()}{found.headline[1:]}",
+        passed=found.verdict == "intrinsic_except" and not found.parameters["hardening_modulus"].passes,
+        parts=(
+            "The twins carry the paper's own parameters: α and G differ between the kinds of test, E_u does not.",
+            found.parameter_table(),
+            found.prediction_table(),
+            picture(figure, "Measured, predicted with nothing adjusted, and identified alone (Figures 4 to 6)"),
+        ),
+        answer=json.loads(found.to_json()),
+        plots={"probation-test": figure},
+    )
+
+
 STEPS: tuple[Step, ...] = (
     Step("identification", "Identification", identification),
+    Step("probation_test", "Probation test", probation_test),
     Step("crosscheck", "Cross-check of the schemes", schemes),
 )
 

@@ -3,10 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "probation/companion/exponential.hpp"
 #include "probation/companion/power_law.hpp"
+#include "probation/companion/rate_shift.hpp"
 #include "probation/companion/table.hpp"
 #include "probation/companion/weissenberg.hpp"
 
@@ -72,4 +74,23 @@ TEST_CASE("relations that cannot be are refused") {
   CHECK_THROWS_AS(Table({1.0, NAN}, {1.0, 2.0}), InputError);
   CHECK_THROWS_AS(PowerLaw(-1.0, 1.0).relaxation_time(1.0), InputError);
   CHECK_THROWS_AS(PowerLaw(1.0, -400.0).relaxation_time(1e-3), InputError);  // infinite
+}
+
+TEST_CASE("a rate shift without curvature is a power of the rate on top of what was there") {
+  // (1e-2 / 1e-3)^-0.5 of 0.03 / 1e-2 s.
+  const RateShift companion(std::make_shared<PowerLaw>(0.03, -1.0), 1e-3, 0.5, 0.0);
+  CHECK(companion.relaxation_time(1e-2) == doctest::Approx(3.0 / std::sqrt(10.0)).epsilon(1e-14));
+  CHECK(companion.log_slope(1e-2) == doctest::Approx(-1.5).epsilon(1e-14));
+  check_slope(companion, 4e-4);
+}
+
+TEST_CASE("a rate shift with curvature makes the Weissenberg number linear in the logarithm of the rate") {
+  // We = 1 + 0.25 log10(r): 0.75 at 0.1 1/s, 1.5 at 100 1/s.
+  const RateShift companion(nullptr, 1.0, 1.0 - 0.25 / std::log(10.0), 0.25);
+  CHECK(companion.relaxation_time(1.0) == doctest::Approx(1.0).epsilon(1e-14));
+  CHECK(companion.relaxation_time(0.1) == doctest::Approx(0.75 / 0.1).epsilon(1e-13));
+  CHECK(companion.relaxation_time(100.0) == doctest::Approx(1.5 / 100.0).epsilon(1e-13));
+  for (const double rate : {1e-7, 2e-4, 3.0}) check_slope(companion, rate);
+  CHECK_THROWS_AS(RateShift(nullptr, 0.0, 0.5, 0.0), InputError);
+  CHECK_THROWS_AS(RateShift(nullptr, 1.0, 0.5, 2.5), InputError);
 }

@@ -141,6 +141,15 @@ def test_a_specimen_is_chosen_by_its_number_and_given_temperatures(load, folder)
     assert chosen.temperature[:3] == pytest.approx([20.0, 20.5, 21.0])
 
 
+def test_one_temperature_may_stand_for_a_whole_test(load, refusal, folder):
+    assert (load(ENTRY + "temperature_C = 40.0\n").records[0].temperature == 40.0).all()
+    logged = "time_s,true_strain,true_stress_MPa,temperature_C\n"
+    logged += "".join(f"{at},{0.01 * at},{at},20\n" for at in range(12))
+    (folder / "logged.csv").write_text(logged, encoding="utf-8")
+    message = refusal('[[record]]\nid = "a"\nfile = "logged.csv"\ntemperature_C = 40.0\n')
+    assert "found it beside a column of temperatures" in message
+
+
 def test_a_temperature_log_that_ends_early_is_refused(refusal, folder):
     log = "t,TMean01\n" + "".join(f"{0.1 * at},20\n" for at in range(12))
     (folder / "log.csv").write_text(log, encoding="utf-8")

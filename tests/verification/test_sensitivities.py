@@ -11,13 +11,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Direction, SelfHeating, StressActivation
+from probation import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from reference import literal, paper
 
 SCHEMES = ("be2", "sa2", "sa3")
 FEEDBACKS = {
     "no feedback": (),
     "stress activation": (StressActivation(15.0),),
+    "activation by a power": (PowerActivation(30.0, 2.5),),
     "self heating": (SelfHeating(2.0, 0.01, 0.03, 0.01),),
     "both": (StressActivation(15.0), SelfHeating(2.0, 0.01, 0.03, 0.01)),
 }

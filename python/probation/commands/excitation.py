@@ -25,7 +25,7 @@ rate jumps.
   probation excitation tension.csv
   probation excitation tension.csv --method savitzky-golay --csv smooth.csv --plot smooth.png
   probation excitation hdpe-2020/ --record grip-0.02 --method necking --report excitation.html
-  probation excitation --compare                every method on histories whose rate is known
+  probation excitation --compare                every method on histories whose rate is known; takes minutes
 
 auto takes the strain as it is where it is clean (or the record has a rate of its own), and {DEFAULT} otherwise.
 """
@@ -45,7 +45,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--csv", metavar="OUT.csv", help="write time, strain, rate and standard errors; - is standard output"
     )
-    parser.add_argument("--compare", action="store_true", help="compare the methods on histories whose rate is known")
+    parser.add_argument(
+        "--compare",
+        action="store_true",
+        help="compare the methods on histories whose rate is known; takes minutes, --draws 1 a fifth of them",
+    )
     parser.add_argument("--draws", metavar="N", type=_draws, help="draws of the noise that are compared (5)")
     parser.add_argument("--seed", metavar="N", type=int, help="of the noise that is compared (0)")
     add_delivery(parser)

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from probation.commands.campaign_options import add_campaign, add_control, campaign_from
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
 from probation.excitation import METHODS as EXCITATIONS
 
-if TYPE_CHECKING:
-    from probation.records import Campaign
-
 NAME = "fit"
 
 _METHODS = ("least-squares", "variable-projection", "simplex")
+_WEIGHTINGS = ("auto", "plain", "strain-noise", "strain-noise-frozen")
+_INTERVALS = ("standard-error", "profile")
 _SCHEMES = ("be2", "sa2", "sa3")  # those that have sensitivities
 
 _DESCRIPTION = """\
@@ -25,6 +24,7 @@ known about them, and what is left.
   probation fit hdpe-2020/
   probation fit hdpe-2020/campaign.toml --hold unrelaxed_modulus_MPa=3220 --report fit.html
   probation fit hdpe-2020/ --scheme sa3 --json - > fit.json
+  probation fit hdpe-2020/ --weighting strain-noise --intervals profile --report fit.html
   probation fit 0d01_3d0.csv 0d03_3d0.csv 0d05_3d0.csv --control displacement-rate
 """
 
@@ -32,18 +32,8 @@ known about them, and what is left.
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
-    parser.add_argument(
-        "campaign",
-        metavar="CAMPAIGN",
-        nargs="+",
-        help="a folder with a campaign.toml, or that file; or data files, each specimen of which becomes a record",
-    )
-    parser.add_argument(
-        "--control",
-        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
-        default="other",
-        help="how the tests in data files were driven (other)",
-    )
+    add_campaign(parser)
+    add_control(parser)
     parser.add_argument("--scheme", choices=_SCHEMES, default="be2", help="time integration (be2)")
     parser.add_argument(
         "--start",
@@ -73,6 +63,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="auto",
         help="whether, and how, the strain is smoothed: auto does so where it is noisy",
     )
+    parser.add_argument(
+        "--weighting",
+        choices=_WEIGHTINGS,
+        default="auto",
+        help="what the residuals are weighed for: plain, white noise of the stress; strain-noise, also that of the "
+        "strain as the law carries it to the stress; auto, that where it matters, and autocorrelated stress noise; "
+        "strain-noise-frozen is biased, for comparison",
+    )
+    parser.add_argument(
+        "--intervals",
+        choices=_INTERVALS,
+        default="standard-error",
+        help="where the 95 %% intervals come from; profile follows the likelihood (slower)",
+    )
     add_delivery(parser)
     return parser
 
@@ -82,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
     from probation.identify import fit  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
-    campaign = _campaign(options)
+    campaign = campaign_from(options)
     with shown(f"identifying on {campaign.name}") as advance:
         answer = fit(
             campaign,
@@ -92,21 +96,13 @@ def run(options: argparse.Namespace) -> int:
             excitation=options.excitation,
             start=options.start,
             substeps=options.substeps,
+            weighting=options.weighting,
+            intervals=options.intervals,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer, options)
     deliver_report(answer, options)
     return 0
-
-
-def _campaign(options: argparse.Namespace) -> Campaign:
-    """A campaign, or data files that stand in for one."""
-    from probation.records import Campaign  # noqa: PLC0415
-
-    first = Path(options.campaign[0])
-    if len(options.campaign) > 1 or (first.is_file() and first.suffix != ".toml"):
-        return Campaign.from_files(options.campaign, control=options.control)
-    return Campaign.load(first)
 
 
 def _substeps(text: str) -> int | Literal["auto"]:

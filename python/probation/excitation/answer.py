@@ -17,6 +17,7 @@ from probation.errors import InputError
 from probation.excitation.differences import differences
 from probation.excitation.excitation import Excitation, excite
 from probation.excitation.necking import NeckingFit, fit_necking
+from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -139,8 +140,8 @@ class RecordExcitation:
             ("samples", f"{len(self.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
             ("strain noise", f"{excitation.strain_noise:.2g}, {known}{self._correlation()}"),
             ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
-            ("rate at the start", f"{rate[0]:.4g} ± {excitation.rate_se[0]:.2g} 1/s"),
-            ("rate at the end", f"{rate[-1]:.4g} ± {excitation.rate_se[-1]:.2g} 1/s"),
+            ("rate at the start", f"{plus_minus(rate[0], excitation.rate_se[0])} 1/s"),
+            ("rate at the end", f"{plus_minus(rate[-1], excitation.rate_se[-1])} 1/s"),
             ("its standard error", "median {:.2g}, 95 % below {:.2g}, largest {:.2g} %".format(*parts)),
             ("integrated rate − measured strain", f"{np.abs(self.integrated - self.measured).max():.2g} at most"),
         ]

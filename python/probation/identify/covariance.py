@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -48,9 +48,16 @@ class Covariance:
             return None
         return float(np.sqrt(self.matrix[index, index]))
 
+    def with_added(self, matrix: FloatArray, values: FloatArray) -> Covariance:
+        """With an independent source of error on top, shape (free, free)."""
+        total = self.matrix + matrix
+        size = np.where(values != 0.0, np.abs(values), 1.0)
+        relative = np.sqrt(np.maximum(np.diag(total), 0.0)) / size
+        return replace(self, matrix=total, relative_error=np.where(np.isfinite(self.relative_error), relative, np.inf))
+
 
 def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int], values: FloatArray) -> Covariance:
-    """Covariance of a weighted least-squares estimate, from the scaled Jacobian's singular values.
+    """Covariance of a least-squares estimate with whitened residual, from the scaled Jacobian's singular values.
 
     White fit residuals give s^2 (J^T J)^-1. Correlated ones (the low-frequency bias of a law, or filtered noise) give
     the sandwich (J^T J)^-1 S (J^T J)^-1, S the long-run covariance of the scores (Newey & West 1987), summed over
@@ -59,7 +66,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
     Parameters
     ----------
     jacobian : ndarray, shape (n_samples, free)
-        Of the weighted fit residual.
+        Of the whitened fit residual.
     residual : ndarray, shape (n_samples,)
     lengths : sequence of int
         Samples of each record.
@@ -78,7 +85,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
 
     borders = np.concatenate([[0], np.cumsum(lengths)])
     parts = [slice(first, last) for first, last in pairwise(borders.tolist())]
-    bandwidths = [_bandwidth(residual[part]) for part in parts]
+    bandwidths = [correlation_lags(residual[part]) for part in parts]
     correlated = any(bandwidth > 0 for bandwidth in bandwidths)
     scatter = float(residual @ residual) / max(count - free, 1)
     relative = scatter * inverse
@@ -96,24 +103,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
     return Covariance(relative * np.outer(size, size), error, condition, correlated)
 
 
-def status_of(relative_error: float) -> Status:
-    """How well the data determine a parameter."""
-    if relative_error <= IDENTIFIABLE:
-        return "identifiable"
-    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
-
-
-def correlation(matrix: FloatArray) -> FloatArray:
-    """Correlation matrix of a covariance matrix; 0 where a variance is."""
-    deviation = np.sqrt(np.diag(matrix))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scaled = matrix / np.outer(deviation, deviation)
-    scaled[~np.isfinite(scaled)] = 0.0
-    np.fill_diagonal(scaled, 1.0)
-    return np.asarray(scaled, dtype=np.float64)
-
-
-def _bandwidth(residual: FloatArray) -> int:
+def correlation_lags(residual: FloatArray) -> int:
     """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
     count = len(residual)
     centred = residual - residual.mean()
@@ -130,6 +120,23 @@ def _bandwidth(residual: FloatArray) -> int:
     if inflation < WHITE:
         return 0
     return min(max(int(4.0 * inflation), 1), count // 2)
+
+
+def status_of(relative_error: float) -> Status:
+    """How well the data determine a parameter."""
+    if relative_error <= IDENTIFIABLE:
+        return "identifiable"
+    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
+
+
+def correlation(matrix: FloatArray) -> FloatArray:
+    """Correlation matrix of a covariance matrix; 0 where a variance is."""
+    deviation = np.sqrt(np.diag(matrix))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scaled = matrix / np.outer(deviation, deviation)
+    scaled[~np.isfinite(scaled)] = 0.0
+    np.fill_diagonal(scaled, 1.0)
+    return np.asarray(scaled, dtype=np.float64)
 
 
 def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:

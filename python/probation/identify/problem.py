@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
+from probation.identify.noise_model import NoiseModel
 from probation.law import Law, Scheme, Start, make_solver
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -69,6 +70,11 @@ class RecordProblem:
         """The same by SA3 on the same steps, whose own error is far smaller."""
         return replace(self, solver=make_solver(self.solver.history, "sa3", self.start), scheme="sa3")
 
+    def driven_by(self, excitation: Excitation) -> RecordProblem:
+        """The same record, the law driven otherwise."""
+        solver = make_solver(excitation.refined(self.substeps).history(), self.scheme, self.start)
+        return replace(self, excitation=excitation, solver=solver)
+
     def stress(self, law: Law) -> FloatArray:
         """Model stress, shape (n_times,) [MPa]."""
         stress = np.empty(len(self.solver.history))
@@ -86,7 +92,7 @@ class RecordProblem:
 
 
 class Problem:
-    """Fit residuals (model - data) of all records, each over its weight, stacked.
+    """Fit residuals (model - data) of all records, each whitened by its noise model, stacked.
 
     Parameters
     ----------
@@ -95,18 +101,31 @@ class Problem:
     records : sequence of RecordProblem
     held : tuple of bool, shape (3,)
         Which of `law.parameters` are not identified.
+
+    Attributes
+    ----------
+    noises : list of NoiseModel
+        Per record; what the residuals are whitened with.
+    white : tuple of NoiseModel
+        What `noises` were while the noise was taken as white.
     """
 
     def __init__(self, law: Law, records: Sequence[RecordProblem], held: tuple[bool, bool, bool]) -> None:
         self.law = law
         self.records = tuple(records)
         self.held = np.array(held)
-        self.weights = np.array([1.0 / record.noise for record in self.records])
+        self.noises = [NoiseModel.white(each.noise, each.record.time) for each in self.records]
+        self.white = tuple(self.noises)
 
     @property
     def free(self) -> NDArray[np.intp]:
         """Indices of the identified parameters."""
         return np.flatnonzero(~self.held)
+
+    @property
+    def lengths(self) -> list[int]:
+        """Samples of each record."""
+        return [len(each.record) for each in self.records]
 
     def law_at(self, free_values: FloatArray) -> Law:
         """The law with other values of the identified parameters."""
@@ -114,25 +133,31 @@ class Problem:
         values[self.free] = free_values
         return self.law.with_parameters(values)
 
+    def whitened(self, parts: Iterable[FloatArray]) -> FloatArray:
+        """One array per record, whitened and stacked."""
+        return np.concatenate([noise.whiten(part) for noise, part in zip(self.noises, parts, strict=True)])
+
+    def data(self) -> FloatArray:
+        """Whitened measured stress, shape (n_samples,) [-]."""
+        return self.whitened(each.record.true_stress for each in self.records)
+
     def residual(self, law: Law) -> FloatArray:
-        """Weighted fit residual, shape (n_samples,) [-]."""
-        parts = (
-            weight * (record.stress(law) - record.record.true_stress)
-            for weight, record in zip(self.weights, self.records, strict=True)
-        )
-        return np.concatenate(list(parts))
+        """Whitened fit residual, shape (n_samples,) [-]."""
+        return self.whitened(each.stress(law) - each.record.true_stress for each in self.records)
 
     def residual_and_jacobian(self, law: Law) -> tuple[FloatArray, FloatArray]:
-        """Weighted fit residual (n_samples,) and its derivatives (n_samples, 3) along `law.parameters`."""
+        """Whitened fit residual (n_samples,) and its derivatives (n_samples, 3) along `law.parameters`."""
         residuals, jacobians = [], []
-        for weight, record in zip(self.weights, self.records, strict=True):
-            stress, sensitivity = record.sensitivity(law)
-            residuals.append(weight * (stress - record.record.true_stress))
-            jacobians.append(weight * sensitivity)
-        return np.concatenate(residuals), np.concatenate(jacobians)
+        for each in self.records:
+            stress, sensitivity = each.sensitivity(law)
+            residuals.append(stress - each.record.true_stress)
+            jacobians.append(sensitivity)
+        return self.whitened(residuals), self.whitened(jacobians)
 
     def reweigh(self, law: Law) -> None:
         """Weigh each record by what really scatters it around the law: noise and bias together."""
-        for index, record in enumerate(self.records):
-            residual = record.stress(law) - record.record.true_stress
-            self.weights[index] = 1.0 / max(record.noise, float(np.sqrt(np.mean(residual**2))))
+        for index, each in enumerate(self.records):
+            residual = each.stress(law) - each.record.true_stress
+            scale = max(each.noise, float(np.sqrt(np.mean(residual**2))))
+            self.noises[index] = NoiseModel.white(scale, each.record.time)
+        self.white = tuple(self.noises)

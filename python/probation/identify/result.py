@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.excitation import Excitation
+    from probation.identify.bias import Bias
+    from probation.identify.profile import Profile
     from probation.law import Law, Scheme, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
@@ -39,7 +41,14 @@ class RecordFit:
     sensitivity : ndarray, shape (n_times, 3) [MPa per unit]
         Along E_u, tau_max or alpha, G.
     noise_MPa : float
-        Standard deviation of the high-frequency part of the fit residual.
+        Standard deviation of the high-frequency part of the fit residual; of all of it where the noise model (AR(1),
+        strain noise) leaves nothing else.
+    bias : Bias
+        The low-frequency part: size and place.
+    noise_correlation : float
+        Of AR(1) stress noise from sample to sample; 0 where none was found.
+    strain_noise_weighed : bool
+        Whether the residual was weighed for the strain's noise.
     """
 
     id: str
@@ -50,6 +59,9 @@ class RecordFit:
     model_stress: FloatArray
     sensitivity: FloatArray
     noise_MPa: float  # noqa: N815 - as it leaves the program
+    bias: Bias
+    noise_correlation: float = 0.0
+    strain_noise_weighed: bool = False
 
     @property
     def fit_residual(self) -> FloatArray:
@@ -78,6 +90,9 @@ class RecordFit:
             "max_MPa": self.max_MPa,
             "noise_MPa": self.noise_MPa,
             "bias_MPa": self.bias_MPa,
+            **self.bias.to_json(),
+            "noise_correlation": self.noise_correlation,
+            "strain_noise_weighed": self.strain_noise_weighed,
             "differentiator": self.excitation.differentiator,
             "strain_noise": self.excitation.strain_noise,
             "rate_jumps_s": [float(self.time[jump]) for jump in self.excitation.jumps],
@@ -106,8 +121,15 @@ class Fit:
     condition_number : float
         Of the scaled Jacobian.
     records : dict of str to RecordFit
+    weighting : str
+        How the fit residual was weighed: "plain", "autocorrelated" (AR(1)), "strain-noise", "strain-noise-frozen", or
+        "plain, strain noise resampled" on records too long for a matrix.
     autocorrelated : bool
         Whether the fit residual is, which widens the standard errors.
+    newey_west : bool
+        Whether what is left of that after whitening widens them.
+    profiles : dict of str to Profile
+        Where the intervals are those of the profile likelihood.
     scheme_error_MPa : float
         How far the scheme is from SA3 at most: its own error, not the law's.
     scheme_shift : dict of str to float
@@ -129,6 +151,9 @@ class Fit:
     condition_number: float
     records: dict[str, RecordFit]
     autocorrelated: bool
+    weighting: str = "plain"
+    newey_west: bool = False
+    profiles: dict[str, Profile] = field(default_factory=dict)
     scheme_error_MPa: float = 0.0  # noqa: N815 - as it leaves the program
     scheme_shift: dict[str, float] = field(default_factory=dict)
     warnings: tuple[str, ...] = field(default=())
@@ -149,6 +174,24 @@ class Fit:
     def bias_MPa(self) -> float:
         """Its low-frequency part: what the law does not describe."""
         return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
+
+    @property
+    def noise_text(self) -> str:
+        """What the standard errors take the noise for, in words."""
+        what = {
+            "plain": "white noise of the stress",
+            "autocorrelated": "autocorrelated noise of the stress",
+            "strain-noise": "noise of the stress, and of the strain as the law carries it there",
+            "strain-noise-frozen": "noise of the stress and, at the plain estimate, of the strain",
+            "plain, strain noise resampled": "white noise of the stress, and that of the strain drawn again",
+        }[self.weighting]
+        correlated = [each for each in self.records.values() if each.noise_correlation > 0.0]
+        if correlated:
+            what += ", AR(1) " + ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
+        if self.newey_west:
+            what += "; autocorrelated fit residuals (Newey-West)"
+        intervals = "; intervals from the profile likelihood" if self.profiles else ""
+        return f"standard errors for {what}{intervals}"
 
     @property
     def verdict(self) -> str:
@@ -190,6 +233,7 @@ class Fit:
                 f"    {each.id}: rms {each.rms_MPa:.4g}, largest {each.max_MPa:.4g}, noise {each.noise_MPa:.4g} MPa; "
                 f"rate: {each.excitation.differentiator}"
             )
+            lines.append(f"      {each.bias.text}")
         if self.scheme_shift:
             worst = max(self.scheme_shift, key=lambda name: abs(self.scheme_shift[name]))
             shift = self.scheme_shift[worst]
@@ -198,9 +242,8 @@ class Fit:
                 f"shifts {SYMBOLS[worst]} by {shift:+.2g} standard errors"
                 + ("; use sa3, or sample more finely" if abs(shift) > 0.5 else "")
             )
-        how = "autocorrelated fit residuals (Newey-West)" if self.autocorrelated else "white fit residuals"
         steps = f", {self.substeps} steps from sample to sample" if self.substeps > 1 else ""
-        lines += ["", f"  {self.method}, scheme {self.scheme}{steps}, start {self.start}; standard errors for {how}"]
+        lines += ["", f"  {self.method}, scheme {self.scheme}{steps}, start {self.start}", f"  {self.noise_text}"]
         lines += [f"  warning: {warning}" for warning in self.warnings]
         return "\n".join(lines)
 
@@ -228,6 +271,8 @@ class Fit:
             "products": {f"unrelaxed_modulus_MPa*{second}": self.product.to_json()},
             "correlation": {"names": [outside_name(name) for name in self.names], "matrix": self.correlation},
             "condition_number": self.condition_number,
+            "weighting": self.weighting,
+            "intervals": "profile" if self.profiles else "standard-error",
             "autocorrelated": self.autocorrelated,
             "residual": {"rms_MPa": self.rms_MPa, "noise_MPa": self.noise_MPa, "bias_MPa": self.bias_MPa},
             "scheme_error": {

@@ -107,9 +107,22 @@ def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> La
     return scaled.law(found)
 
 
-def first_guess(problem: Problem, bounds: Mapping[str, Bounds], progress: Callable[[float], None] | None = None) -> Law:
-    """The global minimum by variable projection; every method starts from it or is it."""
-    name = problem.law.parameter_names[1]
+def first_guess(
+    problem: Problem,
+    bounds: Mapping[str, Bounds],
+    progress: Callable[[float], None] | None = None,
+    near: Law | None = None,
+) -> Law:
+    """The global minimum by variable projection; every method starts from it or is it.
+
+    `near` is a law that is known to be close to it.
+    """
+    ends = search_range(problem, bounds)
+    return search(problem, ends, progress, None if near is None else float(near.parameters[1]))
+
+
+def search_range(problem: Problem, bounds: Mapping[str, Bounds]) -> Bounds:
+    """Range of tau_max [s] (or alpha [-]) that is searched."""
     low, high = time_bounds(problem)
-    given = bounds.get(name, (0.0, np.inf))
-    return search(problem, (max(low, given[0]), min(high, given[1])), progress)
+    given = bounds.get(problem.law.parameter_names[1], (0.0, np.inf))
+    return max(low, given[0]), min(high, given[1])

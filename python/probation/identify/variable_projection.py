@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 POINTS = 41
 """Points of the coarse search, evenly spaced in the logarithm."""
 
+NEARBY = 1.5
+"""Factor around a minimum that is known to be close within which it is looked for."""
+
+EDGE = 1.05
+"""A minimum within this factor of an end of the range is at its edge."""
+
 
 def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
     """The best law at one tau_max (or alpha), and its cost.
@@ -33,9 +39,7 @@ def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
     base[1] = nonlinear
     law = problem.law.with_parameters(base)
     _, jacobian = problem.residual_and_jacobian(law)
-    data = np.concatenate(
-        [weight * each.record.true_stress for weight, each in zip(problem.weights, problem.records, strict=True)]
-    )
+    data = problem.data()
     columns = jacobian[:, [0, 2]]
     held = problem.held[[0, 2]]
     values = base[[0, 2]]
@@ -51,7 +55,13 @@ def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
     return problem.law.with_parameters(base), float(np.sum((columns @ values - data) ** 2))
 
 
-def search(problem: Problem, bounds: tuple[float, float], progress: Callable[[float], None] | None = None) -> Law:
+def search(
+    problem: Problem,
+    bounds: tuple[float, float],
+    progress: Callable[[float], None] | None = None,
+    near: float | None = None,
+    tolerance: float = 1e-12,
+) -> Law:
     """The best law over a range of tau_max (or alpha): a coarse search, then Brent's method around its minimum.
 
     Parameters
@@ -60,9 +70,20 @@ def search(problem: Problem, bounds: tuple[float, float], progress: Callable[[fl
         [s] or [-].
     progress : callable, optional
         Called with the fraction done.
+    near : float, optional
+        Where the minimum is but for a factor of `NEARBY`: the coarse search is left out if it is there.
+    tolerance : float
+        Of the logarithm.
     """
     if problem.held[1]:
         return project(problem, float(problem.law.parameters[1]))[0]
+    if near is not None:
+        ends = (np.log(max(near / NEARBY, bounds[0])), np.log(min(near * NEARBY, bounds[1])))
+        if ends[0] < ends[1]:
+            found = _between(problem, ends, tolerance)
+            reach = 1e-3 * (ends[1] - ends[0])
+            if ends[0] + reach < found < ends[1] - reach:  # else the minimum is elsewhere
+                return project(problem, float(np.exp(found)))[0]
     grid = np.linspace(np.log(bounds[0]), np.log(bounds[1]), POINTS)
     costs = []
     for done, point in enumerate(grid):
@@ -71,14 +92,21 @@ def search(problem: Problem, bounds: tuple[float, float], progress: Callable[[fl
             progress((done + 1) / POINTS)
     best = int(np.argmin(costs))
     low, high = grid[max(best - 1, 0)], grid[min(best + 1, POINTS - 1)]
+    point = _between(problem, (low, high), tolerance)
+    if project(problem, float(np.exp(point)))[1] > costs[best]:
+        point = float(grid[best])
+    return project(problem, float(np.exp(point)))[0]
+
+
+def _between(problem: Problem, bounds: tuple[float, float], tolerance: float) -> float:
+    """Logarithm of the tau_max (or alpha) of least cost between two logarithms, by Brent's method."""
     found = minimize_scalar(
         lambda point: project(problem, float(np.exp(point)))[1],
-        bounds=(low, high),
+        bounds=bounds,
         method="bounded",
-        options={"xatol": 1e-12},
+        options={"xatol": tolerance},
     )
-    point = found.x if found.fun <= costs[best] else grid[best]
-    return project(problem, float(np.exp(point)))[0]
+    return float(found.x)
 
 
 def time_bounds(problem: Problem) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """Records: what laboratories measured, read into MPa, seconds and true strain."""
 
+from probation.records.calibration_settings import CalibrationSettings
 from probation.records.campaign import Campaign
 from probation.records.preview import Preview, preview
 from probation.records.profiles import PROFILES
@@ -10,6 +11,7 @@ from probation.records.strain_history import StrainHistory, read_strain_history
 
 __all__ = [
     "PROFILES",
+    "CalibrationSettings",
     "Campaign",
     "CompanionSettings",
     "LawSettings",

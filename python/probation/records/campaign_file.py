@@ -1,10 +1,13 @@
 """campaign.toml to settings and records; everything wrong in it is named by its row."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from probation.errors import InputError
+from probation.records.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
 from probation.records.complaint import bad_input, quoted, suggestion
 from probation.records.encoding import decode
 from probation.records.options import SPECIMEN_KEYS
@@ -30,6 +33,7 @@ _RECORD_KEYS = (
     "sheet",
     "noise",
     "temperature_file",
+    "temperature_C",
 )
 
 
@@ -109,9 +113,29 @@ def _law(table: TomlTable) -> LawSettings:
 def _companion(table: TomlTable) -> CompanionSettings:
     form = table.text("form", known=COMPANION_FORMS)
     names = COMPANION_FORMS[form]
-    table.only(("form", *names))
+    table.only(("form", *names, *CALIBRATION_KEYS))
     read = table.numbers if form == "table" else table.number
-    return CompanionSettings(form=form, parameters={name: read(name) for name in names})
+    parameters = {name: read(name) for name in names}
+    return CompanionSettings(form=form, parameters=parameters, calibration=_calibration(table))
+
+
+def _calibration(table: TomlTable) -> CalibrationSettings | None:
+    if not set(CALIBRATION_KEYS) & set(table.values):
+        return None
+    rates = None
+    if "calibrated_rates_per_s" in table.values:
+        found = table.numbers("calibrated_rates_per_s")
+        if len(found) != 2:
+            raise table.complain("calibrated_rates_per_s", f"{len(found)} calibrated_rates_per_s", "two, slowest first")
+        rates = (found[0], found[1])
+    return CalibrationSettings(
+        rates=rates,
+        covariance=table.rows_of_numbers("covariance") if "covariance" in table.values else None,
+        log_scatter=table.number("log_scatter", 0.0),
+        unrelaxed_modulus_MPa=table.number("unrelaxed_modulus_MPa")
+        if "unrelaxed_modulus_MPa" in table.values
+        else None,
+    )
 
 
 def _check_ids(entries: list[TomlTable]) -> None:
@@ -157,7 +181,11 @@ def _record(folder: Path, entry: TomlTable) -> Record:
     )
     if "temperature_file" in entry.values:
         return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
-    return record
+    if "temperature_C" not in entry.values:
+        return record
+    if record.temperature is not None:
+        raise entry.complain("temperature_C", "it beside a column of temperatures", "one of the two", "leave it out")
+    return replace(record, temperature=np.full(len(record), entry.number("temperature_C")))
 
 
 def _label(columns: TomlTable, role: str) -> str | int:

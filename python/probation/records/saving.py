@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from probation.records.record import Record
-from probation.records.settings import LawSettings
+from probation.records.settings import CompanionSettings, LawSettings
 
 _HEADINGS = {
     "time": "time_s",
@@ -50,7 +50,7 @@ def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_n
     """Write the campaign.toml of records saved under these file names."""
     parts = [_lines({"name": name}), "[law]\n" + _lines({"modes": law.modes, "decades": law.decades})]
     if law.companion is not None:
-        parts.append("[law.companion]\n" + _lines({"form": law.companion.form, **law.companion.parameters}))
+        parts.append(companion_text(law.companion))
     if law.fixed:
         parts.append("[law.fixed]\n" + _lines(law.fixed))
     for record, file_name in zip(records, file_names, strict=True):
@@ -59,6 +59,21 @@ def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_n
         entry = {"id": record.id, "file": file_name, "control": record.control, "role": record.role}
         parts.append("[[record]]\n" + _lines({**entry, **({"noise": known} if known else {})}))
     return "\n".join(parts)
+
+
+def companion_text(companion: CompanionSettings) -> str:
+    """Write the [law.companion] of a campaign.toml."""
+    entry: dict[str, object] = {"form": companion.form, **companion.parameters}
+    known = companion.calibration
+    if known is not None:
+        optional = {
+            "calibrated_rates_per_s": known.rates,
+            "log_scatter": known.log_scatter or None,
+            "unrelaxed_modulus_MPa": known.unrelaxed_modulus_MPa,
+            "covariance": known.covariance,
+        }
+        entry |= {key: value for key, value in optional.items() if value is not None}
+    return "[law.companion]\n" + _lines(entry)
 
 
 def write_atomically(path: Path, text: str) -> None:

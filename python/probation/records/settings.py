@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from probation.errors import InputError
+from probation.records.calibration_settings import CalibrationSettings
 from probation.records.complaint import listed, quoted, suggestion
 
 COMPANION_FORMS: dict[str, tuple[str, ...]] = {
@@ -27,6 +28,8 @@ class CompanionSettings:
     parameters : dict of str to (float or tuple of float)
         ``slope``, ``intercept`` [-]; ``coefficient`` [s], ``exponent`` [-]; or
         ``rates`` [1/s] and ``tau_max_s`` [s], both shape (n,), rates increasing.
+    calibration : CalibrationSettings or None
+        How well it is known.
 
     Raises
     ------
@@ -36,6 +39,7 @@ class CompanionSettings:
 
     form: str
     parameters: Mapping[str, float | tuple[float, ...]]
+    calibration: CalibrationSettings | None = None
 
     def __post_init__(self) -> None:
         if self.form not in COMPANION_FORMS:
@@ -52,6 +56,9 @@ class CompanionSettings:
             self._check_table()
         elif frozen.get("coefficient", 1.0) <= 0.0:  # type: ignore[operator]
             raise InputError(f"companion {self.form!r}: found coefficient = {frozen['coefficient']}, expected > 0")
+        if self.calibration is not None:
+            tau_max = frozen.get("tau_max_s")
+            self.calibration.check_covariance(len(tau_max) if isinstance(tau_max, tuple) else len(known))
 
     def _checked(self, name: str) -> float | tuple[float, ...]:
         value = self.parameters[name]

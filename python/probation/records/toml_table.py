@@ -93,12 +93,25 @@ class TomlTable:
 
     def numbers(self, key: str) -> tuple[float, ...]:
         """Get a list of finite numbers."""
-        values: list[object] = self._typed(key, list, None)
+        return self._finite(key, self._typed(key, list, None))
+
+    def _finite(self, key: str, values: list[object]) -> tuple[float, ...]:
+        """Check the entries of a list."""
         for value in values:
             finite = isinstance(value, int | float) and float("-inf") < value < float("inf")
             if isinstance(value, bool) or not finite:
                 raise self.complain(key, f"{value!r} in {key}", "finite numbers only")
         return tuple(float(value) for value in values if isinstance(value, int | float))
+
+    def rows_of_numbers(self, key: str) -> tuple[tuple[float, ...], ...]:
+        """Get a list of lists of finite numbers."""
+        values: list[object] = self._typed(key, list, None)
+        rows = []
+        for value in values:
+            if not isinstance(value, list):
+                raise self.complain(key, f"{value!r} in {key}", "a list of lists of numbers")
+            rows.append(self._finite(key, value))
+        return tuple(rows)
 
     def table(self, key: str) -> "TomlTable":
         """Get a table of its own, or written in braces; empty where there is none."""

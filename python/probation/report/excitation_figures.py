@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.ticker import LogFormatter
 
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour, series_colour
@@ -61,6 +62,8 @@ def rate_figure(answer: RecordExcitation) -> Figure:
         below.plot(*thinned(time, 100.0 * part), color=colour("model"), lw=1.0)
         if part.max() > 0.0:
             below.set_yscale("log")
+            for formatter in (below.yaxis.set_major_formatter, below.yaxis.set_minor_formatter):
+                formatter(LogFormatter(minor_thresholds=(1.0, 0.4)))  # 0.5, not 5×10⁻¹
         below.set(xlabel=_TIME, ylabel="standard error [%]")
         figure.align_ylabels()
     return figure

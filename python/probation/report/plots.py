@@ -56,7 +56,10 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
         for at, curve in enumerate(curves):
             measured = thinned(curve.true_strain, curve.measured, _DOTS)
             label = "measured" if at == 0 else None
-            above.plot(*measured, ".", ms=5, color=colour("data"), mew=0, zorder=1.5, label=label)
+            dots = colour("data") if count == 1 else series_colour(at)
+            above.plot(
+                *measured, ".", ms=5, color=dots, alpha=1.0 if count == 1 else 0.35, mew=0, zorder=1.5, label=label
+            )
             name = curve.name if count > 1 else "model"
             above.plot(*thinned(curve.true_strain, curve.model), color=series_colour(at), lw=1.1, label=name)
             _residual(below[at], curve, series_colour(at))
@@ -66,7 +69,9 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
         figure.canvas.draw()
         for at, axes in enumerate(below):
             prefix = f"{curves[at].name}, " if count > 1 else ""
-            _note(axes, f"{prefix}model − measured, magnified {float(f'{_magnification(above, axes):.2g}'):g} times")
+            times = float(f"{_magnification(above, axes):.2g}")
+            magnified = f", magnified {times:g} times" if times > 1.2 else ""  # at about one it says nothing
+            _note(axes, f"{prefix}model − measured{magnified}")
     return figure
 
 

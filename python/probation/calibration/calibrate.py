@@ -1,0 +1,383 @@
+"""`probation.calibrate_companion`: from tests at several rates to a companion relation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from probation._arrays import FloatArray, one_of
+from probation.calibration.calibrated import CalibratedCompanion
+from probation.calibration.cross_validation import apart, best, leave_one_rate_out
+from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
+from probation.calibration.forms import CHOOSABLE, FORMS, NAMEABLE, Form
+from probation.calibration.left_out import leave_one_rate_out as foretell
+from probation.calibration.left_out import record_alpha
+from probation.calibration.rate_table import RateTable, rate_groups
+from probation.calibration.record_fits import (
+    MODULI,
+    NEARLY_CONSTANT,
+    Modulus,
+    RecordFits,
+    RecordRate,
+    fit_records,
+    record_rate,
+    spread_warnings,
+)
+from probation.calibration.regression import Regression, excess_scatter, regress
+from probation.calibration.result import Calibration, Candidate
+from probation.errors import InputError
+from probation.excitation import excite
+from probation.law import SCHEMES, Scheme
+from probation.records import Campaign
+from probation.report.provenance import samples_sha256
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from probation.calibration.cross_validation import Score
+    from probation.calibration.direct import DirectFit
+    from probation.calibration.left_out import Foretold
+
+    Progress = Callable[[int, int, str], None]
+
+Route = Literal["auto", "by-rate", "direct"]
+ROUTES: tuple[Route, ...] = ("auto", "by-rate", "direct")
+
+_FEWEST_CHOICES = 3  # distinct rates from which on one can be left out
+_FAR = 0.05  # scatter of E_u between records that is worth a word
+
+
+def calibrate_companion(
+    source: Campaign | RateTable,
+    *,
+    form: str = "auto",
+    route: Route = "auto",
+    modulus: Modulus = "shared",
+    hardening: Hardening = "by-record",
+    scheme: Scheme = "sa3",
+    progress: Progress | None = None,
+) -> Calibration:
+    """Calibrate companion relations on tests at several strain rates.
+
+    Parameters
+    ----------
+    source : Campaign or RateTable
+        Records at several rates (those with role "identify"), or relaxation times that were identified on some.
+    form : str
+        "auto" takes the form with the lowest error on rates left out; else "weissenberg" (11), "exponential" (12),
+        "power" or "table".
+    route : {"auto", "by-rate", "direct"}
+        Of a campaign. "by-rate" fits each record alone with a constant tau_max and regresses these, and is refused
+        where a rate is not nearly constant; "direct" identifies the relation's parameters on all records at once,
+        through the law with alpha = 1; "auto" takes by-rate where it can, and checks it by the direct route.
+    modulus : {"shared", "free"}
+        Whether E_u is one for all records (the default: it belongs to the material, and E_u and tau_max of one record
+        are all but collinear) or each record's own. The direct route always shares it. `law.fixed` wins over both.
+    hardening : {"by-record", "shared"}
+        G in the direct route. Each record its own by default: in Table 2 it grows by 60 % with the rate, and one G for
+        all would bias the relation.
+    scheme : {"be2", "sa2", "sa3"}
+    progress : callable, optional
+        Told ``(done, total, what)``.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    InputError
+        For an unknown option, one strain rate only, or a record whose rate does not suit the route.
+
+    References
+    ----------
+    André et al., section 5.1, Table 2, eqs. (10)-(12), Figure S2.
+
+    Examples
+    --------
+    >>> found = calibrate_companion(TABLE_2, form="weissenberg")
+    >>> found.companion.parameters.round(4)
+    array([0.0046, 0.0406])
+    """
+    if form != "auto":
+        one_of(form, "form", ("auto", *NAMEABLE))
+    one_of(route, "route", ROUTES)
+    one_of(modulus, "modulus", MODULI)
+    one_of(hardening, "hardening", HARDENINGS)
+    if one_of(scheme, "scheme", SCHEMES) in ("exact", "cvode"):
+        raise InputError(f"scheme is {scheme!r}; calibration needs sensitivities: use be2, sa2 or sa3")
+    if isinstance(source, RateTable):
+        return _on_table(source, form)
+    if not isinstance(source, Campaign):
+        raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
+    told = progress or (lambda done, total, what: None)
+    driven = []
+    for at, record in enumerate(source.identify):
+        told(at, len(source.identify), f"strain rate of {record.id}")
+        driven.append(excite(record))
+    rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
+    steady = all(each.spread <= NEARLY_CONSTANT for each in rates)
+    if route == "by-rate" and not steady:
+        worst = max(rates, key=lambda each: each.spread)
+        raise InputError(
+            f"campaign {source.name!r}, record {worst.id!r}: found strain rates from {worst.slow:.2g} to "
+            f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
+            f"{NEARLY_CONSTANT:g}): a tau_max of its own is confounded with the relation; use the direct route"
+        )
+    if route == "direct" or not steady:
+        _need_spread(source, rates)
+        return _direct(source, DirectProblem(source.identify, source.law, scheme, hardening, driven), rates, form, told)
+    _need_two_rates(source, rates)
+    fits = fit_records(source, rates, modulus=modulus, scheme=scheme, progress=told)
+    rms = [each.rms_MPa for each in fits.fits]
+    problem = DirectProblem(source.identify, source.law, scheme, hardening, driven, rms)
+    return _by_rate(source, fits, problem, form, told)
+
+
+def _on_table(table: RateTable, form: str) -> Calibration:
+    regressions = _regressions(table, form)
+    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
+    chosen, how, clear = _choice(form, scores)
+    samples = [table.rates, table.tau_max] + ([] if table.se is None else [table.se])
+    return Calibration(
+        source=table.source,
+        route="table",
+        table=table,
+        candidates={name: _candidate(each, scores.get(name), None) for name, each in regressions.items()},
+        chosen=chosen,
+        chosen_by=how,
+        told_apart=clear,
+        warnings=tuple(_table_warnings(table, regressions[chosen])),
+        data_sha256=samples_sha256(*samples),
+    )
+
+
+def _by_rate(
+    campaign: Campaign, fits: RecordFits, problem: DirectProblem, form: str, progress: Progress
+) -> Calibration:
+    table, rates = fits.table, fits.rates
+    regressions = _regressions(table, form)
+    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
+    chosen, how, clear = _choice(form, scores)
+    check = None
+    if chosen != "table":
+        progress(1, 1, "all records at once, as a check")
+        check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
+    warnings = [*campaign.warnings, *spread_warnings(rates), *_table_warnings(table, regressions[chosen])]
+    if fits.modulus_spread > _FAR:
+        warnings.append(
+            f"E_u of the records alone scatters by {100 * fits.modulus_spread:.0f} % more than its standard errors: "
+            "sharing it moves τ_max of each record by as much the other way"
+        )
+    return Calibration(
+        source=campaign.name,
+        route="by-rate",
+        table=table,
+        candidates={name: _candidate(each, scores.get(name), fits) for name, each in regressions.items()},
+        chosen=chosen,
+        chosen_by=how,
+        told_apart=clear,
+        record_rates=rates,
+        record_fits=fits,
+        check=check,
+        warnings=tuple(warnings),
+        data_sha256=campaign.data_hash,
+    )
+
+
+def _direct(
+    campaign: Campaign, problem: DirectProblem, rates: tuple[RecordRate, ...], form: str, progress: Progress
+) -> Calibration:
+    if form == "table":
+        raise InputError(
+            "form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential"
+        )
+    whole = _range(rates)
+    labels = tuple(each.id for each in rates)
+    medians = np.array([each.rate for each in rates])
+    groups = rate_groups(medians)
+    forms = {name: each for name, each in FORMS.items() if name != "table" and (not each.same_as or name == form)}
+    leaving = len(groups) >= _FEWEST_CHOICES
+    total = len(forms) * (1 + len(groups) * leaving)
+    done = 0
+
+    def advance(what: str) -> None:
+        nonlocal done
+        progress(done, total, what)
+        done += 1
+
+    coarse = problem.thinned()
+    anchor = _anchor(coarse, whole)
+    fits: dict[str, DirectFit] = {}
+    for name, each in forms.items():
+        advance(f"{name} on all records")
+        fits[name] = _from_coarse(problem, coarse, each, _starts(each, anchor, whole), whole)
+    scores: dict[str, Score] = {}
+    foretold: tuple[Foretold, ...] = ()
+    if leaving:
+        scores, foretold = foretell(
+            coarse,
+            groups,
+            forms,
+            lambda each: _starts(each, anchor, whole),
+            lambda kept: _range([rates[at] for at in kept]),
+            advance,
+        )
+    left = {name: float(np.sqrt(np.mean(np.square(each.rms)))) for name, each in fits.items()}
+    chosen, how, clear = _choice(form, scores, left)
+    warnings = list(campaign.warnings)
+    if len(groups) == 1:
+        warnings.append(
+            f"all records run at one rate ({medians.min():.2g} to {medians.max():.2g} 1/s): the relation is read "
+            "from how "
+            "their rate changes with strain, and is confounded with whatever else changes with strain"
+        )
+    return Calibration(
+        source=campaign.name,
+        route="direct",
+        table=None,
+        candidates={
+            name: _direct_candidate(coarse, FORMS[name], each, scores.get(name), labels) for name, each in fits.items()
+        },
+        chosen=chosen,
+        chosen_by=how,
+        told_apart=clear,
+        record_rates=rates,
+        foretold=foretold,
+        hardening=problem.hardening,
+        warnings=tuple(warnings),
+        data_sha256=campaign.data_hash,
+    )
+
+
+def _from_coarse(
+    problem: DirectProblem, coarse: DirectProblem, form: Form, starts: list[FloatArray], whole: tuple[float, float]
+) -> DirectFit:
+    """Search on few samples, end on all of them."""
+    begun = coarse.fit(form, starts, whole).companion.parameters
+    try:
+        return problem.fit(form, [begun], whole)
+    except InputError:  # a sample that was left out has a rate at which that relation gives no positive time
+        return problem.fit(form, starts, whole)
+
+
+def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
+    """Every form that this table can have; of two that are one function here, only one unless it was asked for."""
+    found = {}
+    for name, each in FORMS.items():
+        if table.se is not None and each.same_as and name != form:
+            continue
+        if each.count(len(table.groups)) <= len(table.groups):
+            found[name] = regress(each, table)
+    return found
+
+
+def _choice(
+    form: str, scores: Mapping[str, Score], left: Mapping[str, float] | None = None
+) -> tuple[str, str, tuple[str, ...]]:
+    """The form, how it was chosen, and which others are told apart from it; `left`: rms of each form's fit [MPa]."""
+    lowest = best(scores)
+    if form != "auto":
+        return form, "request", ()
+    if lowest is None:
+        if left:
+            return min((name for name in CHOOSABLE if name in left), key=lambda name: left[name]), "fit", ()
+        return CHOOSABLE[0], "preference", ()
+    others = [name for name in CHOOSABLE if name in scores and name != lowest]
+    return lowest, "cross-validation", tuple(name for name in others if apart(scores[lowest], scores[name]))
+
+
+def _candidate(regression: Regression, score: Score | None, fits: RecordFits | None) -> Candidate:
+    """The regression, its covariance widened by that of the shared E_u."""
+    covariance, modulus = regression.covariance, None
+    if fits is not None and fits.unrelaxed_modulus is not None and covariance is not None:
+        modulus = fits.unrelaxed_modulus
+        slope = fits.log_slope
+        if len(slope) != regression.gain.shape[1]:  # a table: replicates are one row
+            slope = np.array([fits.log_slope[group].mean() for group in fits.table.groups])
+        along = np.append(regression.gain @ slope / modulus, 1.0)  # with E_u, per MPa
+        covariance = np.pad(covariance, (0, 1)) + fits.unrelaxed_modulus_se**2 * np.outer(along, along)
+    return Candidate(
+        regression.form,
+        CalibratedCompanion(regression.relation, covariance, regression.log_scatter, modulus, regression.form),
+        regression.table.labels,
+        regression.percent_residual,
+        regression.r_squared,
+        score,
+        degrees=regression.degrees if _scattered(regression) else None,
+    )
+
+
+def _scattered(regression: Regression) -> bool:
+    """Whether the covariance is mostly a scatter that few rows tell: its intervals are Student's."""
+    error = regression.table.log_error
+    return regression.log_scatter > (0.0 if error is None else float(np.median(error)))
+
+
+def _direct_candidate(
+    problem: DirectProblem, form: Form, fitted: DirectFit, score: Score | None, labels: tuple[str, ...]
+) -> Candidate:
+    """The fit, and the scatter around it that each record's own alpha shows."""
+    relation = fitted.companion.relation
+    own = [record_alpha(problem, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
+    residual = np.array([-each.log_alpha for each in own])
+    degrees = len(labels) - len(form.parameter_names)
+    errors = np.array([each.se for each in own])
+    scatter = excess_scatter(residual, errors, degrees) if degrees > 0 and np.all(np.isfinite(errors)) else 0.0
+    companion = replace(fitted.companion, log_scatter=scatter)
+    return Candidate(form, companion, labels, 100.0 * np.expm1(residual), float("nan"), score, fitted)
+
+
+def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
+    found = []
+    if chosen.covariance is None:
+        found.append(
+            "as many rates as parameters and no standard errors: the relation goes through every point, and nothing is "
+            "known of its uncertainty"
+        )
+    elif chosen.degrees == 0 and chosen.form.parameter_names:
+        found.append(
+            f"{len(table)} rates for {len(chosen.parameters)} parameters: the relation goes through every point, and "
+            "its "
+            "errors are those of the points alone; a third rate would put the form to the test"
+        )
+    return found
+
+
+def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
+    """Refuse records at one rate, before anything is fitted."""
+    RateTable(
+        np.array([each.rate for each in rates]),
+        np.ones(len(rates)),
+        labels=tuple(f"record {each.id!r}" for each in rates),
+        source=f"campaign {campaign.name!r}",
+    )
+
+
+def _need_spread(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
+    """Refuse one rate, unless it changes within the records."""
+    slowest, fastest = _range(rates)
+    if fastest < NEARLY_CONSTANT * slowest:
+        _need_two_rates(campaign, rates)
+
+
+def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
+    return min(each.slow for each in rates), max(each.fast for each in rates)
+
+
+def _anchor(problem: DirectProblem, whole: tuple[float, float]) -> float:
+    """A constant tau_max that fits all records best [s], for the searches to begin from."""
+    form = FORMS["constant"]
+    shortest, longest = problem.time_bounds()
+    starts = [np.array([value]) for value in np.geomspace(100.0 * shortest, 1e-3 * longest, 6)]
+    return float(problem.fit(form, starts, whole).companion.parameters[0])
+
+
+def _starts(form: Form, anchor: float, whole: tuple[float, float]) -> list[FloatArray]:
+    """Relations through the anchor at the middle rate, steep and flat."""
+    ends = np.array(whole)
+    middle = np.sqrt(whole[0] * whole[1])
+    exponents = (-1.0, -0.6, -0.2) if len(form.parameter_names) > 1 else (0.0,)
+    return [form.start(ends, anchor * (ends / middle) ** exponent) for exponent in exponents]

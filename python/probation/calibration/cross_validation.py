@@ -1,0 +1,93 @@
+"""Which form foretells a rate that it has not seen: each rate left out in turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import fdtri
+
+from probation.calibration.forms import CHOOSABLE, FORMS
+from probation.calibration.regression import regress
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.calibration.rate_table import RateTable
+    from probation.calibration.regression import Regression
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """How well one form foretells what was left out.
+
+    Attributes
+    ----------
+    form : str
+    log_error : ndarray, shape (n,)
+        Foretold minus identified ln tau_max, each row by the relation of the other rates; NaN where there is none.
+    weights : ndarray, shape (n,)
+        Of its square, alike for all forms.
+    """
+
+    form: str
+    log_error: FloatArray
+    weights: FloatArray
+
+    @property
+    def rms(self) -> float:
+        """Weighted root mean square of the error in ln tau_max [-]; NaN where it cannot be had."""
+        return float(np.sqrt(np.average(self.log_error**2, weights=self.weights)))
+
+    @property
+    def largest(self) -> float:
+        """Largest error in ln tau_max [-]."""
+        return float(np.max(np.abs(self.log_error)))
+
+
+def leave_one_rate_out(table: RateTable, regressions: Mapping[str, Regression]) -> dict[str, Score]:
+    """Foretell each rate from the others, by every form that was regressed.
+
+    Rows are weighted by their errors, where known: 1 / (standard error² + s²), s the scatter around the best of the
+    forms, so that one row with a tiny error does not decide alone.
+    """
+    weights = np.ones(len(table))
+    error = table.log_error
+    if error is not None:
+        least = min((regressions[name].log_scatter for name in CHOOSABLE if name in regressions), default=0.0)
+        weights = 1.0 / (error**2 + least**2)
+    scores = {}
+    for name in regressions:
+        foretold = np.full(len(table), np.nan)
+        for group in table.groups:
+            try:
+                relation = regress(FORMS[name], table.without(group)).relation
+                foretold[group] = np.log(relation.relaxation_time(table.rates[group]))
+            except InputError:  # too few rates are left, or no positive time there
+                continue
+        scores[name] = Score(name, foretold - np.log(table.tau_max), weights)
+    return scores
+
+
+def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str | None:
+    """The form with the lowest score, the first of equals; None where no score could be had."""
+    known = [name for name in among if name in scores and np.isfinite(scores[name].rms)]
+    if not known:
+        return None
+    lowest = min(scores[name].rms for name in known)
+    return next(name for name in known if scores[name].rms <= lowest * (1.0 + 1e-6))
+
+
+def apart(one: Score, other: Score) -> bool:
+    """Whether the second's mean square is above the first's by more than chance: an F test at 5 %.
+
+    Crude, since the errors of two forms on the same rates are no independent draws; it asks for a factor of 2.2 in the
+    rms with five rates, of 3 with three.
+    """
+    count = int(np.sum(np.isfinite(one.log_error)))
+    if count == 0 or not np.isfinite(other.rms):
+        return False
+    return bool(other.rms**2 > float(fdtri(count, count, 0.95)) * one.rms**2)

@@ -1,0 +1,145 @@
+"""Records foretold by the relation of the others: nothing adjusted, and how far alpha would have to move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.calibration.cross_validation import Score
+from probation.errors import InputError
+from probation.identify.covariance import covariance
+from probation.identify.problem import Problem
+from probation.identify.variable_projection import search
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.calibration.direct import DirectFit, DirectProblem
+    from probation.calibration.forms import Form
+    from probation.companion import Companion
+
+_ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation foretells nothing
+
+
+@dataclass(frozen=True, eq=False)
+class RecordAlpha:
+    """What one record makes of a relation, E_u held.
+
+    Attributes
+    ----------
+    log_alpha : float
+        ln of the uniform correction of tau_max that fits the record best, G free [-].
+    se : float
+        Its standard error; infinite where the record does not determine it.
+    rms : float
+        Of the fit residual, alpha and G free [MPa].
+    """
+
+    log_alpha: float
+    se: float
+    rms: float
+
+
+@dataclass(frozen=True)
+class Foretold:
+    """One record left out of the calibration, and predicted.
+
+    Attributes
+    ----------
+    record : str
+    form : str
+    rms : float
+        Of the prediction with nothing adjusted: E_u, relation and G are those of the other records [MPa].
+    hardening_rms : float
+        With G free: what of it is the relation's and E_u's [MPa].
+    refit_rms : float
+        With alpha and G free [MPa]: what is left of the form and the law.
+    largest_stress : float
+        Of the record [MPa].
+    """
+
+    record: str
+    form: str
+    rms: float
+    hardening_rms: float
+    refit_rms: float
+    largest_stress: float
+
+
+def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: float) -> RecordAlpha:
+    """Fit alpha and G of one record to a relation, E_u held."""
+    each = problem.records[at]
+    hardening = problem.held_hardening
+    law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
+    alone = Problem(law, [each], (True, False, hardening is not None))
+    best = search(alone, _ALPHAS)
+    residual, jacobian = alone.residual_and_jacobian(best)
+    known = covariance(jacobian[:, alone.free], residual, [len(each.record)], best.parameters[alone.free])
+    rms = _rms(each.stress(best) - each.record.true_stress)
+    assert best.alpha is not None
+    return RecordAlpha(float(np.log(best.alpha)), float(known.relative_error[0]), rms)
+
+
+def leave_one_rate_out(
+    problem: DirectProblem,
+    groups: Sequence[NDArray[np.intp]],
+    forms: Mapping[str, Form],
+    start: Callable[[Form], list[FloatArray]],
+    calibrated: Callable[[Sequence[int]], tuple[float, float]],
+    progress: Callable[[str], None],
+) -> tuple[dict[str, Score], tuple[Foretold, ...]]:
+    """Calibrate on all records but those of one rate, and foretell these; each rate in turn, by every form.
+
+    Parameters
+    ----------
+    problem : DirectProblem
+    groups : sequence of arrays
+        Indices of the records of each rate.
+    forms : mapping of name to Form
+    start : callable
+        Where the search of a form begins.
+    calibrated : callable
+        The range of rates of some records [1/s].
+    progress : callable
+        Told what is being done.
+    """
+    count = len(problem.records)
+    scores, foretold = {}, []
+    for name, form in forms.items():
+        error, weights = np.full(count, np.nan), np.ones(count)
+        for group in groups:
+            kept = [at for at in range(count) if at not in group]
+            progress(f"{name} without {', '.join(problem.records[at].record.id for at in group)}")
+            try:
+                fitted = problem.only(kept).fit(form, start(form), calibrated(kept))
+                for at in group:
+                    each, own = _foretell(problem, int(at), name, fitted)
+                    foretold.append(each)
+                    error[at] = -own.log_alpha
+            except InputError:  # no positive relaxation time at the rates left out
+                continue
+        scores[name] = Score(name, error, weights)
+    return scores, tuple(foretold)
+
+
+def _foretell(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> tuple[Foretold, RecordAlpha]:
+    each = problem.records[at]
+    relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
+    hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
+    error = each.stress(problem.law(relation, modulus, hardening)) - each.record.true_stress
+    own = record_alpha(problem, at, relation, modulus)
+    largest = float(np.max(np.abs(each.record.true_stress)))
+    base = each.stress(problem.law(relation, modulus, 0.0))
+    slope = each.stress(problem.law(relation, modulus, 1.0)) - base  # the stress is linear in G
+    left = base - each.record.true_stress
+    left = left - slope * float(slope @ left) / float(slope @ slope)
+    return Foretold(each.record.id, form, _rms(error), _rms(left), own.rms, largest), own
+
+
+def _rms(error: FloatArray) -> float:
+    return float(np.sqrt(np.mean(error**2)))

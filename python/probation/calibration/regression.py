@@ -1,0 +1,226 @@
+"""One form regressed on relaxation times at several rates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import brentq
+
+from probation.calibration.rate_table import RateTable
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.calibration.forms import Form
+    from probation.companion import Companion
+
+_MOST_STEPS = 100
+
+
+@dataclass(frozen=True, eq=False)
+class Regression:
+    """A form and what the table says of its parameters.
+
+    Attributes
+    ----------
+    form : Form
+    table : RateTable
+    relation : Companion
+    parameters : ndarray, shape (p,)
+    covariance : ndarray, shape (p, p), or None
+        None where it is not known: no standard errors, and no more rates than parameters.
+    log_scatter : float
+        Standard deviation of ln tau_max around the relation that standard errors do not explain [-].
+    degrees : int
+        Rows minus parameters.
+    log_residual : ndarray, shape (n,)
+        Relation minus table, in ln tau_max.
+    r_squared : float
+        In the form's own measure, as the paper's; NaN where there is nothing to explain.
+    gain : ndarray, shape (p, n)
+        Derivative of the parameters with respect to each ln tau_max.
+    """
+
+    form: Form
+    table: RateTable
+    relation: Companion
+    parameters: FloatArray
+    covariance: FloatArray | None
+    log_scatter: float
+    degrees: int
+    log_residual: FloatArray
+    r_squared: float
+    gain: FloatArray
+
+    @property
+    def percent_residual(self) -> FloatArray:
+        """Relation over table minus one, shape (n,) [%]."""
+        return 100.0 * np.expm1(self.log_residual)
+
+
+def regress(form: Form, table: RateTable) -> Regression:
+    """Regress one form.
+
+    With standard errors the weighted squares of the error in ln tau_max are least; scatter beyond them, if there is,
+    is estimated (Paule & Mandel 1982) and widens every weight and the covariance. Without them the squares are those
+    of the form's own measure (We for (11), tau_max for (12), as in the paper), and the covariance takes the errors of
+    tau_max as relative and alike at all rates, of the size of the residual.
+
+    Parameters
+    ----------
+    form : Form
+    table : RateTable
+
+    Raises
+    ------
+    InputError
+        If there are fewer distinct rates than parameters.
+    """
+    table = table if form.parameter_names else _averaged(table)
+    count, needed = len(table.groups), form.count(len(table))
+    if count < needed:
+        raise InputError(f"{table.source}: found {count} distinct rates, expected at least {needed} for {form.name}")
+    error, degrees = table.log_error, len(table) - needed
+    scatter = 0.0
+    if error is None:
+        relation, gain = _least_squares(form, table, None)
+    else:
+        scatter = _fitted_scatter(form, table, error, degrees)
+        relation, gain = _least_squares(form, table, np.hypot(error, scatter))
+    residual = np.log(relation.relaxation_time(table.rates) / table.tau_max)
+    covariance: FloatArray | None = None
+    if error is not None:
+        covariance = gain @ np.diag(error**2 + scatter**2) @ gain.T
+    elif degrees > 0:
+        scatter = float(np.sqrt(residual @ residual / degrees))
+        covariance = scatter**2 * gain @ gain.T
+    return Regression(
+        form,
+        table,
+        relation,
+        form.parameters(relation),
+        covariance,
+        scatter,
+        degrees,
+        residual,
+        _r_squared(form, table, relation),
+        gain,
+    )
+
+
+def measured(form: Form, rates: FloatArray, tau_max: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The form's own measure of relaxation times, and its derivative with respect to ln tau_max; shape (n,) each."""
+    if form.measure == "ln τ_max":
+        return np.log(tau_max), np.ones_like(tau_max)
+    value: FloatArray = tau_max * rates if form.measure == "We" else tau_max
+    return value, value
+
+
+def _least_squares(form: Form, table: RateTable, error: FloatArray | None) -> tuple[Companion, FloatArray]:
+    """Gauss-Newton with halved steps, and the derivative of its result with respect to each ln tau_max.
+
+    Parameters
+    ----------
+    error : ndarray, shape (n,), or None
+        Standard errors of ln tau_max; None for squares in the form's own measure.
+    """
+    rates = table.rates
+    target = measured(form, rates, table.tau_max)[0]
+
+    def relation_at(values: FloatArray) -> Companion | None:
+        try:
+            relation = form.relation(values, rates, table.range)
+            relation.relaxation_time(rates)
+        except InputError:
+            return None
+        return relation
+
+    def residual_of(relation: Companion) -> FloatArray:
+        tau_max = relation.relaxation_time(rates)
+        if error is not None:
+            return np.asarray(np.log(tau_max / table.tau_max) / error)
+        return measured(form, rates, tau_max)[0] - target
+
+    def slopes_of(relation: Companion) -> FloatArray:
+        scale = measured(form, rates, relation.relaxation_time(rates))[1] if error is None else 1.0 / error
+        return form.log_gradient(relation, rates) * scale[:, None]
+
+    values = form.start(rates, table.tau_max)
+    relation = relation_at(values)
+    if relation is None:
+        raise InputError(f"{table.source}: {form.name} gives no positive relaxation time at every rate of the table")
+    for _ in range(_MOST_STEPS):
+        residual, slopes = residual_of(relation), slopes_of(relation)
+        size = np.linalg.norm(slopes, axis=0)
+        step = -np.linalg.lstsq(slopes / size, residual, rcond=None)[0] / size
+        part, cost = 1.0, float(residual @ residual)
+        moved = relation_at(values + step)
+        while part > 1e-6 and (moved is None or np.sum(residual_of(moved) ** 2) > cost):
+            part *= 0.5
+            moved = relation_at(values + part * step)
+        if moved is None or part <= 1e-6:
+            break
+        values, relation = values + part * step, moved
+        if np.all(np.abs(part * step) * size <= 1e-12 * (np.sqrt(cost) + np.linalg.norm(values * size))):
+            break
+    slopes = slopes_of(relation)
+    # d target / d ln tau_max: the measured value's own slope, or the weight.
+    inward = measured(form, rates, table.tau_max)[1] if error is None else 1.0 / error
+    return relation, np.asarray(np.linalg.pinv(slopes) * inward)
+
+
+def excess_scatter(residual: FloatArray, error: FloatArray, degrees: int) -> float:
+    """Scatter beyond the standard errors that brings chi squared down to its degrees of freedom; 0 if it is there.
+
+    Paule & Mandel (1982).
+
+    Parameters
+    ----------
+    residual, error : ndarray, shape (n,)
+    degrees : int
+        Positive.
+    """
+
+    def excess(scatter: float) -> float:
+        return float(np.sum(residual**2 / (error**2 + scatter**2))) - degrees
+
+    if excess(0.0) <= 0.0:
+        return 0.0
+    high = float(np.sqrt(residual @ residual / degrees))  # there chi squared is below its degrees of freedom
+    return float(brentq(excess, 0.0, high, rtol=1e-6))
+
+
+def _fitted_scatter(form: Form, table: RateTable, error: FloatArray, degrees: int) -> float:
+    """`excess_scatter` around the relation that is best with it."""
+    scatter = 0.0
+    for _ in range(_MOST_STEPS if degrees else 0):
+        relation, _ = _least_squares(form, table, np.hypot(error, scatter))
+        before = scatter
+        scatter = excess_scatter(np.log(relation.relaxation_time(table.rates) / table.tau_max), error, degrees)
+        if abs(scatter - before) <= 1e-6 * scatter:
+            break
+    return scatter
+
+
+def _r_squared(form: Form, table: RateTable, relation: Companion) -> float:
+    value = measured(form, table.rates, table.tau_max)[0]
+    left = value - measured(form, table.rates, relation.relaxation_time(table.rates))[0]
+    spread = float(np.sum((value - value.mean()) ** 2))
+    return 1.0 - float(left @ left) / spread if spread > 0.0 else float("nan")
+
+
+def _averaged(table: RateTable) -> RateTable:
+    """One row per distinct rate: the (weighted) mean of ln tau_max over its replicates."""
+    error = table.log_error
+    weights = np.ones(len(table)) if error is None else 1.0 / error**2
+    rates, tau_max, se, labels = [], [], [], []
+    for group in table.groups:
+        part = weights[group]
+        rates.append(float(np.exp(np.average(np.log(table.rates[group]), weights=part))))
+        tau_max.append(float(np.exp(np.average(np.log(table.tau_max[group]), weights=part))))
+        se.append(tau_max[-1] / np.sqrt(part.sum()))
+        labels.append(", ".join(table.labels[at] for at in group))
+    known = None if error is None else np.array(se)
+    return RateTable(np.array(rates), np.array(tau_max), known, None, tuple(labels), table.source)

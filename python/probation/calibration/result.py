@@ -1,0 +1,307 @@
+"""What `calibrate_companion` found: relations, how well they are known, which one, and why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import stdtrit
+
+from probation.answers import json_answer
+from probation.calibration.rate_table import rate_groups
+from probation.calibration.summary import percent, summary_text
+from probation.records.saving import companion_text
+from probation.records.settings import LawSettings
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.calibration.calibrated import CalibratedCompanion
+    from probation.calibration.cross_validation import Score
+    from probation.calibration.direct import DirectFit
+    from probation.calibration.forms import Form
+    from probation.calibration.left_out import Foretold
+    from probation.calibration.paper_relations import PaperRelations
+    from probation.calibration.rate_table import RateTable
+    from probation.calibration.record_fits import RecordFits, RecordRate
+    from probation.records import Campaign
+
+SCHEMA = "probation.companion/1"
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One form, calibrated.
+
+    Attributes
+    ----------
+    form : Form
+    companion : CalibratedCompanion
+    labels : tuple of str
+        Of the rows or records below.
+    percent_residual : ndarray, shape (n,) [%]
+        Relation over what each row (or record) says by itself, minus one.
+    r_squared : float
+        In the form's own measure; NaN for the direct route.
+    score : Score or None
+        On rates left out.
+    direct : DirectFit or None
+        Where it was identified through the law.
+    degrees : int or None
+        Of Student's t for its intervals; None for the normal distribution.
+    """
+
+    form: Form
+    companion: CalibratedCompanion
+    labels: tuple[str, ...]
+    percent_residual: FloatArray
+    r_squared: float
+    score: Score | None
+    direct: DirectFit | None = None
+    degrees: int | None = None
+
+    def interval95(self) -> FloatArray | None:
+        """Of the parameters, shape (p, 2); None where nothing is known of their errors."""
+        errors = self.companion.standard_errors
+        if not np.all(np.isfinite(errors)):
+            return None
+        reach = (1.959964 if self.degrees is None else float(stdtrit(self.degrees, 0.975))) * errors
+        values = self.companion.parameters
+        return np.stack([values - reach, values + reach], axis=1)
+
+    def to_dict(self) -> dict[str, object]:
+        """Numbers only."""
+        known, interval = self.companion, self.interval95()
+        errors = known.standard_errors
+        parameters = {
+            name: {
+                "value": float(value),
+                "se": float(errors[at]),
+                "interval95": None if interval is None else interval[at],
+            }
+            for at, (name, value) in enumerate(zip(known.parameter_names, known.parameters, strict=True))
+        }
+        return {
+            "form": self.form.name,
+            "title": self.form.title,
+            "parameters": parameters,
+            "covariance": known.covariance,
+            "log_scatter": known.log_scatter,
+            "unrelaxed_modulus_MPa": known.unrelaxed_modulus,
+            "calibrated_rates_per_s": known.relation.calibrated,
+            "r_squared": self.r_squared,
+            "r_squared_of": self.form.measure,
+            "residual_percent": dict(zip(self.labels, self.percent_residual.tolist(), strict=True)),
+            "left_out": None
+            if self.score is None
+            else {"rms": self.score.rms, "largest": self.score.largest, "log_error": self.score.log_error},
+            "rms_MPa": None if self.direct is None else dict(zip(self.labels, self.direct.rms.tolist(), strict=True)),
+        }
+
+
+_REASONS = {
+    "request": "as asked for",
+    "fit": "it leaves least on these records; too few rates to leave one out",
+    "preference": "by preference: too few rates to leave one out",
+    "cross-validation": "it foretells left-out rates best",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """Companion relations calibrated on one source.
+
+    Attributes
+    ----------
+    source : str
+    route : {"table", "by-rate", "direct"}
+    table : RateTable or None
+        tau_max at each rate; None for the direct route.
+    candidates : dict of str to Candidate
+        By form.
+    chosen : str
+    chosen_by : {"cross-validation", "request", "fit", "preference"}
+        Where there are too few rates to leave one out, "fit": the form that leaves least on the records themselves;
+        "preference": nothing chooses, the forms' order does.
+    told_apart : tuple of str
+        Forms that foretell left-out rates worse than the chosen one by more than chance.
+    record_rates : tuple of RecordRate
+    record_fits : RecordFits or None
+    check : DirectFit or None
+        Of the by-rate route: the chosen form identified on all records at once.
+    foretold : tuple of Foretold
+        Of the direct route: each record predicted from those at other rates.
+    hardening : str
+        How the direct route takes G.
+    warnings : tuple of str
+    data_sha256 : str
+    """
+
+    source: str
+    route: str
+    table: RateTable | None
+    candidates: dict[str, Candidate]
+    chosen: str
+    chosen_by: str
+    told_apart: tuple[str, ...]
+    record_rates: tuple[RecordRate, ...] = ()
+    record_fits: RecordFits | None = None
+    check: DirectFit | None = None
+    foretold: tuple[Foretold, ...] = ()
+    hardening: str = "by-record"
+    warnings: tuple[str, ...] = field(default=())
+    data_sha256: str = ""
+
+    @property
+    def companion(self) -> CalibratedCompanion:
+        """The chosen relation."""
+        return self.candidates[self.chosen].companion
+
+    @property
+    def paper(self) -> PaperRelations | None:
+        """The paper's (11) and (12) beside these, where the source is its Table 2."""
+        from probation.calibration.paper_relations import paper_relations  # noqa: PLC0415 - identifies on the twins
+        from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
+
+        return paper_relations() if self.table is TABLE_2 else None
+
+    @property
+    def verdict(self) -> str:
+        """One sentence."""
+        chosen = self.candidates[self.chosen]
+        rivals = [
+            each
+            for name, each in self.candidates.items()
+            if name != self.chosen and not each.form.reference and each.score is not None
+        ]
+        low, high = chosen.companion.relation.calibrated or (np.nan, np.nan)
+        start = f"τ_max follows the form {self.chosen} between {low:.2g} and {high:.2g} 1/s"
+        if chosen.score is None or not np.isfinite(chosen.score.rms):
+            largest = float(np.max(np.abs(chosen.percent_residual)))
+            why = _REASONS[self.chosen_by]
+            points = self.table is not None and len(self.table.groups) <= len(chosen.form.parameter_names)
+            how_well = "through every rate, which leaves nothing to test it by" if points else f"to {largest:.2g} %"
+            sentence = f"{start} {how_well} ({why})"
+            if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
+                sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
+            return f"{sentence}."
+        sentence = f"{start}; rates left out are foretold to {percent(chosen.score.rms)} %"
+        for each in rivals if self.chosen_by == "cross-validation" else ():
+            how = "" if each.form.name in self.told_apart else ", not told apart"
+            sentence += f"; {each.form.name} to {percent(each.score.rms if each.score else np.nan)} %{how}"
+        return sentence + "."
+
+    def summary(self) -> str:
+        """Verdict first, then the relations, then the scores."""
+        return summary_text(self)
+
+    def toml(self) -> str:
+        """The [law.companion] to paste into a campaign.toml, covariance and range included."""
+        return companion_text(self.companion.settings())
+
+    def apply(self, campaign: Campaign) -> Campaign:
+        """The campaign with the chosen relation as its companion.
+
+        Where E_u was identified along with the relation it is held from then on, as in the paper: alpha = 1 means
+        something at that E_u only. What the campaign holds itself stays, but for tau_max and alpha.
+
+        Parameters
+        ----------
+        campaign : Campaign
+
+        Returns
+        -------
+        Campaign
+            In memory; `Campaign.save` writes it.
+        """
+        fixed = {name: value for name, value in campaign.law.fixed.items() if name not in ("tau_max_s", "alpha")}
+        if self.companion.unrelaxed_modulus is not None:
+            fixed.setdefault("unrelaxed_modulus_MPa", float(self.companion.unrelaxed_modulus))
+        law = LawSettings(campaign.law.modes, campaign.law.decades, self.companion.settings(), fixed)
+        return replace(campaign, law=law, path=None, file_sha256="")
+
+    def to_dict(self) -> dict[str, object]:
+        """The answer, as Python objects."""
+        companion = self.companion.settings()
+        content: dict[str, object] = {
+            "source": self.source,
+            "data_sha256": self.data_sha256,
+            "verdict": self.verdict,
+            "route": self.route,
+            "chosen": self.chosen,
+            "chosen_by": self.chosen_by,
+            "told_apart": self.told_apart,
+            "companion": {"form": companion.form, **companion.parameters},
+            "relations": {name: each.to_dict() for name, each in self.candidates.items()},
+            "rates": self._rates(),
+        }
+        if self.record_fits is not None:
+            content["unrelaxed_modulus_MPa"] = {
+                "value": self.record_fits.unrelaxed_modulus,
+                "se": self.record_fits.unrelaxed_modulus_se,
+            }
+        if self.check is not None:
+            content["all_records_at_once"] = {
+                "parameters": self.check.companion.parameters,
+                "se": self.check.companion.standard_errors,
+                "unrelaxed_modulus_MPa": self.check.unrelaxed_modulus,
+                "rms_MPa": self.check.rms,
+            }
+        if self.foretold:
+            content["foretold"] = [
+                {
+                    "record": each.record,
+                    "form": each.form,
+                    "rms_MPa": each.rms,
+                    "hardening_free_rms_MPa": each.hardening_rms,
+                    "refit_rms_MPa": each.refit_rms,
+                }
+                for each in self.foretold
+            ]
+        if self.paper is not None:
+            content["paper"] = {
+                "percent": self.paper.percent,
+                "anchored_intercept": self.paper.anchored_intercept,
+                "alpha_ratios": [vars(each) for each in self.paper.ratios],
+                "findings": self.paper.sentences(),
+            }
+        return {**content, "warnings": self.warnings}
+
+    def _rates(self) -> list[dict[str, object]]:
+        if self.table is None:
+            return [
+                {"record": each.id, "rate_per_s": each.rate, "from_per_s": each.slow, "to_per_s": each.fast}
+                for each in self.record_rates
+            ]
+        table = self.table
+        return [
+            {
+                "label": table.labels[at],
+                "rate_per_s": table.rates[at],
+                "tau_max_s": table.tau_max[at],
+                "se_s": None if table.se is None else table.se[at],
+                "hardening_modulus_MPa": None if table.hardening_modulus is None else table.hardening_modulus[at],
+            }
+            for at in range(len(table))
+        ]
+
+    def to_json(self) -> str:
+        """The answer as JSON text, schema "probation.companion/1"."""
+        return json_answer(SCHEMA, self.to_dict())
+
+    def plot(self) -> Figure:
+        """tau_max and We against the strain rate: the paper's Figure S2."""
+        from probation.report.companion_figure import companion_figure  # noqa: PLC0415 - plotting only when asked for
+
+        return companion_figure(self)
+
+    def report(self, path: str | PathLike[str]) -> Path:
+        """Write a self-contained HTML page and return its path."""
+        from probation.report.companion_page import write_companion_page  # noqa: PLC0415
+
+        return write_companion_page(self, Path(path))

@@ -1,0 +1,237 @@
+"""`probation.certify`: the probation test, section 5 of the paper."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation._arrays import as_number
+from probation.calibration import CalibratedCompanion
+from probation.certificate.consistency import Consistency, Estimate, judge
+from probation.certificate.hardening import reaches_hardening, regress_hardening
+from probation.certificate.prediction import predict
+from probation.certificate.result import Certificate
+from probation.certificate.trial import PARAMETERS, Trial, estimates
+from probation.certificate.verdict import decide
+from probation.errors import InputError
+from probation.identify.parameter import outside_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from probation.excitation import Method as ExcitationMethod
+    from probation.identify import Fit
+    from probation.law import Scheme, Start
+    from probation.records import Campaign, Record
+
+SAME_TEMPERATURE = 3.0
+"""Records whose mean temperatures differ by more confound temperature with whatever else differs [°C]."""
+
+TOLERANCE = 0.05
+"""Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."""
+
+
+def certify(
+    campaign: Campaign,
+    scheme: Scheme = "be2",
+    *,
+    tolerance: float = TOLERANCE,
+    hold: Mapping[str, float] | None = None,
+    excitation: ExcitationMethod = "auto",
+    start: Start = "exponential",
+    progress: Callable[[float], None] | None = None,
+) -> Certificate:
+    """Put the law on probation, to see whether it is intrinsic to the material.
+
+    1. The parameters are identified on the records with role "identify"; if the campaign holds them all, they are given.
+    2. The others are predicted with nothing adjusted. Without held-out records each is predicted from all others.
+    3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
+       (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps
+       its value; no prediction uses them. Where E_u itself changes, all are judged on the latter.
+    4. If the law has a companion relation, each record is also identified without it (Figure 3).
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Two records at least.
+    scheme : {"be2", "sa2", "sa3"}
+    tolerance : float
+        Systematic error that is let pass, as a fraction of the record's largest stress.
+    hold : dict of str to float, optional
+        Parameters held, by name with unit; on top of the campaign's own.
+    excitation, start
+        As in `probation.fit`.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
+
+    Returns
+    -------
+    Certificate
+
+    Raises
+    ------
+    InputError
+        For a single record, a tolerance that is not positive, or what `probation.fit` raises.
+
+    References
+    ----------
+    André et al., section 5; Figures 3 to 6, S1; Tables 3, 4.
+    """
+    if as_number(tolerance, "tolerance") <= 0.0:
+        raise InputError(f"tolerance is {tolerance!r}; a positive fraction of the largest stress is needed")
+    if len(campaign.records) < 2:
+        raise InputError(
+            f"campaign {campaign.name!r}: found one record, expected at least two: "
+            "the probation test predicts one record from others"
+        )
+    if hold:
+        campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
+    trial = Trial(campaign, scheme, start, excitation)
+    records = campaign.records
+    rated = campaign.law.companion is not None
+    total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)
+    done = 0
+
+    def step(found: Fit) -> Fit:
+        nonlocal done
+        done += 1
+        if progress:
+            progress(done / total)
+        return found
+
+    base = step(trial.base())
+    relation = CalibratedCompanion.from_settings(campaign.law.companion)
+    predictions = {
+        record.id: predict(source, record, tolerance, excitation, relation)
+        for source, record in _pairs(trial, base, step)
+    }
+    free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
+    modulus, modulus_error = _modulus(base, free, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
+    known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
+    alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
+    parameters = _judge(base, alone, free, modulus_error, relation)
+    failing = [name for name, each in parameters.items() if not each.passes]
+    kept = [name for name in parameters if name not in failing]
+    if failing:
+        shared = trial.holding(base, kept)
+        if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
+            means = {outside_name(name): parameters[name].mean for name in kept if parameters[name].tested}
+            shared = replace(shared, fixed={**shared.fixed, **means})
+        described = {record.id: step(trial.fit([record], shared)) for record in records}
+    else:
+        described = free
+    without = {}
+    if rated:
+        bare = replace(campaign.law, companion=None, fixed={})
+        without = {record.id: step(trial.fit([record], bare)) for record in records}
+    tolerances = {record.id: tolerance * float(np.max(np.abs(record.true_stress))) for record in records}
+    verdict, reason = decide(
+        parameters,
+        predictions,
+        {name: each.bias_MPa for name, each in described.items()},
+        tolerances,
+        {
+            name: campaign.law.fixed[outside_name(name)]
+            for name in parameters
+            if outside_name(name) in campaign.law.fixed
+        },
+    )
+    if progress:
+        progress(1.0)
+    return Certificate(
+        campaign=campaign.name,
+        verdict=verdict,
+        reason=reason,
+        tolerance=tolerance,
+        base=base,
+        parameters=parameters,
+        predictions=predictions,
+        alone=alone,
+        free=free,
+        described=described,
+        without_companion=without,
+        regressions={
+            record.id: regress_hardening(record.true_strain, record.true_stress)
+            for record in records
+            if reaches_hardening(record.true_strain)
+        },
+        warnings=tuple(dict.fromkeys([*base.warnings, *_doubts(parameters, campaign)])),
+        data_sha256=campaign.data_hash,
+    )
+
+
+def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fit, Record]]:
+    """What predicts what: the identified law every held-out record; without such, each record by all others."""
+    campaign = trial.campaign
+    if campaign.held_out or trial.all_given:
+        return [(base, record) for record in campaign.held_out or campaign.records]
+    return [
+        (step(trial.fit(other for other in campaign.records if other.id != record.id)), record)
+        for record in campaign.records
+    ]
+
+
+def _modulus(base: Fit, free: Mapping[str, Fit], *, held: bool) -> tuple[float, float]:
+    """E_u that is held on each record, and its standard error [MPa].
+
+    As identified. Where several records were identified together it is the mean of what each says alone: if another
+    parameter differs between them, the joint fit bends E_u to make up for it.
+    """
+    name = "unrelaxed_modulus"
+    if held or len(base.records) == 1:
+        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
+    own = {record: estimates(free[record], record)[name] for record in base.records}
+    errors = [each.se for each in own.values() if each.se]
+    if not errors:
+        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
+    return judge({name: own})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)
+
+
+def _judge(
+    base: Fit,
+    alone: Mapping[str, Fit],
+    free: Mapping[str, Fit],
+    modulus_error: float,
+    relation: CalibratedCompanion | None,
+) -> dict[str, Consistency]:
+    """Judge E_u on the fits with all parameters free, the others on those with E_u held; on the former if E_u fails."""
+    own: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
+    held: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
+    for record in alone:
+        values = estimates(free[record], record, relation=relation)
+        known = values | estimates(alone[record], record, modulus_error, relation)
+        for name, value in values.items():
+            own[name][record], held[name][record] = value, known[name]
+    judged = judge(held)
+    if judged["unrelaxed_modulus"].passes:
+        return judged
+    judged_on_own = judge(own)  # an E_u that is not the record's would push its error into the others
+    return judged if judged_on_own["unrelaxed_modulus"].passes else judged_on_own
+
+
+def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:
+    doubts = [
+        f"{outside_name(name)} is not tested: fewer than two records determine it"
+        for name, each in parameters.items()
+        if not each.tested
+    ]
+    if not campaign.held_out and len(campaign.law.fixed) < PARAMETERS:
+        doubts.append("no record is held out: each was predicted from all others")
+    warm = {
+        record.id: float(np.mean(record.temperature)) for record in campaign.records if record.temperature is not None
+    }
+    if warm and max(warm.values()) - min(warm.values()) > SAME_TEMPERATURE:
+        cold, hot = min(warm, key=lambda name: warm[name]), max(warm, key=lambda name: warm[name])
+        doubts.append(
+            f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "
+            "the temperature rather than the strain-rate history; these records cannot tell the two apart"
+        )
+    for name, each in parameters.items():
+        if outside_name(name) not in campaign.law.fixed:
+            continue
+        held = campaign.law.fixed[outside_name(name)]
+        found = "contradict it" if each.contradicts(held) else "agree" if each.tested else "say little of it"
+        doubts.append(f"{outside_name(name)} is held at {held:g} by the campaign; the records alone {found}")
+    return doubts

@@ -1,0 +1,112 @@
+"""Whether a parameter keeps its value from record to record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.stats import chi2
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+SIGNIFICANCE = 0.01
+"""Probability of failing some parameter of a law that is intrinsic, over all its parameters."""
+
+CLEARLY = 4.0
+"""Standard errors by which a record's value must miss one that is held to contradict it."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter's value on one record.
+
+    Attributes
+    ----------
+    value : float
+    se : float or None
+        Standard error with noise and model bias; None where the record does not determine the parameter.
+    se_noise : float or None
+        The part that the fit's own residual explains.
+    shifts : tuple of float
+        What one standard error of each common cause moves it by: of E_u, held on all records alike, and of what the
+        companion relation was calibrated with.
+    """
+
+    value: float
+    se: float | None
+    se_noise: float | None
+    shifts: tuple[float, ...] = ()
+
+    @property
+    def total_se(self) -> float | None:
+        """Standard error with those of the common causes."""
+        return None if self.se is None else float(np.linalg.norm([self.se, *self.shifts]))
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """Whether the values of one parameter agree.
+
+    Attributes
+    ----------
+    by_record : dict of str to Estimate
+    mean : float
+        Weighted by the inverse of their covariance.
+    p_value : float
+        Of Cochran's Q (1954), with the common shifts: chance of values that differ at least so much, were the
+        true value the same.
+    tested : bool
+        Whether two records or more determine the parameter.
+    passes : bool
+        Not rejected at `SIGNIFICANCE`, shared between the parameters (Holm 1979).
+    """
+
+    by_record: Mapping[str, Estimate]
+    mean: float
+    p_value: float
+    tested: bool
+    passes: bool
+
+    @property
+    def spread(self) -> float:
+        """Highest over lowest value, less one."""
+        values = [each.value for each in self.by_record.values() if each.se is not None]
+        return max(values) / min(values) - 1.0 if len(values) > 1 and min(values) > 0.0 else 0.0
+
+    def contradicts(self, value: float) -> bool:
+        """Whether some record says, by more than `CLEARLY` standard errors, that the parameter has another value."""
+        return any(
+            each.total_se and abs(each.value - value) > CLEARLY * each.total_se for each in self.by_record.values()
+        )
+
+
+def judge(estimates: Mapping[str, Mapping[str, Estimate]]) -> dict[str, Consistency]:
+    """Judge every parameter, by name, on its estimates by record."""
+    judged = {name: _cochran(by_record) for name, by_record in estimates.items()}
+    failing: set[str] = set()
+    tested = sorted((name for name in judged if judged[name][2]), key=lambda name: judged[name][1])
+    for rank, name in enumerate(tested):
+        if judged[name][1] >= SIGNIFICANCE / (len(tested) - rank):
+            break  # Holm: once one is let pass, so are all with a larger p-value
+        failing.add(name)
+    return {
+        name: Consistency(estimates[name], mean, p_value, was_tested, name not in failing)
+        for name, (mean, p_value, was_tested) in judged.items()
+    }
+
+
+def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
+    """Weighted mean, p-value of Cochran's Q, whether there was anything to compare."""
+    known = [each for each in by_record.values() if each.se]
+    if not known:
+        return float(np.mean([each.value for each in by_record.values()])), 1.0, False
+    values = np.array([each.value for each in known])
+    shifts = np.array([each.shifts for each in known])
+    precision = np.linalg.inv(np.diag([each.se**2 for each in known if each.se]) + shifts @ shifts.T)
+    mean = float(precision.sum(axis=0) @ values / precision.sum())
+    if len(values) < 2:
+        return mean, 1.0, False
+    apart = values - mean
+    return mean, float(chi2.sf(apart @ precision @ apart, len(values) - 1)), True

@@ -1,0 +1,138 @@
+"""``probation companion``: the relaxation time from the strain rate."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from probation.commands.delivery import add_delivery, deliver_files, deliver_report, said, tell
+from probation.commands.progress import shown
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from probation.calibration import RateTable
+    from probation.records import Campaign
+
+NAME = "companion"
+
+_FORMS = ("auto", "weissenberg", "exponential", "power", "table")
+
+_DESCRIPTION = """\
+Calibrate the companion relation: how tau_max depends on the strain rate, eqs. (10)-(12), with the uncertainty that
+later predictions carry.
+
+  probation companion --table-2 --report s2.html             the paper's own Table 2: Figure S2, (11) and (12)
+  probation companion times.csv --form weissenberg           a table with the headings rate_per_s,tau_max_s[,se_s]
+  probation companion hdpe-ramps/ --toml                     ramps at several rates; prints [law.companion]
+  probation companion hdpe-ramps/ --apply hdpe-calibrated/   the campaign with that relation, ready for fit and certify
+  probation companion 0d01.csv 0d03.csv 0d05.csv --control displacement-rate
+
+Records at nearly constant rates are fitted one by one with a constant tau_max, and the relation is regressed on what
+they give (by-rate); where a rate is not constant its parameters are identified on all records at once (direct). Among
+the forms the data choose: each rate is left out in turn and foretold from the others.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="tau_max from the strain rate, calibrated", description=_DESCRIPTION)
+    parser.add_argument(
+        "source",
+        metavar="CAMPAIGN",
+        nargs="*",
+        help="a folder with a campaign.toml, or that file; a table rate_per_s,tau_max_s[,se_s]; or data files",
+    )
+    parser.add_argument("--table-2", action="store_true", help="the paper's Table 2 instead of a source")
+    parser.add_argument(
+        "--form",
+        choices=_FORMS,
+        default="auto",
+        help="weissenberg is eq. (11), exponential (12); auto takes the one that foretells rates left out best",
+    )
+    parser.add_argument(
+        "--route",
+        choices=("auto", "by-rate", "direct"),
+        default="auto",
+        help="each record alone, or all at once through the law; auto goes by whether the rates are constant",
+    )
+    parser.add_argument(
+        "--modulus",
+        choices=("shared", "free"),
+        default="shared",
+        help="E_u: one for all records (default; law.fixed wins), or each record its own (by-rate only)",
+    )
+    parser.add_argument(
+        "--hardening",
+        choices=("by-record", "shared"),
+        default="by-record",
+        help="G in the direct route: each record its own (default), or one for all",
+    )
+    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="sa3", help="time integration (sa3)")
+    parser.add_argument(
+        "--control",
+        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
+        default="other",
+        help="how the tests in data files were driven (other)",
+    )
+    add_delivery(parser)
+    group = parser.add_argument_group("use")
+    group.add_argument("--toml", action="store_true", help="print [law.companion] alone, to paste into a campaign.toml")
+    group.add_argument("--apply", metavar="OUT_FOLDER", help="write the campaign with this relation there")
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    from probation.calibration import RateTable, calibrate_companion  # noqa: PLC0415 - see the package
+
+    if options.toml and options.json == "-":
+        raise InputError("found both --toml and --json -, expected one of them on standard output")
+    source = _source(options)
+    if options.apply and isinstance(source, RateTable):
+        raise InputError("--apply: found a table, expected a campaign; --toml prints what to paste into one")
+    name = source.source if isinstance(source, RateTable) else source.name
+    with shown(f"calibrating on {name}") as advance:
+        answer = calibrate_companion(
+            source,
+            form=options.form,
+            route=options.route,
+            modulus=options.modulus,
+            hardening=options.hardening,
+            scheme=options.scheme,
+            progress=advance,
+        )
+        text = answer.summary()
+    tell(text, sys.stderr if options.toml or options.json == "-" else sys.stdout)
+    if options.toml:
+        sys.stdout.write(answer.toml())
+    deliver_files(answer, options)
+    deliver_report(answer, options)
+    if options.apply and not isinstance(source, RateTable):
+        said("campaign", answer.apply(source).save(options.apply))
+    return 0
+
+
+def _source(options: argparse.Namespace) -> Campaign | RateTable:
+    """Table 2, a table, a campaign, or data files that stand in for one."""
+    from probation.calibration import TABLE_2  # noqa: PLC0415
+    from probation.calibration.table_file import read_rate_table  # noqa: PLC0415
+    from probation.records import Campaign  # noqa: PLC0415
+
+    if options.table_2:
+        if options.source:
+            raise InputError(f"found {options.source[0]!r} beside --table-2, expected one of them")
+        return TABLE_2
+    if not options.source:
+        raise InputError(
+            "found no CAMPAIGN, expected a campaign, a table or data files; --table-2 takes the paper's own"
+        )
+    first = Path(options.source[0])
+    if len(options.source) == 1 and first.is_file() and first.suffix != ".toml":
+        table = read_rate_table(first)
+        if table is not None:
+            return table
+    if len(options.source) > 1 or (first.is_file() and first.suffix != ".toml"):
+        return Campaign.from_files(options.source, control=options.control)
+    return Campaign.load(first)

@@ -1,0 +1,269 @@
+"""ARMA(1,1) noise: its spectrum, its prediction-error filter, its simulation, its fit to a periodogram.
+
+x_t = phi x_{t-1} + e_t + theta e_{t-1}. It contains white noise, AR(1), and AR(1) plus white noise (Box & Jenkins).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.signal import lfilter
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+START_UP = 150
+"""Most steps of the exact start; the innovation variance settles like theta^2t."""
+
+BINS = 60
+"""Frequencies are pooled in so many bins, evenly in their logarithm, for the fit."""
+
+_EDGES = np.geomspace(2e-3, np.pi * (1.0 + 1e-9), BINS + 1)
+_CENTRES = np.sqrt(_EDGES[1:] * _EDGES[:-1])
+
+DIM = 0.05
+"""Spectrum over its largest value below which a bin all but loses its say."""
+
+EARNS, EARNS_LOW = 9.0, 25.0
+"""What a shape must take off the deviance: any, and one that rises where little was looked at."""
+
+STEEP = 4.0
+"""Rise from the middle of the band to frequency zero from which on slow noise is no surprise."""
+
+PROMISED = 2.0
+"""Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
+
+GRID, REFINED = 21, 3
+"""Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
+
+MOST_THETA = 0.97
+
+
+@dataclass(frozen=True)
+class Arma:
+    """ARMA(1,1) with unit long-run level where `innovation` is (1 - phi)/(1 + theta).
+
+    Attributes
+    ----------
+    phi, theta : float
+        Below 1 in size.
+    innovation : float
+        Standard deviation of e.
+    """
+
+    phi: float = 0.0
+    theta: float = 0.0
+    innovation: float = 1.0
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of x."""
+        excess = (self.phi + self.theta) ** 2 / (1.0 - self.phi**2)
+        return float(self.innovation * np.sqrt(1.0 + excess))
+
+    @property
+    def long_run(self) -> float:
+        """Square root of the spectrum at frequency zero: what sqrt(m) times the mean of m samples scatters by."""
+        return self.innovation * (1.0 + self.theta) / (1.0 - self.phi)
+
+    @property
+    def rise(self) -> float:
+        """Spectrum at frequency zero over that at a quarter of the sampling rate."""
+        zero, middle = self.spectrum(np.array([0.0, 0.5 * np.pi]))
+        return float(zero / middle)
+
+    def spectrum(self, frequency: FloatArray) -> FloatArray:
+        """Variance of an orthonormal Fourier coefficient at `frequency` [rad per sample]."""
+        cosine = np.cos(frequency)
+        top = 1.0 + 2.0 * self.theta * cosine + self.theta**2
+        return np.asarray(self.innovation**2 * top / (1.0 - 2.0 * self.phi * cosine + self.phi**2), dtype=np.float64)
+
+    def whiten(self, matrix: FloatArray) -> FloatArray:
+        """Unit-variance innovations of the columns of `matrix`, exact from the first sample (Brockwell & Davis)."""
+        values = np.asarray(matrix, dtype=np.float64)
+        if self.phi == 0.0 and self.theta == 0.0:
+            return values / self.innovation
+        phi, theta = self.phi, self.theta
+        scaled = values / self.innovation
+        count = len(scaled)
+        moved = scaled.copy()
+        moved[1:] -= phi * scaled[:-1]
+        variance = (1.0 + 2.0 * phi * theta + theta**2) / (1.0 - phi**2)
+        exact = np.empty_like(moved)
+        innovation, done = moved[0], 1
+        exact[0] = innovation / np.sqrt(variance)
+        while done < min(count, START_UP) and abs(variance - 1.0) > 1e-7:
+            innovation = moved[done] - theta / variance * innovation
+            variance = 1.0 + theta**2 - theta**2 / variance
+            exact[done] = innovation / np.sqrt(variance)
+            done += 1
+        if done < count:
+            state = np.atleast_1d(-theta * innovation)[None] if values.ndim > 1 else np.array([-theta * innovation])
+            exact[done:] = lfilter([1.0], [1.0, theta], moved[done:], axis=0, zi=state)[0]
+        return exact
+
+    def simulate(self, rng: np.random.Generator, count: int, size: int = 1) -> FloatArray:
+        """Draws, shape (size, count), stationary from the first sample."""
+        shocks = rng.standard_normal((size, count))
+        phi, theta = self.phi, self.theta
+        if phi == 0.0 and theta == 0.0:
+            return self.innovation * shocks
+        # State s_t = phi x_t + theta e_t: x_{t+1} = s_t + e_{t+1}, of stationary variance (phi + theta)^2/(1 - phi^2).
+        start = (phi + theta) / np.sqrt(1.0 - phi**2) * rng.standard_normal((size, 1))
+        series: FloatArray = lfilter([1.0, theta], [1.0, -phi], shocks, axis=1, zi=start)[0]
+        return self.innovation * series
+
+
+@dataclass(frozen=True, eq=False)
+class Periodogram:
+    """Squared orthonormal cosine coefficients, each over the part of it that a projection left.
+
+    Attributes
+    ----------
+    frequency : ndarray, shape (m,) [rad per sample]
+    power : ndarray, shape (m,)
+    weight : ndarray, shape (m,)
+        Samples' worth of each coefficient, 1 if nothing was projected out of it.
+    """
+
+    frequency: FloatArray
+    power: FloatArray
+    weight: FloatArray
+
+    def binned(self) -> Periodogram:
+        """Means over fixed bins, evenly spaced in the logarithm of the frequency; the weights add up, empty bins to 0.
+
+        Where the spectrum is below `DIM` of its largest value (beyond a filter), the fit should not bend for it.
+        """
+        place = np.clip(np.searchsorted(_EDGES, self.frequency, side="right") - 1, 0, BINS - 1)
+        weight: FloatArray = np.bincount(place, self.weight, BINS).astype(np.float64)
+        power = np.bincount(place, self.weight * self.power, BINS) / np.maximum(weight, 1e-300)
+        solid = weight >= 10.0
+        if np.any(solid):
+            weight = np.where(solid & (power < DIM * np.max(power[solid])), 0.02 * weight, weight)
+        return Periodogram(_CENTRES, power, weight)
+
+
+@dataclass(frozen=True, eq=False)
+class ArmaFit:
+    """Whittle's estimate of ARMA(1,1) noise that several records may share the shape of.
+
+    Attributes
+    ----------
+    models : tuple of Arma
+        One per periodogram.
+    deviance : float
+        Twice the negative Whittle log-likelihood.
+    shape_variance : float
+        Of the logarithm of the spectrum at low frequency, by the uncertain shape alone; shared by all records.
+    level_variance : tuple of float
+        Of the logarithm of each record's own level.
+    """
+
+    models: tuple[Arma, ...]
+    deviance: float
+    shape_variance: float
+    level_variance: tuple[float, ...]
+
+
+def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
+    """Fit ARMA(1,1) to periodograms by Whittle's likelihood, one shape and a level for each.
+
+    White noise is kept unless the shape earns `EARNS`; a rise towards the very lowest frequencies that were looked at,
+    which the foot of a gap can feign in one record, must earn `EARNS_LOW` over the best shape without one, unless the
+    spectrum is steep all along. A rise below them is never fitted.
+
+    Parameters
+    ----------
+    periodograms : list of Periodogram
+    lowest : float
+        Lowest frequency that was looked at [rad per sample].
+    """
+    binned = [each.binned() for each in periodograms]
+    deviance, best = float(_deviance(binned, np.zeros((1, 1, BINS)))[0, 0]), (0.0, 0.0)
+    tried, shape_of = _search(binned, max(1.0 - 3.0 * lowest, 0.1))
+    if deviance - tried > EARNS:
+        deviance, best = tried, shape_of
+    tried, shape_of = _search(binned, max(1.0 - 0.7 * lowest, 0.1))
+    if deviance - tried > (EARNS_LOW if Arma(*best).rise < STEEP else 0.0):
+        deviance, best = tried, shape_of
+    shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
+    levels = [float(_level(each, shape)) for each in binned]
+    return ArmaFit(
+        tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
+        deviance,
+        PROMISED * _shape_variance(binned, best),
+        tuple(2.0 / float(each.weight.sum()) for each in binned),
+    )
+
+
+def matched_level(periodogram: Periodogram, model: Arma) -> float:
+    """Innovation with which a model of this shape has a periodogram's power."""
+    shape = _table(np.array([model.phi]), np.array([model.theta]))[0, 0]
+    return float(np.sqrt(_level(periodogram.binned(), shape)))
+
+
+def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:
+    """Least deviance over phi and theta, on ever finer grids, and where it is."""
+    steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(MOST_THETA)]) / (GRID - 1)
+    middle = np.array([np.arctanh(most_phi) - np.arctanh(0.7), 0.0]) / 2.0
+    reach, deviance, best = (GRID - 1) // 2, np.inf, (0.0, 0.0)
+    for _ in range(4):
+        offsets = np.arange(-reach, reach + 1)
+        phi = np.minimum(np.tanh(middle[0] + steps[0] * offsets), most_phi)
+        theta = np.clip(np.tanh(middle[1] + steps[1] * offsets), -MOST_THETA, MOST_THETA)
+        table = _deviance(binned, _table(phi, theta))
+        row, column = np.unravel_index(int(np.argmin(table)), table.shape)
+        if table[row, column] < deviance:
+            deviance, best = float(table[row, column]), (float(phi[row]), float(theta[column]))
+        middle, steps, reach = np.arctanh(np.array(best)), steps / REFINED, REFINED
+    return deviance, best
+
+
+def _table(phi: FloatArray, theta: FloatArray) -> FloatArray:
+    """Logarithm of the spectrum's shape at the bins' centres, shape (len(phi), len(theta), BINS)."""
+    cosine = np.cos(_CENTRES)
+    top = np.log(1.0 + 2.0 * np.outer(theta, cosine) + theta[:, None] ** 2)
+    bottom = np.log(1.0 - 2.0 * np.outer(phi, cosine) + phi[:, None] ** 2)
+    return np.asarray(top[None] - bottom[:, None], dtype=np.float64)
+
+
+def _level(each: Periodogram, shape: FloatArray) -> FloatArray:
+    ratio = np.exp(-shape) @ (each.power * each.weight) / each.weight.sum()
+    return np.asarray(np.maximum(ratio, 1e-300), dtype=np.float64)
+
+
+def _deviance(binned: list[Periodogram], shape: FloatArray) -> FloatArray:
+    """Twice Whittle's negative log-likelihood, the levels profiled out; `shape` is (a, b, BINS)."""
+    total = shape @ np.sum([each.weight for each in binned], axis=0)
+    ratio = np.exp(-shape)
+    for each in binned:
+        weight = each.weight.sum()
+        total += weight * (np.log(np.maximum(ratio @ (each.power * each.weight) / weight, 1e-300)) + 1.0)
+    return np.asarray(total, dtype=np.float64)
+
+
+def _shape_variance(binned: list[Periodogram], best: tuple[float, float]) -> float:
+    """Variance of log S(0) by Fisher's information of (phi, theta), levels profiled out; 2 % beside white noise."""
+    phi, theta = best
+
+    def slopes(frequency: FloatArray) -> FloatArray:
+        cosine = np.cos(frequency)
+        along_phi = 2.0 * (cosine - phi) / (1.0 - 2.0 * phi * cosine + phi**2)
+        along_theta = 2.0 * (cosine + theta) / (1.0 + 2.0 * theta * cosine + theta**2)
+        return np.column_stack([along_phi, along_theta])
+
+    information, means, weights = np.zeros((2, 2)), [], []
+    for each in binned:
+        slope = slopes(each.frequency)
+        mean = each.weight @ slope / each.weight.sum()
+        information += 0.5 * ((slope - mean).T * each.weight) @ (slope - mean)
+        means.append(mean)
+        weights.append(each.weight.sum())
+    extrapolation = slopes(np.array([1e-3]))[0] - np.average(means, axis=0, weights=weights)
+    if best == (0.0, 0.0):  # both slopes are the same: one direction is left, phi + theta
+        return float(extrapolation[0] ** 2 / max(information[0, 0], 1e-300))
+    values, vectors = np.linalg.eigh(information + 1.0 * np.eye(2))  # phi and theta are below 1 in size
+    return float(np.sum((vectors.T @ extrapolation) ** 2 / values))

@@ -1,0 +1,37 @@
+"""A Maxwell element of unit modulus along any sampled history, exact between samples."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+
+def maxwell_element(time: FloatArray, values: FloatArray, relaxation_time: float) -> FloatArray:
+    r"""Solve :math:`y' = v' - y/\tau`, y(0) = 0, for piecewise-linear v; shape (n,).
+
+    v - y is v seen through a first-order lag of time constant :math:`\tau`.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,) [s]
+    values : ndarray, shape (n,)
+    relaxation_time : float [s]
+        Positive.
+    """
+    law = _core.Law(1.0, 0.0, relaxation_time, 1.0, None, _one_mode())
+    found = np.empty(len(time))
+    solver = _core.Solver(_core.History(time, values - values[0]), _core.Scheme.sa2)
+    solver.stress(law, _core.LawChange(), found)
+    return found
+
+
+@lru_cache(maxsize=1)
+def _one_mode() -> _core.Spectrum:
+    return _core.Spectrum(np.ones(1), np.ones(1))

@@ -1,0 +1,111 @@
+"""The noise of one record: level, correlation, growth; whitening and simulation at O(n)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.gap.arma import Arma
+
+Growth = Literal["constant", "force", "local"]
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseModel:
+    """x = profile * ARMA(1,1) + carried * N(0, 1), gap-method section 1.
+
+    Attributes
+    ----------
+    name : str
+        The record's id.
+    arma : Arma
+        Of x over its profile; its level is the one that counts at low frequency.
+    profile : ndarray, shape (n,)
+        Growth of the standard deviation along the record, of mean square 1.
+    growth : {"constant", "force", "local"}
+        Constant stress noise; constant force noise, which grows as e^eps; or as the record itself shows (bursts).
+    sigma : float
+        Standard deviation of the rough noise over the record [MPa], as measured.
+    white : float
+        By robust differences [MPa]; below `sigma` where the noise is correlated or comes in bursts.
+    quantum : float
+        Step of the readings [MPa or as the force over its area], 0 if there is none.
+    carried : ndarray, shape (n, k) [MPa]
+        Smooth stress noise that strain noise makes; k may be 0.
+    level_variance, shape_variance : float
+        Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
+        records may share.
+    spikes : tuple of int
+        Readings that are kept out.
+    source : str
+        Where the estimate is from, in words.
+    """
+
+    name: str
+    arma: Arma
+    profile: FloatArray
+    growth: Growth
+    sigma: float
+    white: float
+    quantum: float
+    carried: FloatArray
+    level_variance: float
+    shape_variance: float
+    spikes: tuple[int, ...]
+    source: str
+
+    def __len__(self) -> int:
+        return len(self.profile)
+
+    @property
+    def deviation(self) -> FloatArray:
+        """Standard deviation of a sample, shape (n,) [MPa]."""
+        rough = self.arma.deviation * self.profile
+        return np.asarray(np.sqrt(rough**2 + np.sum(self.carried**2, axis=1)), dtype=np.float64)
+
+    @property
+    def long_run(self) -> FloatArray:
+        """What sqrt(m) times the mean of m neighbouring samples scatters by, shape (n,) [MPa]."""
+        return self.arma.long_run * self.profile
+
+    def whiten(self, matrix: FloatArray) -> FloatArray:
+        """Columns of `matrix` (n,) or (n, m) in coordinates in which the noise is white with unit variance."""
+        values = np.asarray(matrix, dtype=np.float64)
+        profile = self.profile if values.ndim == 1 else self.profile[:, None]
+        white = self.arma.whiten(values / profile)
+        directions, shrink = self._smooth_part
+        if not shrink.size:
+            return white
+        along = directions.T @ white
+        return white - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None]))
+
+    def simulate(self, rng: np.random.Generator, size: int = 1) -> FloatArray:
+        """Draws of the noise, shape (size, n) [MPa]."""
+        rough = self.profile * self.arma.simulate(rng, len(self), size)
+        if not self.carried.shape[1]:
+            return rough
+        return np.asarray(rough + rng.standard_normal((size, self.carried.shape[1])) @ self.carried.T)
+
+    def scaled(self, factor: float) -> NoiseModel:
+        """The same noise with `factor` times the standard deviation."""
+        return replace(
+            self,
+            arma=replace(self.arma, innovation=self.arma.innovation * factor),
+            sigma=self.sigma * factor,
+            white=self.white * factor,
+            carried=self.carried * factor,
+        )
+
+    @cached_property
+    def _smooth_part(self) -> tuple[FloatArray, FloatArray]:
+        """(I + U U^T)^(-1/2) = I - Q diag(1 - (1 + s^2)^(-1/2)) Q^T, U = Q diag(s) V^T the whitened carried noise."""
+        if not self.carried.shape[1]:
+            return np.zeros((len(self), 0)), np.zeros(0)
+        whitened = self.arma.whiten(self.carried / self.profile[:, None])
+        directions, size, _ = np.linalg.svd(whitened, full_matrices=False)
+        return directions, 1.0 - 1.0 / np.sqrt(1.0 + size**2)

@@ -1,0 +1,86 @@
+"""What a gap can look like where nothing is known of it: slow waves along a record, and transients after each jump."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+
+WAVES = 12
+"""Cosine waves along a record: half periods 0 to 11."""
+
+FADES = ((0.1, 5), (0.02, 9))
+"""Time constants of the transients, as fractions of their segment, and the order they are taken in at."""
+
+MOST_SEGMENTS = 4
+"""Transients are given to so many segments, the longest ones."""
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothBasis:
+    """Columns, the smoothest first.
+
+    Attributes
+    ----------
+    columns : ndarray, shape (n, m)
+    order : ndarray of int, shape (m,)
+        Half periods, or what a transient counts as; increasing.
+    """
+
+    columns: FloatArray
+    order: NDArray[np.intp]
+
+    def up_to(self, order: int) -> FloatArray:
+        """The columns of lower order than `order`."""
+        return self.columns[:, self.order < order]
+
+
+def waves(count: int, most: int) -> FloatArray:
+    """Orthonormal cosine waves (DCT-II) by sample, shape (count, min(most, count))."""
+    index = np.arange(count) + 0.5
+    columns = np.cos(np.pi / count * np.outer(index, np.arange(min(most, count)))) * np.sqrt(2.0 / count)
+    columns[:, 0] *= np.sqrt(0.5)
+    return np.asarray(columns, dtype=np.float64)
+
+
+def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES) -> SmoothBasis:
+    """Slow waves by sample, and exponential fades after the start and after every jump of the rate.
+
+    A wave says nothing sharp; a law's error after a jump is sharp and known in place, so it is given its own columns.
+    Never more columns than a quarter of the samples.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,) [s]
+    jumps : sequence of int
+    most : int
+        Waves.
+    """
+    count = len(time)
+    allowed = max(count // 4, 1)
+    parts = [waves(count, min(most, allowed))]
+    orders = [np.arange(parts[0].shape[1])]
+    borders = [0, *sorted(jumps), count - 1]
+    segments = sorted(pairwise(borders), key=lambda ends: ends[0] - ends[1])[:MOST_SEGMENTS]
+    for first, last in sorted(segments):
+        if last - first < 20:
+            continue
+        since = (time[first : last + 1] - time[first]) / (time[last] - time[first])
+        for constant, order in FADES:
+            if order < most:
+                fade = np.zeros(count)
+                fade[first : last + 1] = np.exp(-since / constant)
+                parts.append(fade[:, None] / np.linalg.norm(fade))
+                orders.append(np.array([order]))
+    columns, ranks = np.hstack(parts), np.concatenate(orders)
+    ranking = np.argsort(ranks, kind="stable")[:allowed]
+    return SmoothBasis(columns[:, ranking], ranks[ranking])

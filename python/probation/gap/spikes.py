@@ -1,0 +1,71 @@
+"""Single readings that belong to nothing: found, reported, and kept out of the statistics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+
+STANDS_OUT = 8.0
+"""A spike is this many robust standard deviations away from what its neighbours say."""
+
+LONGEST = 2
+"""Samples that a spike may last."""
+
+MOST = 0.005
+"""More than this fraction of a record are no spikes but the record's noise."""
+
+
+def find_spikes(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, ...]:
+    """Indices of isolated readings, far from both of their sides, which agree with each other.
+
+    A sample is compared with the median of the three before and the three after a window of `LONGEST` around it; the
+    start and the jumps of the strain rate, where a model may err sharply, are left alone.
+
+    Parameters
+    ----------
+    residual : ndarray, shape (n,) [MPa]
+    jumps : sequence of int
+        Indices at which the strain rate jumps.
+
+    Returns
+    -------
+    tuple of int
+        Empty where more than `MOST` of the record (and more than three readings) stand out: that is noise.
+    """
+    count, arm, inner = len(residual), 3, LONGEST
+    reach = arm + inner - 1
+    if count < 4 * reach + 4:
+        return ()
+    padded = np.pad(residual, reach, mode="reflect")
+    shifts = [np.roll(padded, shift)[reach:-reach] for shift in range(-reach, reach + 1) if abs(shift) >= inner]
+    sides = np.stack(shifts)
+    later, earlier = np.median(sides[:arm], axis=0), np.median(sides[arm:], axis=0)
+    away = residual - 0.5 * (later + earlier)
+    spread = 1.4826 * float(np.median(np.abs(away)))
+    spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / 1.645, 1e-300)
+    out = (np.abs(away) > STANDS_OUT * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
+    for border in (0, *jumps):
+        out[max(border - reach, 0) : border + reach + 1] = False
+    found = np.flatnonzero(out)
+    lone = [int(i) for i in found if np.count_nonzero(np.abs(found - i) <= reach) <= LONGEST]
+    if len(lone) < len(found) or len(lone) > max(3, MOST * count):
+        return ()
+    return tuple(lone)
+
+
+def without_spikes(values: FloatArray, spikes: Sequence[int]) -> FloatArray:
+    """`values` with the spikes replaced by the straight line between their neighbours."""
+    if not len(spikes):
+        return values
+    keep = np.ones(len(values), dtype=bool)
+    keep[list(spikes)] = False
+    index = np.arange(len(values))
+    cleaned = values.copy()
+    cleaned[~keep] = np.interp(index[~keep], index[keep], values[keep])
+    return cleaned

@@ -1,0 +1,113 @@
+"""The low-frequency part of a fit residual: what the law, or the experiment, leaves out, and where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.signal import savgol_coeffs, savgol_filter
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+WINDOW = 1.0 / 12.0
+"""Part of the record over which a parabola takes the low-frequency part: waves of less than six in a record pass."""
+
+SHORTEST = 24
+"""Samples below which there is no telling."""
+
+SIGNIFICANT = 4.0
+"""Standard deviations of the smoothed noise that the largest of a record of noise alone hardly reaches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bias:
+    """Low-frequency part of one fit residual (model minus data).
+
+    Attributes
+    ----------
+    low : ndarray, shape (n_times,) [MPa]
+    largest_MPa : float
+        Its largest absolute value.
+    true_strain, time : float [-], [s]
+        Where that is.
+    threshold_MPa : float
+        What noise alone may reach there.
+    """
+
+    low: FloatArray
+    largest_MPa: float  # noqa: N815 - as it leaves the program
+    true_strain: float
+    time: float
+    threshold_MPa: float  # noqa: N815
+
+    @property
+    def significant(self) -> bool:
+        """Whether it stands out of the noise."""
+        return self.largest_MPa > self.threshold_MPa
+
+    @property
+    def text(self) -> str:
+        """Place and size, in words."""
+        if not self.significant:
+            return f"no bias above {self.threshold_MPa:.2g} MPa"
+        return f"bias: at most {self.largest_MPa:.3g} MPa at a strain of {self.true_strain:.3g}"
+
+    def to_json(self) -> dict[str, Any]:
+        """Numbers only."""
+        return {
+            "bias_max_MPa": self.largest_MPa,
+            "bias_max_at_true_strain": self.true_strain,
+            "bias_max_at_time_s": self.time,
+            "bias_significant": self.significant,
+        }
+
+
+def low_frequency(residual: FloatArray) -> FloatArray:
+    """The residual through a moving parabola over `WINDOW` of the record, shape (n_times,) [MPa]."""
+    window = _window(len(residual))
+    if len(residual) < SHORTEST:
+        return np.full_like(residual, residual.mean())
+    return np.asarray(savgol_filter(residual, window, 2), dtype=np.float64)
+
+
+def bias_of(
+    residual: FloatArray,
+    time: FloatArray,
+    true_strain: FloatArray,
+    noise: float,
+    correlation: float = 0.0,
+    carried: FloatArray | None = None,
+) -> Bias:
+    """Size and place of the low-frequency part.
+
+    Parameters
+    ----------
+    residual, time, true_strain : ndarray, shape (n_times,) [MPa], [s], [-]
+    noise : float
+        Standard deviation of the high-frequency part [MPa].
+    correlation : float
+        Of AR(1) noise from sample to sample.
+    carried : ndarray, shape (n_times, n_directions), or None
+        Strain noise as stress [MPa], as in `NoiseModel`.
+    """
+    low = low_frequency(residual)
+    window = _window(len(residual))
+    short = len(residual) < SHORTEST
+    passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(savgol_coeffs(window, 2)))
+    passed *= float(np.sqrt((1.0 + correlation) / (1.0 - correlation)))
+    deviation = np.full_like(low, passed * noise)
+    if not short:  # near an end the parabola is held by one side only
+        deviation[: window // 2] *= 2.0
+        deviation[-(window // 2) :] *= 2.0
+        if carried is not None:
+            deviation = np.hypot(deviation, np.linalg.norm(savgol_filter(carried, window, 2, axis=0), axis=1))
+    threshold = SIGNIFICANT * deviation
+    stands_out = np.abs(low) > threshold
+    at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))
+    return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), float(threshold[at]))
+
+
+def _window(count: int) -> int:
+    return max(2 * int(0.5 * WINDOW * count) + 1, 5)

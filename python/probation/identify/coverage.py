@@ -1,0 +1,350 @@
+"""Do the 95 % intervals contain the truth 95 times in 100? Counted on records whose truth is known.
+
+The records are made here, from the closed form (7) of a ramp of the true strain in partial fractions, with noise on
+strain and stress: no line of it is shared with the law, the schemes or the noise models that are judged.
+"""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+from collections import defaultdict
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.special import betaincinv
+
+from probation._arrays import FloatArray, as_whole_number
+from probation.answers import json_answer
+from probation.errors import InputError
+from probation.identify.fit import fit
+from probation.identify.parameter import SYMBOLS
+from probation.records import Campaign, Record
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from probation.excitation import Method as ExcitationMethod
+    from probation.identify.weighting import Weighting
+
+TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
+"""Table 1's reference [MPa], [s], [MPa]."""
+
+STRAIN_RATE, END_STRAIN, SAMPLES = 0.005, 2.0, 300
+
+NOMINAL = 0.95
+CONFIDENCE = 0.99
+"""Of the interval of a coverage, which must contain `NOMINAL`."""
+
+RECOMMENDED: Weighting = "auto"
+JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One kind of noise.
+
+    Attributes
+    ----------
+    name : str
+    strain_noise : float [-]
+    stress_noise : float [MPa]
+    correlation : float
+        Of AR(1) stress noise.
+    excitation : {"auto", "raw"}
+        Whether the fit may smooth the strain.
+    """
+
+    name: str
+    strain_noise: float
+    stress_noise: float = 0.04
+    correlation: float = 0.0
+    excitation: ExcitationMethod = "auto"
+
+
+CASES: tuple[Case, ...] = (
+    Case("strain noise 1e-3, unsmoothed", 1e-3, excitation="raw"),
+    Case("strain noise 3e-4, unsmoothed", 3e-4, excitation="raw"),
+    Case("strain noise 1e-3, smoothed", 1e-3),
+    Case("stress noise 0.04 MPa", 0.0),
+    Case("stress noise AR(1) 0.5", 0.0, correlation=0.5),
+)
+
+
+@dataclass(frozen=True)
+class Counted:
+    """How often the intervals of one method contained the truth.
+
+    Attributes
+    ----------
+    case, method : str
+    draws : int
+    hits : dict of str to int
+        By parameter.
+    bias : dict of str to float
+        Mean estimate over truth, minus one [-].
+    """
+
+    case: str
+    method: str
+    draws: int
+    hits: dict[str, int]
+    bias: dict[str, float]
+
+    def coverage(self, name: str) -> float:
+        """Of one parameter [-]."""
+        return self.hits[name] / self.draws
+
+    def interval(self, name: str) -> tuple[float, float]:
+        """Exact binomial interval of the coverage at `CONFIDENCE` (Clopper & Pearson 1934)."""
+        return exact_interval(self.hits[name], self.draws)
+
+    def holds(self, name: str) -> bool:
+        """Whether that interval contains `NOMINAL`."""
+        low, high = self.interval(name)
+        return low <= NOMINAL <= high
+
+    @property
+    def all_hold(self) -> bool:
+        """Whether the intervals of all parameters hold."""
+        return all(self.holds(name) for name in self.hits)
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """The study.
+
+    Attributes
+    ----------
+    counted : tuple of Counted
+    seed : int
+    """
+
+    counted: tuple[Counted, ...]
+    seed: int
+
+    def of(self, case: str, method: str) -> Counted:
+        """What was counted for one case and method."""
+        return next(each for each in self.counted if (each.case, each.method) == (case, method))
+
+    @property
+    def verdict(self) -> str:
+        """One sentence."""
+        recommended = [each for each in self.counted if each.method == RECOMMENDED]
+        failing = [each.case for each in recommended if not each.all_hold]
+        draws = min(each.draws for each in self.counted)
+        if failing:
+            kinds = ", ".join(failing)
+            return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
+        return (
+            f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} "
+            "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
+        )
+
+    def table(self) -> Table:
+        """Coverage in percent with its exact 99 % interval, and bias of E_u, per case and method."""
+        names = list(TRUTH)
+        rows = []
+        for each in self.counted:
+            cells = []
+            for name in names:
+                low, high = each.interval(name)
+                mark = "" if each.holds(name) else " ✗"
+                cells.append(f"{100 * each.coverage(name):.1f} [{100 * low:.1f}, {100 * high:.1f}]{mark}")
+            rows.append((each.case, each.method, str(each.draws), *cells, f"{100 * each.bias[names[0]]:+.2f}"))
+        headings = ("noise", "weighting", "draws", *(f"{SYMBOLS[name]} [%]" for name in names), "bias of E_u [%]")
+        return Table(headings, tuple(rows), left=2)
+
+    def summary(self) -> str:
+        """Verdict and table."""
+        note = "✗: the exact 99 % binomial interval of the coverage does not contain 95 %."
+        return f"{self.verdict}\n\n{self.table().text()}\n\n  {note} Seed {self.seed}."
+
+    def to_json(self) -> str:
+        """The answer, schema "probation.coverage/1"."""
+        rows = [
+            {
+                "case": each.case,
+                "weighting": each.method,
+                "draws": each.draws,
+                "parameters": {
+                    name: {
+                        "coverage": each.coverage(name),
+                        "interval99": list(each.interval(name)),
+                        "holds": each.holds(name),
+                        "bias": each.bias[name],
+                    }
+                    for name in each.hits
+                },
+            }
+            for each in self.counted
+        ]
+        return json_answer("probation.coverage/1", {"verdict": self.verdict, "seed": self.seed, "rows": rows})
+
+    def plot(self) -> Figure:
+        """Coverage of every case, method and parameter with its interval."""
+        from probation.report.coverage_plot import coverage_figure  # noqa: PLC0415 - plotting only when asked for
+
+        return coverage_figure(self)
+
+
+def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Clopper and Pearson's interval of a proportion."""
+    tail = 0.5 * (1.0 - confidence)
+    low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
+    high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
+    return low, high
+
+
+def study(
+    draws: int = 1000,
+    *,
+    seed: int = 0,
+    cases: Sequence[Case] = CASES,
+    methods: Sequence[Weighting] = JUDGED,
+    processes: int = 1,
+    state: str | PathLike[str] | None = None,
+    progress: Callable[[int, int, str], None] | None = None,
+) -> Coverage:
+    """Fit `draws` records of every case by every method and count the intervals that contain the truth.
+
+    Parameters
+    ----------
+    draws : int
+    seed : int
+    cases : sequence of Case
+    methods : sequence of str
+        Weightings of `probation.fit`.
+    processes : int
+    state : path-like, optional
+        A file that keeps what was counted, a line per draw; what it has is not done again.
+    progress : callable, optional
+        Told ``(done, total, what)``.
+
+    Raises
+    ------
+    InputError
+        If a number is not positive or the state cannot be read.
+    """
+    for name, value in (("draws", draws), ("processes", processes)):
+        if as_whole_number(value, name) < 1:
+            raise InputError(f"{name} is {value}; expected at least 1")
+    found = _kept(state, seed)
+    jobs = [(case, draw) for case in cases for draw in range(draws) if _key(case, draw, methods) not in found]
+    total = len(cases) * draws
+    if progress:
+        progress(total - len(jobs), total, "")
+    for done, (case, draw, result) in enumerate(_run(jobs, methods, seed, processes)):
+        found[_key(case, draw, methods)] = result
+        if state is not None:
+            line = json.dumps([seed, *_key(case, draw, methods), result])
+            with Path(state).open("a", encoding="utf-8") as file:
+                file.write(line + "\n")
+        if progress:
+            progress(total - len(jobs) + done + 1, total, case.name)
+    return Coverage(
+        tuple(
+            _count(case, method, [found[_key(case, draw, methods)][method] for draw in range(draws)])
+            for case in cases
+            for method in methods
+        ),
+        seed,
+    )
+
+
+Result = dict[str, dict[str, tuple[float, bool]]]
+"""By method and parameter: the estimate, and whether its interval contains the truth."""
+
+
+def drawn_record(case: Case, seed: int, draw: int) -> Record:
+    """One record of a case: time, noisy strain, noisy stress."""
+    random = np.random.default_rng([seed, draw, CASES.index(case) if case in CASES else 97])
+    time = np.linspace(0.0, END_STRAIN / STRAIN_RATE, SAMPLES)
+    white = random.standard_normal(SAMPLES)
+    noise = np.empty(SAMPLES)
+    noise[0] = white[0]
+    for i in range(1, SAMPLES):
+        noise[i] = case.correlation * noise[i - 1] + np.sqrt(1.0 - case.correlation**2) * white[i]
+    strain = STRAIN_RATE * time + case.strain_noise * random.standard_normal(SAMPLES)
+    return Record("ramp", time, strain, ramp_response(time) + case.stress_noise * noise, control="strain-rate")
+
+
+def ramp_response(time: FloatArray) -> FloatArray:
+    """Eq. (7) at `TRUTH`, shape (n_times,) [MPa]; mode by mode, in partial fractions of 1 / tau_j."""
+    unrelaxed, longest, hardening = TRUTH.values()
+    stress = np.zeros_like(time)
+    times = [longest * 10.0 ** (-(50 - j) * 6.0 / 49.0) for j in range(1, 51)]  # eq. (4)
+    weights = [tau**0.5 / sum(each**0.5 for each in times) for tau in times]  # eq. (5)
+    for tau, weight in zip(times, weights, strict=True):
+        decayed = np.exp(-time / tau)
+        up = (np.exp(2.0 * STRAIN_RATE * time) - decayed) / (1.0 + 2.0 * STRAIN_RATE * tau)
+        down = (np.exp(-STRAIN_RATE * time) - decayed) / (1.0 - STRAIN_RATE * tau)
+        stress += weight * (unrelaxed * STRAIN_RATE * tau * (1.0 - decayed) + hardening * (up - down))
+    return stress
+
+
+def _judge(case: Case, draw: int, methods: Sequence[Weighting], seed: int) -> Result:
+    campaign = Campaign(case.name, (drawn_record(case, seed, draw),))
+    result: Result = {}
+    for method in methods:
+        answer = fit(campaign, "sa3", method="variable-projection", excitation=case.excitation, weighting=method)
+        result[method] = {}
+        for name, parameter in answer.parameters.items():
+            low, high = parameter.interval95 or (-np.inf, np.inf)
+            result[method][name] = (parameter.value, bool(low <= TRUTH[name] <= high))
+    return result
+
+
+def _run(
+    jobs: Sequence[tuple[Case, int]], methods: Sequence[Weighting], seed: int, processes: int
+) -> Iterator[tuple[Case, int, Result]]:
+    if processes == 1:
+        for case, draw in jobs:
+            yield case, draw, _judge(case, draw, methods, seed)
+        return
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # one thread each: the processes share the cores
+        os.environ.setdefault(name, "1")
+    with ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn")) as pool:
+        waiting = {pool.submit(_judge, case, draw, methods, seed): (case, draw) for case, draw in jobs}
+        for future in as_completed(waiting):
+            yield *waiting[future], future.result()
+
+
+def _count(case: Case, method: str, results: Sequence[dict[str, tuple[float, bool]]]) -> Counted:
+    values: dict[str, list[float]] = defaultdict(list)
+    hits: dict[str, int] = dict.fromkeys(TRUTH, 0)
+    for result in results:
+        for name, (value, hit) in result.items():
+            values[name].append(value)
+            hits[name] += hit
+    bias = {name: float(np.mean(values[name])) / TRUTH[name] - 1.0 for name in TRUTH}
+    return Counted(case.name, method, len(results), hits, bias)
+
+
+def _key(case: Case, draw: int, methods: Sequence[str]) -> tuple[str, int, str]:
+    return case.name, draw, " ".join(methods)
+
+
+def _kept(state: str | PathLike[str] | None, seed: int) -> dict[tuple[str, int, str], Any]:
+    if state is None or not Path(state).exists():
+        return {}
+    kept: dict[tuple[str, int, str], Any] = {}
+    lines = Path(state).read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines, 1):
+        try:
+            found_seed, case, draw, methods, result = json.loads(line)
+        except (json.JSONDecodeError, ValueError, TypeError):
+            if number == len(lines):
+                break  # cut off while it was written
+            raise InputError(f"{state}, line {number}: found {line[:40]!r}, expected a line of this study") from None
+        if found_seed == seed:
+            kept[case, draw, methods] = result
+    return kept

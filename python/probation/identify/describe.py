@@ -1,0 +1,203 @@
+"""From the law that was found to what is told of it: errors, intervals, warnings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import stdtrit
+
+from probation.identify.bias import bias_of
+from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
+from probation.identify.parameter import SYMBOLS, UNITS, Parameter
+from probation.identify.profile import profile
+from probation.identify.result import Fit, RecordFit
+from probation.identify.scheme_error import scheme_error
+from probation.identify.search import search_range
+from probation.identify.strain_noise import strain_noise_warnings
+from probation.identify.variable_projection import EDGE
+from probation.identify.weighting import known_of
+from probation.records.noise import scatter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from probation.identify.noise_model import NoiseModel
+    from probation.identify.problem import Problem, RecordProblem
+    from probation.identify.profile import Intervals
+    from probation.identify.result import Method
+    from probation.identify.weighting import Weighted, Weighting
+    from probation.law import Law, Scheme, Start
+    from probation.records import Campaign
+
+
+def describe(
+    campaign: Campaign,
+    problem: Problem,
+    weighted: Weighted,
+    scheme: Scheme,
+    start: Start,
+    method: Method,
+    weighting: Weighting,
+    limits: Mapping[str, tuple[float, float]],
+    intervals: Intervals,
+) -> Fit:
+    """What is known about the law that was found.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    problem : Problem
+        Its noise models are those of the law.
+    weighted : Weighted
+        The law, and how the residual was weighed.
+    scheme, start, method, weighting, intervals : str
+        As the fit was asked for.
+    limits : mapping of str to (float, float)
+        Bounds of the parameters.
+    """
+    law = weighted.law
+    known, jacobian = known_of(problem, law, weighted)
+    free, names, values = problem.free, law.parameter_names, law.parameters
+    degrees = max(sum(problem.lengths) - len(free), 1)
+    profiles = {}
+    if intervals == "profile":
+        quantile = float(stdtrit(degrees, 0.975))
+        profiles = {names[i]: profile(problem, weighted, known, int(i), quantile, limits) for i in free}
+    parameters: dict[str, Parameter] = {}
+    warnings = list(campaign.warnings)
+    for index, name in enumerate(names):
+        value = float(values[index])
+        if problem.held[index]:
+            parameters[name] = Parameter(name, value, None, None, "held", UNITS[name])
+            continue
+        position = int(np.flatnonzero(free == index)[0])
+        error, relative = known.standard_error(position), float(known.relative_error[position])
+        found = _parameter(name, value, error, relative, degrees, UNITS[name])
+        if name in profiles:
+            found = replace(found, interval95=profiles[name].interval95)
+        parameters[name] = found
+        if not limits[name][0] < value * (1 + 1e-9) < limits[name][1] or value == 0.0:
+            warnings.append(f"{SYMBOLS[name]} ended at its bound, {value:.6g} {UNITS[name]}".rstrip())
+    warnings += _edge_warnings(problem, law, limits)
+    warnings += _rate_warnings(problem, law)
+    if weighting == "plain":
+        warnings += strain_noise_warnings(problem.records, law)
+    largest_error, shift = scheme_error(problem, problem.records, law, jacobian, known)
+    return Fit(
+        campaign=campaign.name,
+        law=law,
+        scheme=scheme,
+        start=start,
+        substeps=problem.records[0].substeps,
+        method=method,
+        weighting=_used(weighting, problem, weighted),
+        parameters=parameters,
+        product=_product(known, problem, law, degrees),
+        names=tuple(names[i] for i in free),
+        correlation=correlation(known.matrix),
+        condition_number=known.condition_number,
+        records={
+            each.record.id: _record_fit(each, law, noise)
+            for each, noise in zip(problem.records, problem.noises, strict=True)
+        },
+        autocorrelated=known.correlated or any(noise.correlation > 0.0 for noise in problem.noises),
+        newey_west=known.correlated,
+        scheme_error_MPa=largest_error,
+        scheme_shift={names[index]: float(moved) for index, moved in zip(free, shift, strict=True)},
+        profiles=profiles,
+        warnings=tuple(warnings),
+        data_sha256=campaign.data_hash,
+    )
+
+
+def _used(weighting: Weighting, problem: Problem, weighted: Weighted) -> str:
+    if weighted.carries_strain_noise:
+        return "strain-noise-frozen" if weighted.frozen else "strain-noise"
+    if weighted.resampled is not None:
+        return "plain, strain noise resampled"
+    return "autocorrelated" if any(noise.correlation > 0.0 for noise in problem.noises) else "plain"
+
+
+def _edge_warnings(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]]) -> list[str]:
+    """Where the search could not go on: the best tau_max (or alpha) is at an end of the range that it looks at."""
+    if problem.held[1]:
+        return []
+    name, value = law.parameter_names[1], float(law.parameters[1])
+    low, high = search_range(problem, limits)
+    if value <= low * EDGE and low > limits[name][0]:
+        end = "lower"
+    elif value >= high / EDGE and high < limits[name][1]:
+        end = "upper"
+    else:
+        return []
+    unit = f" {UNITS[name]}" if UNITS[name] else ""
+    return [
+        f"{SYMBOLS[name]}: the search ended at the {end} edge of its range, {value:.3g} of {low:.3g} to "
+        f"{high:.3g}{unit}; these records do not bound it"
+    ]
+
+
+def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
+    stress, sensitivity = each.sensitivity(law)
+    record = each.record
+    residual = stress - record.true_stress
+    deviation = scatter(record.time, residual)
+    coloured = noise.correlation > 0.0 or noise.carried is not None
+    if coloured and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
+        deviation = float(np.sqrt(np.mean(residual**2)))
+    bias = bias_of(residual, record.time, record.true_strain, noise.scale, noise.correlation, noise.carried)
+    if not coloured:
+        bias = bias_of(residual, record.time, record.true_strain, deviation)
+    return RecordFit(
+        record.id,
+        record.time,
+        record.true_strain,
+        record.true_stress,
+        each.excitation,
+        stress,
+        sensitivity,
+        deviation,
+        bias,
+        noise.correlation,
+        noise.carried is not None,
+    )
+
+
+def _parameter(name: str, value: float, se: float | None, relative_error: float, degrees: int, unit: str) -> Parameter:
+    if se is None:
+        return Parameter(name, value, None, None, "not_identifiable", unit)
+    reach = float(stdtrit(degrees, 0.975)) * se
+    return Parameter(name, value, se, (value - reach, value + reach), status_of(relative_error), unit)
+
+
+def _product(known: Covariance, problem: Problem, law: Law, degrees: int) -> Parameter:
+    """E_u tau_max (or E_u alpha) and its standard error, to first order."""
+    values = law.parameters
+    gradient = np.array([values[1], values[0], 0.0])[problem.free]
+    value = float(values[0] * values[1])
+    variance = float(gradient @ known.matrix @ gradient)
+    unit = "MPa·s" if law.companion is None else "MPa"
+    moved = [p for p, index in enumerate(problem.free) if index < 2]
+    if not moved:
+        return Parameter("product", value, None, None, "held", unit)
+    if not np.all(np.isfinite(known.relative_error[moved])):
+        return Parameter("product", value, None, None, "not_identifiable", unit)
+    se = float(np.sqrt(max(variance, 0.0)))
+    return _parameter("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
+
+
+def _rate_warnings(problem: Problem, law: Law) -> list[str]:
+    if law.companion is None:
+        return []
+    found = []
+    for each in problem.records:
+        outside = law.companion.outside(each.excitation.rate)
+        if outside and law.companion.calibrated:
+            low, high = law.companion.calibrated
+            found.append(
+                f"{each.record.id}: strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the "
+                f"companion relation is calibrated, {low:.2g} to {high:.2g} 1/s"
+            )
+    return found

@@ -1,0 +1,51 @@
+"""A law whose parameters are all given, against records: nothing is identified."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.errors import InputError
+from probation.excitation import excite
+from probation.identify.describe import describe
+from probation.identify.fit import base_law
+from probation.identify.problem import Problem, RecordProblem
+from probation.identify.weighting import plainly
+
+if TYPE_CHECKING:
+    from probation.excitation import Method as ExcitationMethod
+    from probation.identify.result import Fit
+    from probation.law import Scheme, Start
+    from probation.records import Campaign
+
+
+def given(
+    campaign: Campaign,
+    scheme: Scheme = "be2",
+    *,
+    excitation: ExcitationMethod = "auto",
+    start: Start = "exponential",
+) -> Fit:
+    """The campaign's law as it is, beside the records with role "identify".
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Its `law.fixed` holds every parameter.
+    scheme, excitation, start
+        As in `probation.fit`.
+
+    Raises
+    ------
+    InputError
+        If a parameter is not held.
+    """
+    law, held = base_law(campaign, {})
+    if not all(held):
+        raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
+    prepared = [
+        RecordProblem.prepare(record, excite(record, excitation), scheme, start) for record in campaign.identify
+    ]
+    problem = Problem(law, prepared, held)
+    limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))
+    weighted = plainly(problem, law)
+    return describe(campaign, problem, weighted, scheme, start, "least-squares", "plain", limits, "standard-error")

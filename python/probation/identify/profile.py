@@ -1,0 +1,165 @@
+"""Profile likelihood: how the cost rises as one parameter moves and the others follow."""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
+
+from probation.identify.search import search_range
+from probation.identify.variable_projection import project, search
+from probation.identify.weighting import minimise, reevaluate, residual_and_jacobian
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from probation._arrays import FloatArray
+    from probation.identify.covariance import Covariance
+    from probation.identify.problem import Problem
+    from probation.identify.weighting import Weighted
+    from probation.law import Law
+
+Intervals = Literal["standard-error", "profile"]
+INTERVALS: tuple[Intervals, ...] = ("standard-error", "profile")
+
+FIRST_STEP = 0.75
+"""Distance of neighbouring points [standard errors]; it grows where the cost rises slowly."""
+
+FARTHEST = 1.25
+"""Signed root of the deviance, over its 95 % quantile, up to which the profile is followed."""
+
+MOST_POINTS = 12
+"""On each side."""
+
+FINE_ENOUGH = 1e-7
+"""Of the logarithm of tau_max, in the searches on the way."""
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """The profile of one parameter.
+
+    Attributes
+    ----------
+    name : str
+    value : float
+        The estimate.
+    values : ndarray, shape (n_points,)
+        Increasing; the estimate is one of them.
+    root : ndarray, shape (n_points,) [-]
+        Signed root of the rise of the cost, in standard deviations; a straight line where the problem is linear.
+    quantile : float
+        |root| at the ends of the interval: that of Student's t at 97.5 %.
+    interval95 : (float, float)
+        An end that the cost does not reach is the end of the parameter's own range.
+    """
+
+    name: str
+    value: float
+    values: FloatArray
+    root: FloatArray
+    quantile: float
+    interval95: tuple[float, float]
+
+
+def profile(
+    problem: Problem,
+    weighted: Weighted,
+    known: Covariance,
+    index: int,
+    quantile: float,
+    limits: Mapping[str, tuple[float, float]],
+) -> Profile:
+    """The profile of the parameter number `index` of `law.parameters`.
+
+    E_u and G are profiled out by variable projection (tau_max by Brent's method around it) where the residual's
+    covariance is constant, all by Gauss-Newton where it moves with them. The cost is over its own scatter; where
+    autocorrelated residuals widen the standard error, they widen the profile by the same factor.
+
+    Parameters
+    ----------
+    problem, weighted, known
+        As the fit left them.
+    index : int
+    quantile : float
+        Of Student's t at 97.5 %.
+    limits : mapping of str to (float, float)
+    """
+    law = weighted.law
+    name, value = law.parameter_names[index], float(law.parameters[index])
+    position = int(np.flatnonzero(problem.free == index)[0])
+    residual, jacobian = residual_and_jacobian(problem, law, weighted)
+    least = float(residual @ residual)
+    scatter = least / max(len(residual) - len(problem.free), 1)
+    error = known.standard_error(position)
+    widened = 1.0
+    if error is not None:
+        free = jacobian[:, problem.free]
+        size = np.linalg.norm(free, axis=0)
+        plain = np.linalg.pinv((free / size).T @ (free / size))[position, position] / size[position] ** 2
+        widened = max(error / float(np.sqrt(scatter * plain)), 1.0)
+    walk = _Walk(problem, weighted, index, limits)
+    sides = []
+    for sign in (-1.0, 1.0):
+        step, at, there = FIRST_STEP * (error or 0.1 * abs(value) or 1.0), value, law
+        points: list[tuple[float, float]] = []
+        for count in range(MOST_POINTS):
+            at += sign * step
+            if not limits[name][0] < at < limits[name][1]:
+                break
+            there, cost = walk.to(at, there)
+            rise = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
+            points.append((at, sign * rise))
+            if rise > FARTHEST * quantile:
+                break
+            if count > 4 or rise < 0.07 * quantile * (count + 1):
+                step *= 2.0
+        sides.append(points)
+    both = np.array([*reversed(sides[0]), (value, 0.0), *sides[1]])
+    values, root = both[:, 0], both[:, 1]
+    ends = (
+        _end(values, root, -quantile, limits[name][0]),
+        _end(values, root, quantile, limits[name][1]),
+    )
+    reevaluate(problem, law, weighted)  # the walk left it elsewhere
+    return Profile(name, value, values, root, quantile, ends)
+
+
+class _Walk:
+    """The least cost with one parameter held, from a law close by."""
+
+    def __init__(
+        self, problem: Problem, weighted: Weighted, index: int, limits: Mapping[str, tuple[float, float]]
+    ) -> None:
+        self.problem, self.weighted, self.index, self.limits = problem, weighted, index, limits
+
+    def to(self, value: float, near: Law) -> tuple[Law, float]:
+        parameters = near.parameters
+        parameters[self.index] = value
+        start = near.with_parameters(parameters)
+        if self.weighted.carries_strain_noise and not self.weighted.frozen:
+            law = minimise(self.problem, start, self.weighted, self.limits, fixed=self.index)
+            residual = residual_and_jacobian(self.problem, law, self.weighted)[0]
+            return law, float(residual @ residual)
+        held = copy(self.problem)
+        held.law, held.held = start, self.problem.held.copy()
+        held.held[self.index] = True
+        if self.index == 1:
+            return project(held, value)
+        law = search(held, search_range(held, self.limits), near=float(near.parameters[1]), tolerance=FINE_ENOUGH)
+        return law, float(np.sum(held.residual(law) ** 2))
+
+
+def _end(values: FloatArray, root: FloatArray, level: float, beyond: float) -> float:
+    """Where the root crosses a level; `beyond` where it does not."""
+    side = root * np.sign(level) >= 0.0
+    x, y = values[side], root[side]
+    if np.max(np.abs(y)) < abs(level):
+        return beyond
+    kept = np.concatenate([[True], np.diff(y) > 0.0])
+    curve = PchipInterpolator(x[kept], y[kept])
+    return float(brentq(lambda at: float(curve(at)) - level, x[kept][0], x[kept][-1]))

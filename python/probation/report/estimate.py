@@ -1,0 +1,26 @@
+"""A value beside its standard error, with the digits that mean something."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def plus_minus(value: float, se: float) -> str:
+    """Both to two significant digits of the error: "1.8500 ± 0.0012".
+
+    Parameters
+    ----------
+    value : float
+    se : float
+        Its standard error; where it is zero or not finite the value stands alone.
+
+    Returns
+    -------
+    str
+    """
+    if not np.isfinite(se) or se <= 0.0:
+        return f"{value:.5g}"
+    digits = max(1 - int(np.floor(np.log10(se))), 0)
+    if float(f"{se:.{digits}f}") >= 10.0 ** (2 - digits) and digits > 0:  # 0.0996 is 0.10
+        digits -= 1
+    return f"{value:.{digits}f} ± {se:.{digits}f}"

@@ -1,0 +1,84 @@
+"""The coverage study, in small: what it counts, and that the intervals hold; docs/uncertainty.md has it in full."""
+
+import json
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import probation
+from probation import InputError, Law
+from probation.cli import main
+from probation.identify import coverage
+from probation.identify.coverage import CASES, Case, exact_interval, ramp_response, study
+
+DRAWS = 40
+LEAST = 33
+"""Of 40 draws at 95 %, fewer have a chance of 0.1 %."""
+
+
+def test_the_exact_interval_is_that_of_clopper_and_pearson():
+    """No hit in n: 1 - 0.005^(1/n); and 95 of 100: 86.4 to 98.9 % by the binomial tails themselves."""
+    assert_allclose(exact_interval(0, 10), (0.0, 1.0 - 0.005**0.1))
+    assert_allclose(exact_interval(10, 10), (0.005**0.1, 1.0))
+    low, high = exact_interval(95, 100)
+    logs = np.cumsum(np.log(np.concatenate([[1.0], np.arange(1, 101)])))
+
+    def below(hits, chance):  # P(X <= hits)
+        k = np.arange(hits + 1)
+        return np.exp(logs[100] - logs[k] - logs[100 - k] + k * np.log(chance) + (100 - k) * np.log1p(-chance)).sum()
+
+    assert 1.0 - below(94, low) == pytest.approx(0.005, rel=1e-6)
+    assert below(95, high) == pytest.approx(0.005, rel=1e-6)
+
+
+def test_the_generator_is_eq_7():
+    time = np.linspace(0.0, 400.0, 50)
+    law = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
+    assert_allclose(ramp_response(time), probation.ramp_stress(law, 0.005, time), atol=1e-9)
+
+
+def test_where_strain_noise_dominates_only_the_re_evaluated_weighting_holds(monkeypatch):
+    monkeypatch.setattr(coverage, "SAMPLES", 80)
+    case = Case("strain noise 1e-3, unsmoothed", 1e-3, excitation="raw")
+    auto = study(DRAWS, seed=1, cases=(case,), methods=("auto",)).of(case.name, "auto")
+    assert min(auto.hits.values()) >= LEAST
+    assert abs(auto.bias["unrelaxed_modulus"]) < 0.05
+    failing = study(12, seed=1, cases=(case,), methods=("plain", "strain-noise-frozen"))
+    for method in ("plain", "strain-noise-frozen"):
+        assert min(failing.of(case.name, method).hits.values()) <= 7  # of 12 at 95 %: a chance of 1 in 5000
+        assert failing.of(case.name, method).bias["unrelaxed_modulus"] < -0.1
+
+
+def test_where_stress_noise_dominates_or_is_autocorrelated_the_intervals_hold(monkeypatch):
+    monkeypatch.setattr(coverage, "SAMPLES", 150)
+    cases = (CASES[3], CASES[4])
+    found = study(DRAWS, seed=2, cases=cases, methods=("auto",))
+    for case in cases:
+        assert min(found.of(case.name, "auto").hits.values()) >= LEAST
+
+
+def test_a_study_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
+    state = tmp_path / "state.jsonl"
+    options = {"cases": (CASES[3],), "methods": ("plain",), "state": state}
+    first = study(2, **options)
+    with state.open("a") as file:
+        file.write('[0, "cut o')
+    monkeypatch.setattr(coverage, "_judge", None)  # nothing is left to do
+    again = study(2, **options)
+    assert again == first
+    state.write_text("rubbish\n" + state.read_text())
+    with pytest.raises(InputError, match="line 1"):
+        study(2, **options)
+
+
+def test_the_command_tells_and_writes(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(coverage, "CASES", (CASES[3],))
+    monkeypatch.setattr(coverage.study, "__kwdefaults__", {**coverage.study.__kwdefaults__, "cases": (CASES[3],)})
+    assert (
+        main(["coverage", "--draws", "2", "--json", str(tmp_path / "c.json"), "--plot", str(tmp_path / "c.png")]) == 0
+    )
+    assert "stress noise 0.04 MPa" in capsys.readouterr().out
+    answer = json.loads((tmp_path / "c.json").read_text())
+    assert (answer["schema"], answer["seed"]) == ("probation.coverage/1", 0)
+    assert main(["coverage", "--draws", "0"]) == 2

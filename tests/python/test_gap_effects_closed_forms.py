@@ -1,0 +1,515 @@
+"""Each effect beside its closed form, or an independent integration of what it says."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+import probation
+from probation import gap
+from probation.companion import WEISSENBERG_AS_PRINTED
+from probation.gap.effects.finite_extensibility import inverse_langevin
+from probation.gap.effects.force_strain_lag import delayed
+from probation.gap.maxwell_element import maxwell_element
+from probation.law import Spectrum
+from probation.records import Noise, Record
+
+RATE = 5e-3
+ONE_MODE = Spectrum([1.0], [1.0])
+
+
+def ramp(rate=RATE, end=1.5, samples=400, stress=None):
+    time = np.linspace(0.0, end / rate, samples)
+    values = np.zeros(samples) if stress is None else stress
+    return Record(id=f"ramp-{rate:g}", time=time, true_strain=rate * time, true_stress=values, noise=Noise(0.04, 0.0))
+
+
+def predicted(law, record, name, form, values, substeps=1, scheme="be2", others=()):
+    """The stress of one record with one effect."""
+    campaign = probation.Campaign(name="closed forms", records=(record, *others))
+    adapted = gap.DnlrLaw(law) if isinstance(law, probation.Law) else law
+    views = gap.views_of(campaign, substeps=substeps, scheme=scheme)
+    model = gap.CampaignModel(adapted, views, [gap.cause(name, form)])
+    return model.predict(model.parameters(adapted.start, values))[record.id], views
+
+
+def bar(modulus=1000.0):
+    """An elastic bar, true stress over true strain."""
+    return gap.CallableLaw(
+        lambda time, strain, parameters, alteration: parameters[0] * strain,
+        ("modulus_MPa",),
+        (modulus,),
+        (0.0,),
+        (1e6,),
+    )
+
+
+LAW = probation.Law(unrelaxed_modulus=3000.0, tau_max=6.0, hardening_modulus=2.0)
+QUICK = probation.Law(unrelaxed_modulus=1.0, tau_max=1e-3, hardening_modulus=2.0)  # in its relaxed state at all times
+
+
+# --- the material ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("exponent", [-0.3, 0.4, 1.2])
+def test_on_a_ramp_a_power_of_the_rate_is_another_time(exponent):
+    """tau_max (r / r_ref)^-a, the reference between the two rates."""
+    fast, slow = ramp(2e-2), ramp(1e-3)
+    found, views = predicted(LAW, fast, "rate_dependent_relaxation", "power", (exponent,), others=(slow,))
+    reference = views[0].reference_rate
+    assert reference == pytest.approx(math.sqrt(2e-2 * 1e-3), rel=0.15)
+    other = LAW.with_parameters([3000.0, 6.0 * (2e-2 / reference) ** -exponent, 2.0])
+    np.testing.assert_allclose(found, other.stress(fast.time, fast.true_strain), rtol=1e-9, atol=1e-9)
+
+
+def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11():
+    """On a necking history, where the rate changes all the time."""
+    necking = probation.paper.twins.experiment(3).record()
+    rate = gap.views_of(probation.Campaign(name="necking", records=(necking,)))[0].reference_rate
+    number = 0.00464 * math.log10(rate) + 0.0367
+    change = 0.00464 / number
+    base = probation.Law(unrelaxed_modulus=3220.0, tau_max=number / rate, hardening_modulus=1.8)
+    values = (1.0 - change / math.log(10.0), change)
+    found, _ = predicted(base, necking, "rate_dependent_relaxation", "weissenberg", values)
+    rated = probation.Law(unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=WEISSENBERG_AS_PRINTED)
+    expected = rated.stress(necking.time, necking.true_strain, jumps=None)
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+
+
+def test_with_a_companion_relation_its_slope_changes():
+    """PowerLaw(c, n) with a is PowerLaw(c r_ref^a, n - a)."""
+    base = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=probation.PowerLaw(0.03, -0.9))
+    necking = probation.paper.twins.experiment(2).record()
+    found, views = predicted(base, necking, "rate_dependent_relaxation", "power", (0.07,))
+    other = probation.PowerLaw(0.03 * views[0].reference_rate ** 0.07, -0.97)
+    expected = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=other)
+    np.testing.assert_allclose(
+        found, expected.stress(necking.time, necking.true_strain, jumps=None), rtol=1e-10, atol=1e-10
+    )
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(1e-7, 1e2), st.floats(-0.5, 1.5), st.floats(-0.3, 0.5))
+def test_rate_shifts_are_positive_times_with_the_slope_they_say(rate, exponent, curvature):
+    """Wherever the rates roam; d ln tau / d ln r by a central difference."""
+    shift = probation._core.RateShift(None, 1e-3, exponent, curvature)
+    step = 1e-5
+    up, down = shift.relaxation_time(np.array([rate * math.exp(step), rate * math.exp(-step)]))
+    assert up > 0.0
+    assert shift.log_slope(np.array([rate]))[0] == pytest.approx(math.log(up / down) / (2 * step), rel=1e-5, abs=1e-8)
+    assert shift.relaxation_time(np.array([1e-3]))[0] == pytest.approx(1.0, rel=1e-14)
+    assert shift.log_slope(np.array([1e-3]))[0] == pytest.approx(-exponent, rel=1e-12, abs=1e-14)
+
+
+@pytest.mark.parametrize("form", ["instant", "path"])
+def test_on_a_ramp_rate_dependent_hardening_is_another_modulus(form):
+    fast, slow = ramp(2e-2), ramp(1e-3)
+    found, views = predicted(LAW, fast, "rate_dependent_hardening", form, (0.08,), others=(slow,))
+    other = LAW.with_parameters([3000.0, 6.0, 2.0 * (2e-2 / views[0].reference_rate) ** 0.08])
+    np.testing.assert_allclose(found, other.stress(fast.time, fast.true_strain), rtol=1e-9, atol=1e-9)
+
+
+def test_a_network_remembers_the_path_and_not_the_dwell():
+    """Relaxed: half the strain at 1e-2, half at 1e-3 gives the geometric mean of the rates; a dwell adds nothing."""
+    time = np.concatenate([np.linspace(0, 50, 201), np.linspace(50, 550, 2001)[1:], np.linspace(550, 900, 401)[1:]])
+    strain = np.interp(time, [0, 50, 550, 900], [0.0, 0.5, 1.0, 1.0])
+    record = Record(id="jump", time=time, true_strain=strain, true_stress=0 * time, noise=Noise(0.04, 0.0))
+    found, views = predicted(QUICK, record, "rate_dependent_hardening", "path", (0.1,))
+    mean = math.sqrt(1e-2 * 1e-3) / views[0].reference_rate
+    expected = 2.0 * mean**0.1 * (math.e**2 - 1.0 / math.e)
+    assert found[-1] == pytest.approx(expected, rel=2e-3)
+    assert found[-300] == pytest.approx(expected, rel=2e-3)
+
+
+def invariant(strain):
+    return math.exp(2.0 * strain) + 2.0 * math.exp(-strain) - 3.0
+
+
+def test_gents_network_is_haward_thackray_over_what_is_left():
+    """Relaxed: G e_HT / (1 - (I_1 - 3) / J_m); at J_m = 50 and strain 1.5, I_1 - 3 = 17.53."""
+    found, views = predicted(QUICK, ramp(), "finite_extensibility", "gent", (1.0 / 50.0,))
+    expected = 2.0 * views[0].haward_thackray_strain[-1] / (1.0 - invariant(1.5) / 50.0)
+    assert invariant(1.5) == pytest.approx(17.53, abs=0.01)
+    assert found[-1] == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("form", ["gent", "langevin"])
+def test_a_network_of_long_chains_is_haward_thackrays(form):
+    """The first-order excess is G e_HT (I_1 - 3) a, and it vanishes with a."""
+    law = QUICK
+    base = law.stress(ramp().time, ramp().true_strain)
+    found, views = predicted(law, ramp(), "finite_extensibility", form, (1e-6,))
+    excess = 2.0 * views[0].haward_thackray_strain * views[0].first_invariant
+    np.testing.assert_allclose((found - base)[50:] / 1e-6, excess[50:], rtol=5e-3)
+
+
+def test_eight_chains_stiffen_by_langevins_function():
+    """Relaxed: G e_HT (L^-1(y) / y) / (L^-1(y_0) / y_0) with y^2 = I_1 / 3N, N = 12; L^-1 by bisection."""
+
+    def solve(y):
+        return brentq(lambda x: 1.0 / math.tanh(x) - 1.0 / x - y, 1e-6, 1e6)
+
+    links = 12.0
+    y, y_0 = math.sqrt((invariant(1.5) + 3.0) / (3.0 * links)), math.sqrt(1.0 / links)
+    found, views = predicted(QUICK, ramp(), "finite_extensibility", "langevin", (1.0 / (5.0 * links),))
+    expected = 2.0 * views[0].haward_thackray_strain[-1] * (solve(y) / y) / (solve(y_0) / y_0)
+    assert found[-1] == pytest.approx(expected, rel=1e-3)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(1e-6, 0.95))
+def test_the_inverse_of_langevins_function_is_one(y):
+    x = inverse_langevin(np.array([y]))[0]
+    back = x / 3.0 - x**3 / 45.0 + 2.0 * x**5 / 945.0 if x < 0.05 else 1.0 / math.tanh(x) - 1.0 / x
+    assert back == pytest.approx(y, rel=1e-9)
+
+
+def test_beyond_locking_the_network_goes_on_straight():
+    """Finite, rising, with no step or kink where it begins (the slope is that of the curve there)."""
+    for form in ("gent", "langevin"):
+        found, _ = predicted(QUICK, ramp(end=2.5, samples=4000), "finite_extensibility", form, (0.02,))
+        assert np.all(np.isfinite(found))
+        assert np.all(np.diff(found) > 0.0)
+
+
+def test_weights_follow_another_power_of_the_times():
+    """After a quick stretch to 0.01 the stress is E_u e sum p_j e^(-t / tau_j), p_j ~ tau_j^0.7."""
+    time = np.concatenate([[0.0, 1e-7], np.geomspace(1e-3, 50.0, 300)])
+    strain = np.where(time > 0.0, 0.01, 0.0)
+    record = Record(id="step", time=time, true_strain=strain, true_stress=0 * time, noise=Noise(0.04, 0.0))
+    law = probation.Law(unrelaxed_modulus=3000.0, tau_max=6.0, hardening_modulus=0.0)
+    found, _ = predicted(law, record, "spectrum_shape", "power", (0.2,), scheme="sa2")
+    ratio = 10.0 ** (-(50.0 - np.arange(1, 51)) * 6.0 / 49.0)
+    weight = ratio**0.7 / np.sum(ratio**0.7)
+    expected = 30.0 * np.exp(-np.subtract.outer(time[2:], [1e-7]) / (6.0 * ratio)) @ weight
+    np.testing.assert_allclose(found[2:], expected, rtol=1e-4)
+
+
+HEATING, COOLING, LOSS = 0.4, 5e-3, 0.004
+
+
+def eyring(stress, _):
+    x = abs(stress) / (20.0 / math.sqrt(6.0 * 0.3))
+    return (x / math.sinh(x) if x > 1e-9 else 1.0), 1.0
+
+
+def norton(stress, _):
+    return 1.0 / (1.0 + 0.3 * (abs(stress) / 20.0) ** 3), 1.0
+
+
+def warm(_, heat):
+    return math.exp(-0.1 * HEATING * heat), math.exp(-LOSS * HEATING * heat)
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "values", "shift"),
+    [
+        ("stress_activated_flow", "eyring", (0.3,), eyring),
+        ("stress_activated_flow", "power", (0.3, 3.0), norton),
+        ("self_heating", "adiabatic_to_cooled", (HEATING, COOLING, LOSS), warm),
+    ],
+)
+def test_feedbacks_are_those_of_an_independent_integration(name, form, values, shift):
+    """One mode, by scipy at 1e-10: s' = E e' - (s - G e_HT) / tau, w' = s (e' - s'/E) - cooling w."""
+    modulus, time_constant, hardening = 900.0, 4.0, 2.0
+    law = probation.Law(
+        unrelaxed_modulus=modulus, tau_max=time_constant, hardening_modulus=hardening, spectrum=ONE_MODE
+    )
+    record = ramp(samples=600)
+
+    def slopes(t, state):
+        stress, heat = state
+        factor, loss = shift(stress, heat)
+        strain = RATE * t
+        relaxed = hardening * loss * (math.exp(2.0 * strain) - math.exp(-strain))
+        rise = modulus * RATE - (stress - relaxed) / (time_constant * factor)
+        return [rise, stress * (RATE - rise / modulus) - COOLING * heat]
+
+    expected = solve_ivp(slopes, (0.0, 300.0), [0.0, 0.0], "LSODA", record.time, rtol=1e-10, atol=1e-10).y[0]
+    found, _ = predicted(law, record, name, form, values, scheme="sa3", substeps=4)
+    without = law.stress(record.time, record.true_strain, scheme="sa3")
+    assert np.max(np.abs(expected - without)) > 0.5
+    np.testing.assert_allclose(found, expected, atol=2e-3)
+
+
+def up_and_down():
+    time = np.linspace(0.0, 300.0, 601)
+    strain = np.interp(time, [0.0, 200.0, 300.0], [0.0, 1.0, 0.6])
+    return Record(id="loop", time=time, true_strain=strain, true_stress=0 * time, noise=Noise(0.04, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("form", "values", "left"),
+    [
+        ("saturating", (0.3, 0.4), lambda e: math.exp(-0.3 * (1.0 - math.exp(-e / 0.4)))),
+        ("growing", (0.2, 1.5), lambda e: math.exp(-0.2 * e**1.5)),
+    ],
+)
+def test_damage_is_the_area_lost_and_stays(form, values, left):
+    loop = up_and_down()
+    found, _ = predicted(LAW, loop, "damage", form, values)
+    ratio = found[1:] / LAW.stress(loop.time, loop.true_strain)[1:]
+    assert ratio[199] == pytest.approx(left(0.5), rel=1e-9)
+    np.testing.assert_allclose(ratio[-150:], left(1.0), rtol=1e-9)
+
+
+def test_an_aged_modulus_is_used_up_by_strain():
+    """Times far beyond the record: the stress is the integral of E_u exp(a e^(-e / 0.1)) over the strain."""
+    law = probation.Law(unrelaxed_modulus=1000.0, tau_max=1e9, hardening_modulus=0.0, modes=1, spectrum=ONE_MODE)
+    record = ramp(end=0.4, samples=1001)
+    found, _ = predicted(law, record, "structural_softening", "modulus", (0.5, 0.1), scheme="sa2")
+    expected = quad(lambda e: 1000.0 * math.exp(0.5 * math.exp(-e / 0.1)), 0.0, 0.4)[0]
+    assert found[-1] == pytest.approx(expected, rel=1e-5)
+
+
+def test_an_aged_start_relaxes_more_slowly():
+    """One mode by scipy with tau_max exp(a e^(-e / 0.1))."""
+    law = probation.Law(unrelaxed_modulus=900.0, tau_max=4.0, hardening_modulus=2.0, spectrum=ONE_MODE)
+    record = ramp(end=0.5, samples=600)
+
+    def slope(t, stress):
+        strain = RATE * t
+        time_constant = 4.0 * math.exp(0.8 * math.exp(-strain / 0.1))
+        return 900.0 * RATE - (stress - 2.0 * (math.exp(2.0 * strain) - math.exp(-strain))) / time_constant
+
+    expected = solve_ivp(slope, (0.0, 100.0), [0.0], "LSODA", record.time, rtol=1e-10, atol=1e-10).y[0]
+    found, _ = predicted(law, record, "structural_softening", "relaxation_time", (0.8, 0.1), scheme="sa3", substeps=4)
+    np.testing.assert_allclose(found, expected, atol=2e-4)
+
+
+def test_a_slow_process_adds_a_maxwell_element():
+    """M r tau (1 - e^(-t / tau)) on a ramp."""
+    record = ramp()
+    found, _ = predicted(LAW, record, "slow_process", "maxwell", (20.0, 400.0), scheme="sa2")
+    added = found - LAW.stress(record.time, record.true_strain, scheme="sa2")
+    np.testing.assert_allclose(added, -20.0 * RATE * 400.0 * np.expm1(-record.time / 400.0), atol=1e-9)
+
+
+@pytest.mark.parametrize(("form", "values", "part"), [("whole", (30.0,), 1.0), ("part", (0.4, 30.0), 0.4)])
+def test_delayed_hardening_follows_with_a_first_order_lag(form, values, part):
+    """Relaxed, on a ramp: y' = (e^(2rt) - e^(-rt) - y) / T has the solution below, y(0) = 0."""
+    record = ramp(samples=2001)
+    found, views = predicted(QUICK, record, "delayed_hardening", form, values)
+    t, lag = record.time, 30.0
+    grown, shrunk = 1.0 / (1.0 + 2.0 * RATE * lag), 1.0 / (1.0 - RATE * lag)
+    late = grown * np.exp(2.0 * RATE * t) - shrunk * np.exp(-RATE * t) + (shrunk - grown) * np.exp(-t / lag)
+    expected = 2.0 * (part * late + (1.0 - part) * views[0].haward_thackray_strain)
+    np.testing.assert_allclose(found[100:], expected[100:], rtol=1e-3)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(1e-3, 1e4), st.integers(0, 10_000))
+def test_a_maxwell_element_is_exact_between_samples(time_constant, seed):
+    """By the closed form of one straight piece after another."""
+    random = np.random.default_rng(seed)
+    time = np.cumsum(random.uniform(0.1, 3.0, 30))
+    values = np.cumsum(random.standard_normal(30))
+    expected = [0.0]
+    for step, rise in zip(np.diff(time), np.diff(values), strict=True):
+        decay = math.exp(-step / time_constant)
+        expected.append(decay * expected[-1] - rise / step * time_constant * math.expm1(-step / time_constant))
+    np.testing.assert_allclose(maxwell_element(time, values, time_constant), expected, rtol=1e-9, atol=1e-12)
+
+
+# --- the rig --------------------------------------------------------------------------------------------------------
+
+
+def faulty(name, form, values, record=None, law=None):
+    record = record or ramp(end=1.0)
+    found, _ = predicted(law or bar(), record, name, form, values)
+    return found, record.time, record.true_strain
+
+
+def test_an_offset_of_the_force_grows_with_the_stretch():
+    """F / A_0 e^strain: 0.5 MPa becomes 1.36 MPa at a strain of 1."""
+    found, _, strain = faulty("force_offset", "constant", (0.5,))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.5 * np.exp(strain), rtol=1e-10)
+    assert (found - 1000.0 * strain)[-1] == pytest.approx(1.359, abs=1e-3)
+
+
+def test_a_drift_of_the_force_reaches_its_size_at_the_end():
+    found, time, strain = faulty("force_drift", "over_record", (0.8,))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.8 * time / time[-1] * np.exp(strain), atol=1e-10)
+    found, time, strain = faulty("force_drift", "in_time", (2e-3,))
+    np.testing.assert_allclose(found - 1000.0 * strain, 2e-3 * time * np.exp(strain), atol=1e-10)
+
+
+def test_a_wrong_section_is_a_factor():
+    found, _, strain = faulty("force_gain", "factor", (-0.03,))
+    np.testing.assert_allclose(found, 970.0 * strain, rtol=1e-12)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(-5.0, 5.0), st.integers(0, 1000))
+def test_a_straight_signal_is_delayed_by_rate_times_delay(delay, seed):
+    """Exactly, on any grid, but before the start, where there is nothing to be late."""
+    time = np.cumsum(np.random.default_rng(seed).uniform(0.1, 2.0, 60))
+    found = delayed(time, 3.0 + 0.7 * time, delay)
+    expected = 3.0 + 0.7 * np.maximum(time - delay, time[0])
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
+
+
+def test_a_smooth_signal_is_delayed_to_the_third_order():
+    time = np.linspace(0.0, 10.0, 401)
+    late = delayed(time, np.sin(time), 0.4137)
+    np.testing.assert_allclose(late[20:], np.sin(time - 0.4137)[20:], atol=3e-6)
+
+
+def test_a_late_force_is_that_of_an_earlier_strain():
+    """Nominal stress K t: the true stress is K (t - lag) e^(strain now)."""
+    law = gap.CallableLaw(
+        lambda time, strain, parameters, alteration: parameters[0] * time * np.exp(strain),
+        ("k",),
+        (0.2,),
+        (0.0,),
+        (9.0,),
+    )
+    found, time, strain = faulty("force_strain_lag", "delay", (1.7,), law=law)
+    np.testing.assert_allclose(found, 0.2 * np.maximum(time - 1.7, 0.0) * np.exp(strain), atol=1e-9)
+
+
+def test_slack_is_taken_up_before_the_specimen_is_strained():
+    """E (e - a) once taut, nothing before; the stress was made with the recorded strain, e^a too large."""
+    found, _, strain = faulty("strain_offset", "slack", (0.02,))
+    taut = strain > 0.02
+    np.testing.assert_allclose(found[taut], 1000.0 * (strain[taut] - 0.02) * math.exp(0.02), rtol=1e-10)
+    assert np.all(found[~taut] == 0.0)
+
+
+def test_a_wrong_zero_of_the_strain_only_bends_the_hardening():
+    """The law starts relaxed at -a: E_u knows only differences, e_HT does not."""
+    law = probation.Law(unrelaxed_modulus=3000.0, tau_max=6.0, hardening_modulus=0.0)
+    record = ramp(end=1.0)
+    found, _ = predicted(law, record, "strain_offset", "shift", (0.02,))
+    np.testing.assert_allclose(
+        found, math.exp(0.02) * law.stress(record.time, record.true_strain), rtol=1e-9, atol=1e-9
+    )
+    found, _ = predicted(QUICK, record, "strain_offset", "shift", (0.02,))
+    expected = 2.0 * math.exp(0.02) * (math.exp(2 * 0.98) - math.exp(-0.98))
+    assert found[-1] == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_compliant_machine_around_an_elastic_bar():
+    """Made from the bar: stretch recorded = stretch + C F/A_0, true stress recorded = F/A_0 times that."""
+    compliance, modulus = 2e-4, 1000.0
+    seen = np.linspace(0.0, 0.3, 300)
+    nominal = modulus * seen * np.exp(-seen)
+    stretch = np.exp(seen) + compliance * nominal
+    record = Record(
+        id="frame", time=np.arange(300.0), true_strain=np.log(stretch), true_stress=nominal * stretch,
+        noise=Noise(0.04, 0.0),
+    )  # fmt: skip
+    found, _ = predicted(bar(modulus), record, "machine_compliance", "crosshead", (compliance,))
+    np.testing.assert_allclose(found, record.true_stress, rtol=1e-10, atol=1e-10)
+    assert np.max(np.abs(modulus * record.true_strain - record.true_stress)) > 5.0
+
+
+def test_compliance_taken_off_the_true_strain():
+    """Recorded e = s/E + C s e^(-e): the bar's own stress, measured apart, follows from the recorded strain."""
+    compliance, modulus = 2e-4, 1000.0
+    strain = np.linspace(0.0, 0.3, 300)
+    stress = strain / (1.0 / modulus + compliance * np.exp(-strain))
+    record = Record(id="frame", time=np.arange(300.0), true_strain=strain, true_stress=stress, noise=Noise(0.04, 0.0))
+    found, _ = predicted(bar(modulus), record, "machine_compliance", "true_strain", (compliance,))
+    np.testing.assert_allclose(found, stress, rtol=1e-10, atol=1e-10)
+
+
+def test_with_its_own_rates_a_record_is_corrected_as_without():
+    """A slip (a step in strain) moves strain and given rates alike: be2 sees the same history either way."""
+    record = ramp(end=1.0)
+    rated = Record(
+        id="ramp", time=record.time, true_strain=record.true_strain, true_stress=record.true_stress,
+        strain_rate=np.full(len(record), RATE), noise=Noise(0.04, 0.0),
+    )  # fmt: skip
+    results = []
+    for each in (record, rated):
+        campaign = probation.Campaign(name="slip", records=(each,))
+        for values in ((0.01, 0.5), (0.0, 0.5)):
+            model = gap.CampaignModel(gap.DnlrLaw(LAW), gap.views_of(campaign), [gap.cause("grip_slip", None, each.id)])
+            results.append(model.predict(model.parameters(LAW.parameters, values))[each.id])
+    slipped, still, slipped_rated, still_rated = results
+    assert np.min(slipped - still) < -10.0
+    np.testing.assert_allclose(slipped_rated - still_rated, slipped - still, atol=2e-3)
+
+
+@pytest.mark.parametrize(("form", "factor"), [("recorded_section", math.exp(0.01)), ("measured_section", 1.0)])
+def test_a_slip_is_a_step_of_the_bars_strain(form, factor):
+    record = ramp(end=1.0)
+    model = gap.CampaignModel(
+        bar(),
+        gap.views_of(probation.Campaign(name="slip", records=(record,))),
+        [gap.cause("grip_slip", form, record.id)],
+    )
+    found = model.predict(model.parameters(np.array([1000.0]), (0.01, 0.6)))[record.id]
+    later = record.time > 0.6 * record.time[-1] + 1.0
+    earlier = record.time < 0.6 * record.time[-1] - 1.0
+    np.testing.assert_allclose(found[later], factor * 1000.0 * (record.true_strain[later] - 0.01), rtol=1e-10)
+    np.testing.assert_allclose(found[earlier], 1000.0 * record.true_strain[earlier], rtol=1e-10)
+
+
+def test_a_growing_volume_overstates_the_true_stress():
+    found, _, strain = faulty("volume_change", "steady", (0.2,))
+    np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * strain), rtol=1e-12)
+    found, _, strain = faulty("volume_change", "from_onset", (0.2, 0.3))
+    np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * np.maximum(strain - 0.3, 0.0)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("form", "values", "cut"), [("fresh", (2.0,), 0.0), ("held", (2.0, 0.1), 0.1)])
+def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
+    """a sum u_j e^(-t / tau_j), u_j ~ p_j e^(-cut tau_max / tau_j), on top of the ramp: the law is linear."""
+    record = ramp(end=0.3, samples=2001)
+    found, _ = predicted(LAW, record, "prestress", form, values, scheme="sa2")
+    ratio = 10.0 ** (-(50.0 - np.arange(1, 51)) * 6.0 / 49.0)
+    carried = np.sqrt(ratio) * np.exp(-cut / ratio)
+    expected = 2.0 * np.exp(-np.outer(record.time, 1.0 / (6.0 * ratio))) @ (carried / carried.sum())
+    np.testing.assert_allclose(found - LAW.stress(record.time, record.true_strain, scheme="sa2"), expected, atol=1e-9)
+
+
+def test_waves_on_force_stress_and_strain():
+    wave = np.sin(2.0 * np.pi * 0.05 * np.linspace(0.0, 200.0, 400) + 0.7)
+    found, _, strain = faulty("periodic_disturbance", "force", (0.3, 0.05, 0.7))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave * np.exp(strain), atol=1e-10)
+    found, _, strain = faulty("periodic_disturbance", "stress", (0.3, 0.05, 0.7))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave, atol=1e-10)
+    found, _, strain = faulty("periodic_disturbance", "strain", (1e-4, 0.05, 0.7))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.1 * (wave - wave[0]), atol=1e-10)
+
+
+def test_a_warmer_day_is_another_law():
+    """3 degrees: tau_max e^(-0.3), G e^(-0.015); from test to test the last record has it all, the first nothing."""
+    first, last = ramp(1e-3), ramp(2e-2)
+    warm_law = LAW.with_parameters([3000.0, 6.0 * math.exp(-0.3), 2.0 * math.exp(-0.015)])
+    campaign = probation.Campaign(name="days", records=(first, last))
+    model = gap.CampaignModel(
+        gap.DnlrLaw(LAW), gap.views_of(campaign), [gap.cause("temperature_drift", "test_to_test")]
+    )
+    found = model.predict(model.parameters(LAW.parameters, (3.0,)))
+    np.testing.assert_allclose(found[first.id], LAW.stress(first.time, first.true_strain), rtol=1e-12)
+    np.testing.assert_allclose(found[last.id], warm_law.stress(last.time, last.true_strain), rtol=1e-12)
+
+
+def test_warming_within_a_record_is_integrated_independently():
+    """One mode by scipy with the temperature rising to 5 degrees at the end."""
+    law = probation.Law(unrelaxed_modulus=900.0, tau_max=4.0, hardening_modulus=2.0, spectrum=ONE_MODE)
+    record = ramp(end=1.0, samples=600)
+
+    def slope(t, stress):
+        rise, strain = 5.0 * t / 200.0, RATE * t
+        relaxed = 2.0 * math.exp(-0.005 * rise) * (math.exp(2.0 * strain) - math.exp(-strain))
+        return 900.0 * RATE - (stress - relaxed) / (4.0 * math.exp(-0.1 * rise))
+
+    expected = solve_ivp(slope, (0.0, 200.0), [0.0], "LSODA", record.time, rtol=1e-10, atol=1e-10).y[0]
+    found, _ = predicted(law, record, "temperature_drift", "within_record", (5.0,), scheme="sa3", substeps=4)
+    np.testing.assert_allclose(found, expected, atol=2e-4)
+
+
+def test_a_saturated_load_cell_stands_still():
+    """At a nominal stress of 250 MPa: 1000 e e^(-e) exceeds it from a strain of 0.3574 on (and its peak is 368)."""
+    found, _, strain = faulty("force_saturation", "clip", (1.0 / 250.0,))
+    free = strain < 0.357
+    np.testing.assert_allclose(found[free], 1000.0 * strain[free], rtol=1e-12)
+    np.testing.assert_allclose(found[~free], np.minimum(250.0 * np.exp(strain), 1000.0 * strain)[~free], rtol=1e-12)

@@ -1,0 +1,262 @@
+"""Uncertainty that holds: strain noise, autocorrelated noise, the bias told apart, the profile of the likelihood."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.signal import lfilter
+from scipy.special import stdtrit
+
+import probation
+from probation import Campaign, Law, Noise, Record, fit
+from probation.excitation import excite
+from probation.identify import strain_noise as strain_noise_module
+from probation.identify import weighting as weighting_module
+from probation.identify.bias import bias_of
+from probation.identify.noise_model import NoiseModel
+from probation.identify.problem import Problem, RecordProblem
+from probation.identify.strain_noise import StrainNoise
+from probation.identify.weighting import Weighted, residual_and_jacobian
+from probation.paper.twins import experiment_3
+from probation.records import LawSettings
+
+LAW = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
+
+
+def ramp_record(seed=0, samples=200, strain_noise=0.0, stress_noise=0.04, given=True, correlation=0.0, wave=0.0):
+    """Eq. (7) of the true strain, noise on strain and stress."""
+    random = np.random.default_rng(seed)
+    time = np.linspace(0.0, 400.0, samples)
+    white = random.normal(size=samples)
+    noise = lfilter([np.sqrt(1.0 - correlation**2)], [1.0, -correlation], white)
+    stress = probation.ramp_stress(LAW, 0.005, time) + stress_noise * noise
+    strain = 0.005 * time + strain_noise * random.normal(size=samples)
+    stress += wave * np.cos(2.0 * np.pi * (0.005 * time - 1.2) / 1.6)  # largest at a strain of 1.2, none at the start
+    known = Noise(stress_noise, strain_noise) if given else Noise()
+    return Record("ramp", time, strain, stress, control="strain-rate", noise=known)
+
+
+def values(answer):
+    return np.array([parameter.value for parameter in answer.parameters.values()])
+
+
+def errors(answer):
+    return np.array([parameter.se for parameter in answer.parameters.values()])
+
+
+@pytest.mark.parametrize("directions", [0, 4, 60])
+@pytest.mark.parametrize("correlation", [0.0, 0.6])
+def test_whitening_is_the_inverse_root_of_the_covariance(directions, correlation):
+    """Sigma = s^2 rho^|t_i - t_j| + C C^T, written out."""
+    random = np.random.default_rng(1)
+    time = np.cumsum(random.uniform(0.5, 1.5, 60))
+    carried = random.normal(size=(60, directions)) if directions else None
+    noise = NoiseModel(0.3, correlation, np.diff(time), carried)
+    sigma = 0.09 * (correlation ** np.abs(time[:, None] - time) if correlation else np.eye(60))
+    if carried is not None:
+        sigma = sigma + carried @ carried.T
+    root = noise.whiten(np.eye(60))
+    assert_allclose(root.T @ root, np.linalg.inv(sigma), atol=1e-9)
+    assert_allclose(noise.solve(time), np.linalg.solve(sigma, time), rtol=1e-8, atol=1e-9)
+    assert noise.log_determinant == pytest.approx(np.linalg.slogdet(sigma / 0.09)[1])
+
+
+@pytest.mark.parametrize("method", ["raw", "spline"])
+def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(method):
+    """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
+    record = ramp_record(strain_noise=1e-4, samples=100)
+    excitation = excite(record, method)
+    problem = RecordProblem.prepare(record, excitation, "sa3", "exponential")
+    carried = StrainNoise.of(problem).carried(LAW)
+    strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
+    columns = []
+    for at in range(100):
+        unit = np.zeros(100)
+        unit[at] = 1e-6
+        sides = [
+            LAW.stress(
+                record.time,
+                excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
+                "sa3",
+                strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
+                jumps=None,
+            )
+            for sign in (1.0, -1.0)
+        ]
+        columns.append((sides[0] - sides[1]) / 2e-6)
+    expected = 1e-8 * np.array(columns).T @ np.array(columns)
+    assert_allclose(carried @ carried.T, expected, atol=1e-4 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("method", ["raw", "spline"])
+def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evaluated(method):
+    """d/d theta of r^T Sigma(theta)^-1 r by central differences."""
+    record = ramp_record(strain_noise=1e-3, samples=100)
+    prepared = RecordProblem.prepare(record, excite(record, method), "sa3", "exponential")
+    problem = Problem(LAW, [prepared], (False, False, False))
+    weighted = Weighted(LAW, (StrainNoise.of(prepared),))
+    problem.noises = [problem.noises[0].with_carried(weighted.strain[0].carried(LAW))]
+    away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
+    residual, jacobian = residual_and_jacobian(problem, away, weighted)
+    for index in range(3):
+        sides = []
+        for sign in (1.0, -1.0):
+            moved = away.parameters
+            moved[index] *= 1.0 + sign * 1e-4
+            there = residual_and_jacobian(problem, away.with_parameters(moved), weighted)[0]
+            sides.append(there @ there)
+        slope = (sides[0] - sides[1]) / (2e-4 * away.parameters[index])
+        assert 2.0 * residual @ jacobian[:, index] == pytest.approx(slope, rel=2e-3)
+
+
+@pytest.mark.parametrize("weighting", ["auto", "strain-noise", "strain-noise-frozen"])
+def test_without_strain_noise_every_weighting_is_plain_least_squares(weighting):
+    campaign = Campaign("x", (ramp_record(),))
+    plain, answer = fit(campaign, "sa3", weighting="plain"), fit(campaign, "sa3", weighting=weighting)
+    assert answer.weighting == "plain"
+    assert_allclose(values(answer), values(plain), rtol=1e-9)
+    assert_allclose(errors(answer), errors(plain), rtol=1e-9)
+
+
+@pytest.mark.parametrize("scheme", ["sa3", "be2"])
+def test_strain_noise_that_is_not_smoothed_biases_all_but_the_re_evaluated_weighting(scheme):
+    """3e-4 where a step is 1e-2 of strain: plain least squares and a frozen Sigma lose several per cent of E_u."""
+    campaign = Campaign("x", (ramp_record(strain_noise=3e-4, samples=300),))
+    plain, frozen, auto = (
+        fit(campaign, scheme, method="variable-projection", excitation="raw", weighting=weighting)
+        for weighting in ("plain", "strain-noise-frozen", "auto")
+    )
+    assert auto.weighting == "strain-noise"
+    assert values(plain)[0] < 0.95 * LAW.unrelaxed_modulus
+    assert values(frozen)[0] < 0.98 * LAW.unrelaxed_modulus
+    assert np.all(np.abs(values(auto) - LAW.parameters) < 3.0 * errors(auto))
+    assert "of the strain" in auto.summary()
+    assert auto.to_dict()["records"]["ramp"]["strain_noise_weighed"] is True
+
+
+def test_a_smoothed_strain_still_leaves_its_error_in_G():
+    """A straight line through n samples errs by 2 sigma_x / sqrt(n) at its end, a spline by more; G follows e_HT."""
+    campaign = Campaign("x", (ramp_record(strain_noise=1e-3),))
+    plain, auto = fit(campaign, "sa3", weighting="plain"), fit(campaign, "sa3")
+    assert auto.weighting == "strain-noise"
+    assert auto.parameters["hardening_modulus"].se > 2.0 * plain.parameters["hardening_modulus"].se
+    assert auto.parameters["unrelaxed_modulus"].se == pytest.approx(plain.parameters["unrelaxed_modulus"].se, rel=0.1)
+    assert any("standard errors" in warning for warning in plain.warnings)
+    assert not auto.warnings
+
+
+def test_strain_noise_that_a_bias_hides_changes_nothing():
+    campaign = Campaign("x", (ramp_record(strain_noise=1e-4, wave=1.5),))
+    assert fit(campaign, "sa3").weighting == "plain"
+
+
+def test_long_records_have_their_strain_noise_drawn_again(monkeypatch):
+    """The same standard error of G as by the matrix, to the 20 % that 12 draws leave (three times that)."""
+    campaign = Campaign("x", (ramp_record(strain_noise=1e-3),))
+    whole = fit(campaign, "sa3")
+    monkeypatch.setattr(weighting_module, "LARGEST", 100)
+    monkeypatch.setattr(strain_noise_module, "DRAWS", 12)
+    drawn = fit(campaign, "sa3")
+    assert drawn.weighting == "plain, strain noise resampled"
+    se = [answer.parameters["hardening_modulus"].se for answer in (drawn, whole)]
+    assert se[0] == pytest.approx(se[1], rel=0.6)
+
+
+def test_autocorrelated_noise_is_found_and_widens_the_errors():
+    """AR(1) 0.5 triples the variance of what is slow: sqrt((1 + rho) / (1 - rho)) = 1.73 in the standard errors."""
+    campaign = Campaign("x", (ramp_record(correlation=0.5, samples=1000),))
+    plain, auto = fit(campaign, "sa3", weighting="plain"), fit(campaign, "sa3")
+    assert auto.weighting == "autocorrelated"
+    assert auto.records["ramp"].noise_correlation == pytest.approx(0.5, abs=0.1)
+    ratio = (
+        auto.parameters["hardening_modulus"].se
+        / fit(Campaign("x", (ramp_record(samples=1000),)), "sa3").parameters["hardening_modulus"].se
+    )
+    assert ratio == pytest.approx(np.sqrt(3.0), rel=0.15)
+    assert auto.autocorrelated
+    assert not auto.newey_west
+    assert auto.noise_MPa == pytest.approx(0.04, rel=0.15)
+    assert "AR(1) 0." in auto.summary()
+    assert_allclose(values(auto), values(plain), atol=2.0 * errors(auto).max())
+
+
+def test_white_noise_is_not_taken_as_autocorrelated():
+    """1 % of white records are; of 20, three have a chance of 0.1 %."""
+    found = [fit(Campaign("x", (ramp_record(seed),)), "sa3", method="variable-projection") for seed in range(20)]
+    assert sum(answer.autocorrelated for answer in found) <= 2
+
+
+def test_a_wave_is_a_bias_not_noise():
+    answer = fit(Campaign("x", (ramp_record(wave=1.5, samples=1000),)), "sa3")
+    assert (answer.weighting, answer.newey_west) == ("plain", True)
+
+
+def test_the_bias_is_told_with_its_place_and_size():
+    """A wave of 1.5 MPa, largest at a strain of 1.2; the fit takes a part of it into the parameters."""
+    answer = fit(Campaign("x", (ramp_record(wave=1.5, samples=600),)), "sa3")
+    bias = answer.records["ramp"].bias
+    assert bias.significant
+    assert bias.true_strain == pytest.approx(1.2, abs=0.1)
+    assert 1.0 < bias.largest_MPa < 2.0
+    assert "at a strain of 1." in answer.summary()
+    assert answer.to_dict()["records"]["ramp"]["bias_max_MPa"] == bias.largest_MPa
+    assert not fit(Campaign("x", (ramp_record(samples=600),)), "sa3").records["ramp"].bias.significant
+
+
+def test_noise_alone_hardly_ever_looks_like_a_bias():
+    time = np.linspace(0.0, 1.0, 400)
+    found = [bias_of(np.random.default_rng(seed).normal(size=400), time, time, 1.0).significant for seed in range(200)]
+    assert sum(found) <= 10
+
+
+def test_the_profile_of_a_linear_problem_is_the_standard_error():
+    """tau_max held, E_u and G are linear: value +- t se, t Student's at 97.5 %."""
+    campaign = Campaign("x", (ramp_record(),))
+    options = {"scheme": "sa3", "hold": {"tau_max_s": 5.207}}
+    plain, profiled = fit(campaign, **options), fit(campaign, **options, intervals="profile")
+    for name in ("unrelaxed_modulus", "hardening_modulus"):
+        assert_allclose(
+            profiled.parameters[name].interval95,
+            plain.parameters[name].interval95,
+            atol=1e-4 * plain.parameters[name].se,
+        )
+    assert profiled.to_dict()["intervals"] == "profile"
+
+
+def test_at_the_ends_of_the_profile_the_cost_has_risen_by_the_quantile():
+    """Few noisy samples, so that it bends: refits with the parameter held there have RSS / s^2 larger by t^2.
+
+    E_u tau_max is what the record knows: 1 / tau_max is linear, and the interval of E_u is longer above.
+    """
+    record = ramp_record(samples=40, stress_noise=0.3)
+    campaign = Campaign("x", (record,))
+    answer = fit(campaign, "sa3", intervals="profile", weighting="plain")
+    freedom = 40 - 3
+    least = 40 * answer.rms_MPa**2
+    quantile = stdtrit(freedom, 0.975)
+    for name, outside in (("unrelaxed_modulus", "unrelaxed_modulus_MPa"), ("tau_max", "tau_max_s")):
+        for end in answer.parameters[name].interval95:
+            held = fit(campaign, "sa3", hold={outside: end}, weighting="plain")
+            rise = (40 * held.rms_MPa**2 - least) / (least / freedom)
+            assert np.sqrt(rise) == pytest.approx(quantile, rel=0.02)
+    modulus = answer.parameters["unrelaxed_modulus"]
+    assert modulus.interval95[1] - modulus.value > 1.02 * (modulus.value - modulus.interval95[0])
+
+
+def test_the_profile_with_strain_noise_is_about_the_standard_error():
+    campaign = Campaign("x", (ramp_record(strain_noise=3e-4, samples=100),))
+    answer = fit(campaign, "sa3", excitation="raw", intervals="profile")
+    parameter = answer.parameters["hardening_modulus"]
+    reach = stdtrit(97, 0.975) * parameter.se
+    assert_allclose(parameter.interval95, [parameter.value - reach, parameter.value + reach], atol=0.1 * parameter.se)
+
+
+def test_the_page_shows_the_profile(tmp_path):
+    path = fit(Campaign("x", (ramp_record(),)), "sa3", intervals="profile").report(tmp_path / "fit.html")
+    assert "Profile likelihood" in path.read_text(encoding="utf-8")
+
+
+def test_the_edge_of_the_search_is_told():
+    """Experiment 3 without companion relation: the cost falls as tau_max goes to 0 at fixed E_u tau_max (Figure 3)."""
+    record = experiment_3().record()
+    answer = fit(Campaign("x", (record,), LawSettings()), "sa3", method="variable-projection")
+    assert any("edge of its range" in warning for warning in answer.warnings)

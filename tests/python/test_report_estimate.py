@@ -1,0 +1,19 @@
+"""A value is printed to two significant digits of its standard error."""
+
+import pytest
+
+from probation.report.estimate import plus_minus
+
+
+@pytest.mark.parametrize(
+    ("value", "se", "text"),
+    [
+        (3223.3391, 2.4812, "3223.3 ± 2.5"),
+        (1.85, 8.5e-5, "1.850000 ± 0.000085"),
+        (1.6543, 0.0996, "1.65 ± 0.10"),
+        (2093.4, 254.4, "2093 ± 254"),
+        (3220.0, 0.0, "3220"),
+    ],
+)
+def test_the_error_decides_the_digits(value: float, se: float, text: str):
+    assert plus_minus(value, se) == text
