@@ -32,6 +32,16 @@ def test_the_verdict_comes_first(jump_file, capsys):
     assert "strain noise" in said
 
 
+def test_strain_alone_will_do_and_is_said(jump_file, capsys):
+    rows = [line.rsplit(",", 1)[0] for line in jump_file.read_text().splitlines()]
+    jump_file.write_text("\n".join(rows))
+    assert main(["excitation", str(jump_file)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("jump: strain rate 0.0017 … 0.017 1/s")
+    assert "warning: strain alone was read" in said
+    assert "no stress column" in said
+
+
 def test_csv_json_plot_and_page_are_written(jump_file, tmp_path, capsys):
     names = [str(tmp_path / name) for name in ("out.csv", "out.json", "out.png", "out.html")]
     arguments = ["--csv", names[0], "--json", names[1], "--plot", names[2], "--report", names[3]]
@@ -109,6 +119,17 @@ def test_noise_that_is_left_in_the_rate_is_warned_of():
     strain = 0.01 * time + 1e-3 * np.random.default_rng(0).normal(size=1001)
     (found,) = describe_excitation([Record("ramp", time, strain, np.zeros(1001))], "raw").records
     assert any("mostly noise" in warning for warning in found.warnings)
+
+
+def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
+    """The machine reaches its speed within two samples: so short a bend is no segment, and no spline follows it."""
+    time = np.linspace(0.0, 20.0, 1001)
+    strain = 0.01 * np.maximum(time - 0.05, 0.0) + 1e-6 * np.random.default_rng(0).normal(size=1001)
+    record = Record("run-up", time, strain, np.zeros(1001))
+    (found,) = describe_excitation([record], "quintic-spline").records
+    assert any("more than 8 times the noise" in warning and "raw takes" in warning for warning in found.warnings)
+    (found,) = describe_excitation([record], "raw").records
+    assert not any("times the noise" in warning for warning in found.warnings)
 
 
 def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypatch):

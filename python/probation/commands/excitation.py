@@ -95,9 +95,36 @@ def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
     from probation.records import Campaign  # noqa: PLC0415
 
     place = Path(path)
-    data = place.is_file() and place.suffix != ".toml"
-    campaign = Campaign.from_files([place]) if data else Campaign.load(place)
+    if not place.is_file() or place.suffix == ".toml":
+        campaign = Campaign.load(place)
+    else:
+        try:
+            campaign = Campaign.from_files([place])
+        except InputError as error:
+            campaign = Campaign(place.name, (_strain_alone(place, error),))
     return tuple(campaign.record(each) for each in wanted) if wanted else campaign.records
+
+
+def _strain_alone(place: Path, refused: InputError) -> Record:
+    """A file of strain over time as a record without stress; `refused` says why it is no stress-strain record."""
+    import numpy as np  # noqa: PLC0415 - see the package
+
+    from probation.records import Record  # noqa: PLC0415
+    from probation.records.strain_history import read_strain_history  # noqa: PLC0415
+
+    try:
+        history = read_strain_history(place)
+    except InputError:
+        raise refused from None
+    return Record(
+        place.name.split(".")[0],
+        history.time,
+        history.true_strain,
+        np.zeros_like(history.time),
+        history.strain_rate,
+        file=place,
+        warnings=(*history.warnings, f"strain alone was read: {refused}"),
+    )
 
 
 def _compare(options: argparse.Namespace) -> int:

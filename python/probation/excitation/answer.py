@@ -38,6 +38,9 @@ VARIES = 1.05
 CORRELATED = 1.2
 """Inflation from which on noise is said to be correlated."""
 
+FAR = 8.0
+"""Residuals beyond so many standard deviations of the noise are told."""
+
 CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se_per_s"
 
 
@@ -166,6 +169,8 @@ class RecordExcitation:
                 "neighbouring samples err together: slow averages of the strain noise vary "
                 f"{excitation.noise_inflation:.2g} times as much as white noise; the standard errors say so"
             )
+        if missed := self._missed():
+            told.append(missed)
         if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
             told.append("the differences of the strain are mostly noise: another method smooths it")
         return tuple(told)
@@ -221,6 +226,18 @@ class RecordExcitation:
         from probation.report.excitation_figures import excitation_figure  # noqa: PLC0415 - matplotlib is slow to load
 
         return excitation_figure(self)
+
+    def _missed(self) -> str:
+        """Where the used strain misses the measured one by far more than noise, such as the run-up of a machine."""
+        off = np.flatnonzero(np.abs(self.residual) > FAR * self.excitation.strain_noise)
+        if self.excitation.operators is None or not off.size or self.excitation.strain_noise == 0.0:
+            return ""
+        first = ", ".join(f"{self.time[at]:.4g}" for at in off[:3])
+        return (
+            f"{off.size} sample{'s are' if off.size > 1 else ' is'} off by more than {FAR:.0f} times the noise, at "
+            f"{first}{', …' if off.size > 3 else ''} s: the strain is sharper there than the method follows, or they "
+            "are outliers; raw takes them as they are"
+        )
 
     def _correlation(self) -> str:
         grown = self.excitation.noise_inflation

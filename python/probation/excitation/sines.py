@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
 
@@ -24,6 +24,9 @@ SLOWEST = 0.5
 """Lowest frequency [cycles per record]."""
 
 SAMPLES = 8
+
+PATIENCE = 3
+"""Sines that are added in vain before the search ends."""
 
 BLOCKS = 400
 """Means of neighbouring samples that the search looks at."""
@@ -93,20 +96,32 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
     fit = partial(_Fit, x, sums, sums * means)
     count = len(x)
     grid = np.arange(SLOWEST, min(FASTEST, count / SAMPLES), 0.25)
+    turns = np.exp(2j * np.pi * np.outer(grid, x))
     found = [fit(np.empty(0))]
-    for _ in range(min(MOST, len(grid) // 4)):
-        left = partial(_Fit, x, sums, found[-1].rest)
-        peak = grid[int(np.argmin([left(np.array([each])).squares for each in grid]))]
+    while len(found) <= min(MOST, len(grid) // 4) and not _settled(found):
+        peak = grid[int(np.argmax(np.abs(turns @ (sums * found[-1].rest))))]
         found.append(_refined(fit, np.append(found[-1].frequencies, peak), float(grid[-1])))
-    last = found[-1].rest
-    neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
-    criteria = []
-    for number, each in enumerate(found):
-        innovation = each.rest[1:] - neighbours * each.rest[:-1]
-        criteria.append(count * np.log(max(float(innovation @ innovation), 1e-300)) + 3 * number * np.log(count))
+    criteria = _criteria(found)
     best = found[int(np.argmin(criteria))].frequencies
     whole = _Fit((time - start) / duration, weight, weight * residual, best)
     return Sines(best / duration, whole.weights, start, tuple(criteria))
+
+
+def _settled(found: Sequence[_Fit]) -> bool:
+    """Whether the last `PATIENCE` sines were not wanted."""
+    return len(found) > PATIENCE and int(np.argmin(_criteria(found))) < len(found) - PATIENCE
+
+
+def _criteria(found: Sequence[_Fit]) -> list[float]:
+    """The Bayesian information criterion of each, the noise being what the last leaves."""
+    last = found[-1].rest
+    count = len(last)
+    neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
+    innovations = (each.rest[1:] - neighbours * each.rest[:-1] for each in found)
+    return [
+        count * float(np.log(max(float(rest @ rest), 1e-300))) + 3 * number * float(np.log(count))
+        for number, rest in enumerate(innovations)
+    ]
 
 
 def _blocks(t: FloatArray, values: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
