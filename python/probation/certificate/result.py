@@ -182,7 +182,7 @@ class Certificate:
                     "passes": each.passes,
                     "tested": each.tested,
                     "p_value": each.p_value,
-                    "mean": each.mean,
+                    "mean": each.mean if each.passes else None,
                     "by_record": {
                         record: {"value": found.value, "se": found.total_se, "se_noise": found.se_noise}
                         for record, found in each.by_record.items()

@@ -108,7 +108,8 @@ def _exceptions(
     if not tested:
         return "intrinsic_except", f"{changes}, while {_listed(kept)} cannot be compared between records; {predicted}"
     keep = "keep theirs" if len(tested) > 1 else "keeps its value"
-    return "intrinsic_except", f"{changes}, while {_listed(tested)} {keep}; {predicted}"
+    freed = f"with {_listed(failing)} free on each record all are described within tolerance"
+    return "intrinsic_except", f"{changes}, while {_listed(tested)} {keep}: {freed}; {predicted}"
 
 
 def _listed(names: list[str]) -> str:
