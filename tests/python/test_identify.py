@@ -235,7 +235,10 @@ def test_the_page_is_written(tmp_path):
         ({"hold": {"alpha": 1.0}}, "alpha"),
         ({"bounds": {"tau_max": (1.0, 2.0)}}, "tau_max"),
         ({"bounds": {"tau_max_s": (2.0, 1.0)}}, "lower < upper"),
-        ({"hold": {"unrelaxed_modulus_MPa": 1.0, "tau_max_s": 1.0, "hardening_modulus_MPa": 1.0}}, "nothing is left"),
+        (
+            {"hold": {"unrelaxed_modulus_MPa": 1.0, "tau_max_s": 1.0, "hardening_modulus_MPa": 1.0}},
+            "one left to identify",
+        ),
     ],
 )
 def test_bad_options_are_named(options, said):
