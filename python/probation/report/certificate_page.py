@@ -37,11 +37,9 @@ def certificate_figure(found: Certificate) -> Figure:
     records = list(found.alone)
     with house_style():
         figure = new_figure(7.6, 0.5 + 2.3 * len(records))
-        panels = figure.subplots(len(records), 2, squeeze=False, width_ratios=(1.25, 1), sharex="row")
+        panels = figure.subplots(len(records), 2, squeeze=False, width_ratios=(1.25, 1), sharex=True)
         for (left, right), record in zip(panels, records, strict=True):
             _record(left, right, found, record)
-        panels[0, 0].set_title("true stress [MPa]")
-        panels[0, 1].set_title("model − measured [MPa]")
         for axes in panels[-1]:
             axes.set_xlabel("true strain [–]")
     return figure
@@ -65,7 +63,9 @@ def _record(left: Axes, right: Axes, found: Certificate, record: str) -> None:
     right.axhline(0.0, color=colour("muted"), lw=0.8)
     note = f"band: ±{tolerance:.2g} MPa"
     right.set_title(note, loc="right", fontsize=8, fontweight="normal", color=colour("muted"))  # curves fill the axes
-    left.set_ylabel(record)
+    left.set_title(record)
+    left.set_ylabel("true stress [MPa]")
+    right.set_ylabel("model − measured [MPa]")
     left.legend(loc="best", fontsize=7.5)
 
 
@@ -77,7 +77,7 @@ def parameter_figure(found: Certificate) -> Figure:
     }
     shown = {name: entries for name, entries in shown.items() if entries}
     with house_style():
-        figure = new_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.35 * len(shown))
+        figure = new_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown))
         panels = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
         for axes, (name, entries) in zip(panels, shown.items(), strict=True):
             each = found.parameters[name]
@@ -92,7 +92,8 @@ def parameter_figure(found: Certificate) -> Figure:
             axes.grid(axis="y", visible=False)
             label = f"{SYMBOLS[name]} [{UNITS[name]}]" if UNITS[name] else SYMBOLS[name]
             verdict = ("passes" if each.passes else "does not pass") if each.tested else "not tested"
-            axes.set_title(f"{label}: {verdict}", color=colour("ink" if good else "bad"))
+            axes.set_title(verdict, color=colour("ink" if good else "bad"))
+            axes.set(xlabel=label, ylabel="record")
             axes.ticklabel_format(axis="x", useOffset=False)
     return figure
 
