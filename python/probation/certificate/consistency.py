@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -109,4 +109,4 @@ def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
     if len(values) < 2:
         return mean, 1.0, False
     apart = values - mean
-    return mean, float(chi2.sf(apart @ precision @ apart, len(values) - 1)), True
+    return mean, float(chdtrc(len(values) - 1, apart @ precision @ apart)), True

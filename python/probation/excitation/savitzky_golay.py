@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import savgol_coeffs
 
 from probation.excitation.operators import Operators
 from probation.excitation.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
@@ -118,6 +117,8 @@ class LocalCubics:
 
 def _inner(time: FloatArray, window: int) -> tuple[FloatArray, FloatArray]:
     """Weights at the middle of each window, (windows, 1, window); one for all where the samples are even."""
+    from scipy.signal import savgol_coeffs  # noqa: PLC0415 - slow to load, and this is one way of several
+
     step = np.diff(time)
     if np.ptp(step) <= EVEN * np.median(step):
         spacing = float(step.mean())

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.signal import savgol_coeffs, savgol_filter
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -66,10 +65,9 @@ class Bias:
 
 def low_frequency(residual: FloatArray) -> FloatArray:
     """The residual through a moving parabola over `WINDOW` of the record, shape (n_times,) [MPa]."""
-    window = _window(len(residual))
     if len(residual) < SHORTEST:
         return np.full_like(residual, residual.mean())
-    return np.asarray(savgol_filter(residual, window, 2), dtype=np.float64)
+    return _smoothed(residual)
 
 
 def bias_of(
@@ -92,6 +90,8 @@ def bias_of(
     carried : ndarray, shape (n_times, n_directions), or None
         Strain noise as stress [MPa], as in `NoiseModel`.
     """
+    from scipy.signal import savgol_coeffs  # noqa: PLC0415 - slow to load, and not every command fits
+
     low = low_frequency(residual)
     window = _window(len(residual))
     short = len(residual) < SHORTEST
@@ -102,11 +102,18 @@ def bias_of(
         deviation[: window // 2] *= 2.0
         deviation[-(window // 2) :] *= 2.0
         if carried is not None:
-            deviation = np.hypot(deviation, np.linalg.norm(savgol_filter(carried, window, 2, axis=0), axis=1))
+            deviation = np.hypot(deviation, np.linalg.norm(_smoothed(carried), axis=1))
     threshold = SIGNIFICANT * deviation
     stands_out = np.abs(low) > threshold
     at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))
     return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), float(threshold[at]))
+
+
+def _smoothed(values: FloatArray) -> FloatArray:
+    """Values over time, the first axis, through the moving parabola."""
+    from scipy.signal import savgol_filter  # noqa: PLC0415
+
+    return np.asarray(savgol_filter(values, _window(len(values)), 2, axis=0), dtype=np.float64)
 
 
 def _window(count: int) -> int:
