@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Sequence
 
     from probation.records import Campaign
 
@@ -32,7 +33,19 @@ def add_control(parser: argparse.ArgumentParser) -> None:
 
 
 def campaign_from(options: argparse.Namespace) -> Campaign:
-    """The campaign that the options name.
+    """The campaign that `options.campaign` names."""
+    return campaign_at(options.campaign, options.control)
+
+
+def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
+    """A campaign, or data files that stand in for one.
+
+    Parameters
+    ----------
+    paths : sequence of str
+        A folder or campaign.toml; or data files, one or more.
+    control : str
+        How the tests in data files were driven.
 
     Raises
     ------
@@ -41,7 +54,11 @@ def campaign_from(options: argparse.Namespace) -> Campaign:
     """
     from probation.records import Campaign  # noqa: PLC0415 - see the package
 
-    first = Path(options.campaign[0])
-    if len(options.campaign) > 1 or (first.is_file() and first.suffix != ".toml"):
-        return Campaign.from_files(options.campaign, control=options.control)
-    return Campaign.load(first)
+    if len(paths) > 1 or is_data_file(paths[0]):
+        return Campaign.from_files(paths, control=control)
+    return Campaign.load(paths[0])
+
+
+def is_data_file(path: str) -> bool:
+    """Whether it is a file, and no campaign.toml."""
+    return Path(path).is_file() and Path(path).suffix != ".toml"

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from probation.commands.campaign_options import add_control, campaign_at, is_data_file
 from probation.commands.delivery import add_delivery, deliver_files, deliver_report, said, tell
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -70,12 +71,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="G in the direct route: each record its own (default), or one for all",
     )
     parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="sa3", help="time integration (sa3)")
-    parser.add_argument(
-        "--control",
-        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
-        default="other",
-        help="how the tests in data files were driven (other)",
-    )
+    add_control(parser)
     add_delivery(parser)
     group = parser.add_argument_group("use")
     group.add_argument("--toml", action="store_true", help="print [law.companion] alone, to paste into a campaign.toml")
@@ -118,7 +114,6 @@ def _source(options: argparse.Namespace) -> Campaign | RateTable:
     """Table 2, a table, a campaign, or data files that stand in for one."""
     from probation.calibration import TABLE_2  # noqa: PLC0415
     from probation.calibration.table_file import read_rate_table  # noqa: PLC0415
-    from probation.records import Campaign  # noqa: PLC0415
 
     if options.table_2:
         if options.source:
@@ -128,11 +123,8 @@ def _source(options: argparse.Namespace) -> Campaign | RateTable:
         raise InputError(
             "found no CAMPAIGN, expected a campaign, a table or data files; --table-2 takes the paper's own"
         )
-    first = Path(options.source[0])
-    if len(options.source) == 1 and first.is_file() and first.suffix != ".toml":
-        table = read_rate_table(first)
+    if len(options.source) == 1 and is_data_file(options.source[0]):
+        table = read_rate_table(Path(options.source[0]))
         if table is not None:
             return table
-    if len(options.source) > 1 or (first.is_file() and first.suffix != ".toml"):
-        return Campaign.from_files(options.source, control=options.control)
-    return Campaign.load(first)
+    return campaign_at(options.source, options.control)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation._files import write_whole
+from probation.commands.campaign_options import campaign_at, is_data_file
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -94,14 +95,13 @@ def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
     """Those of a campaign, or of a data file that stands in for one."""
     from probation.records import Campaign  # noqa: PLC0415
 
-    place = Path(path)
-    if not place.is_file() or place.suffix == ".toml":
-        campaign = Campaign.load(place)
-    else:
-        try:
-            campaign = Campaign.from_files([place])
-        except InputError as error:
-            campaign = Campaign(place.name, (_strain_alone(place, error),))
+    try:
+        campaign = campaign_at([path])
+    except InputError as error:
+        if not is_data_file(path):
+            raise
+        place = Path(path)
+        campaign = Campaign(place.name, (_strain_alone(place, error),))
     return tuple(campaign.record(each) for each in wanted) if wanted else campaign.records
 
 
