@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -13,18 +13,22 @@ from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
 from probation.certificate.result import Certificate
-from probation.certificate.trial import PARAMETERS, Trial, estimates
+from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_covariance
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.identify.parameter import outside_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
+    from probation._arrays import FloatArray
     from probation.excitation import Method as ExcitationMethod
     from probation.identify import Fit
     from probation.law import Scheme, Start
     from probation.records import Campaign, Record
+
+ByRecord: TypeAlias = "dict[str, dict[str, Estimate]]"
+"""Estimates by record and parameter."""
 
 SAME_TEMPERATURE = 3.0
 """Records whose mean temperatures differ by more confound temperature with whatever else differs [°C]."""
@@ -104,24 +108,28 @@ def certify(
     base = step(trial.base())
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
     predictions = {
-        record.id: predict(source, record, tolerance, excitation, relation)
-        for source, record in _pairs(trial, base, step)
+        record.id: predict(source, known, record, tolerance, excitation, relation)
+        for source, known, record in _pairs(trial, base, step)
     }
     free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
-    modulus, modulus_error = _modulus(base, free, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
+    own = {record: estimates(found, record, relation=relation) for record, found in free.items()}
+    modulus, modulus_error = _modulus(base, own, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
     known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
     alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
-    parameters = _judge(base, alone, free, modulus_error, relation)
+    held = {record: estimates(found, record, modulus_error, relation) for record, found in alone.items()}
+    parameters = _judge(own, held)
     failing = [name for name, each in parameters.items() if not each.passes]
     kept = [name for name in parameters if name not in failing]
-    if failing:
-        shared = trial.holding(base, kept)
-        if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
-            means = {outside_name(name): parameters[name].mean for name in kept if parameters[name].tested}
-            shared = replace(shared, fixed={**shared.fixed, **means})
-        described = {record.id: step(trial.fit([record], shared)) for record in records}
-    else:
+    shared = trial.holding(base, kept)
+    if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
+        means = {outside_name(name): parameters[name].mean for name in kept if parameters[name].tested}
+        shared = replace(shared, fixed={**shared.fixed, **means})
+    if not failing or not kept:
         described = free
+    elif shared == known_modulus:
+        described = alone
+    else:
+        described = {record.id: step(trial.fit([record], shared)) for record in records}
     without = {}
     if rated:
         bare = replace(campaign.law, companion=None, fixed={})
@@ -162,53 +170,52 @@ def certify(
     )
 
 
-def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> list[tuple[Fit, Record]]:
-    """What predicts what: the identified law every held-out record; without such, each record by all others."""
+def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> Iterator[tuple[Fit, FloatArray, Record]]:
+    """What predicts what, and its covariance: the identified law every held-out record; else each by all others."""
     campaign = trial.campaign
     if campaign.held_out or trial.all_given:
-        return [(base, record) for record in campaign.held_out or campaign.records]
-    return [
-        (step(trial.fit(other for other in campaign.records if other.id != record.id)), record)
-        for record in campaign.records
-    ]
+        known = joint_covariance(base)
+        for record in campaign.held_out or campaign.records:
+            yield base, known, record
+        return
+    for record in campaign.records:
+        source = step(trial.fit(other for other in campaign.records if other.id != record.id))
+        yield source, joint_covariance(source), record
 
 
-def _modulus(base: Fit, free: Mapping[str, Fit], *, held: bool) -> tuple[float, float]:
+def _modulus(base: Fit, own: ByRecord, *, held: bool) -> tuple[float, float]:
     """E_u that is held on each record, and its standard error [MPa].
 
     As identified. Where several records were identified together it is the mean of what each says alone: if another
     parameter differs between them, the joint fit bends E_u to make up for it.
     """
     name = "unrelaxed_modulus"
+    identified = base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
     if held or len(base.records) == 1:
-        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
-    own = {record: estimates(free[record], record)[name] for record in base.records}
-    errors = [each.se for each in own.values() if each.se]
+        return identified
+    known = {record: own[record][name] for record in base.records}
+    errors = [each.se for each in known.values() if each.se]
     if not errors:
-        return base.law.unrelaxed_modulus, base.parameters[name].se or 0.0
-    return judge({name: own})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)
+        return identified
+    return judge({name: known})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)
 
 
-def _judge(
-    base: Fit,
-    alone: Mapping[str, Fit],
-    free: Mapping[str, Fit],
-    modulus_error: float,
-    relation: CalibratedCompanion | None,
-) -> dict[str, Consistency]:
-    """Judge E_u on the fits with all parameters free, the others on those with E_u held; on the former if E_u fails."""
-    own: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
-    held: dict[str, dict[str, Estimate]] = {name: {} for name in base.law.parameter_names}
-    for record in alone:
-        values = estimates(free[record], record, relation=relation)
-        known = values | estimates(alone[record], record, modulus_error, relation)
-        for name, value in values.items():
-            own[name][record], held[name][record] = value, known[name]
-    judged = judge(held)
+def _judge(own: ByRecord, held: ByRecord) -> dict[str, Consistency]:
+    """Judge E_u on the fits with all parameters free, the others on those with E_u held; on the former if E_u fails.
+
+    `own` and `held` are the estimates of those fits, by record.
+    """
+    judged = judge(_by_parameter({record: own[record] | held[record] for record in own}))
     if judged["unrelaxed_modulus"].passes:
         return judged
-    judged_on_own = judge(own)  # an E_u that is not the record's would push its error into the others
+    judged_on_own = judge(_by_parameter(own))  # an E_u that is not the record's would push its error into the others
     return judged if judged_on_own["unrelaxed_modulus"].passes else judged_on_own
+
+
+def _by_parameter(estimated: ByRecord) -> dict[str, dict[str, Estimate]]:
+    """By parameter and record what was by record and parameter."""
+    names = next(iter(estimated.values()))
+    return {name: {record: values[name] for record, values in estimated.items()} for name in names}
 
 
 def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:

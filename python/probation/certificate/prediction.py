@@ -7,76 +7,43 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.certificate.trial import companion_factor, free_parameters, joint_covariance
+from probation.certificate.trial import companion_factor, free_parameters
 from probation.excitation import excite
+from probation.identify.modelled_record import ModelledRecord
 from probation.identify.problem import RecordProblem
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration import CalibratedCompanion
-    from probation.excitation import Excitation
     from probation.excitation import Method as ExcitationMethod
     from probation.identify import Fit
     from probation.records import Record
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction:
+class Prediction(ModelledRecord):
     """A record beside what the law predicts for it.
+
+    Its `bias_MPa` is the systematic part of the error.
 
     Attributes
     ----------
-    id : str
-    time, true_strain, true_stress : ndarray, shape (n_times,) [s], [-], [MPa]
-        As measured.
-    excitation : Excitation
-        What drove the law.
-    model_stress : ndarray, shape (n_times,) [MPa]
     standard_error : ndarray, shape (n_times,) [MPa]
         Of the prediction, by the uncertainty of the parameters and of the companion relation.
-    noise_MPa : float
-        Of the record.
     tolerance_MPa : float
-        The error that is let pass.
+        The systematic error that is let pass.
     identified_on : tuple of str
         Where the parameters come from.
     """
 
-    id: str
-    time: FloatArray
-    true_strain: FloatArray
-    true_stress: FloatArray
-    excitation: Excitation
-    model_stress: FloatArray
     standard_error: FloatArray
-    noise_MPa: float  # noqa: N815 - as it leaves the program
-    tolerance_MPa: float  # noqa: N815
+    tolerance_MPa: float  # noqa: N815 - as it leaves the program
     identified_on: tuple[str, ...]
-
-    @property
-    def error(self) -> FloatArray:
-        """Model minus data, shape (n_times,) [MPa]."""
-        return self.model_stress - self.true_stress
-
-    @property
-    def rms_MPa(self) -> float:
-        """Root mean square of the error."""
-        return float(np.sqrt(np.mean(self.error**2)))
-
-    @property
-    def max_MPa(self) -> float:
-        """Largest error."""
-        return float(np.max(np.abs(self.error)))
 
     @property
     def worst(self) -> int:
         """Sample of the largest error."""
-        return int(np.argmax(np.abs(self.error)))
-
-    @property
-    def systematic_MPa(self) -> float:
-        """What of the error is not noise, root mean square."""
-        return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
+        return int(np.argmax(np.abs(self.fit_residual)))
 
     @property
     def noise_units(self) -> float:
@@ -86,12 +53,12 @@ class Prediction:
     @property
     def relative(self) -> float:
         """The systematic error over the largest stress of the record."""
-        return self.systematic_MPa / float(np.max(np.abs(self.true_stress)))
+        return self.bias_MPa / float(np.max(np.abs(self.true_stress)))
 
     @property
     def passes(self) -> bool:
         """Whether the systematic error stays within the tolerance."""
-        return self.systematic_MPa <= self.tolerance_MPa
+        return self.bias_MPa <= self.tolerance_MPa
 
     def to_json(self) -> dict[str, Any]:
         """Numbers only."""
@@ -99,7 +66,7 @@ class Prediction:
             "rms_MPa": self.rms_MPa,
             "max_MPa": self.max_MPa,
             "noise_MPa": self.noise_MPa,
-            "systematic_MPa": self.systematic_MPa,
+            "systematic_MPa": self.bias_MPa,
             "in_noise_units": self.noise_units,
             "tolerance_MPa": self.tolerance_MPa,
             "passes": self.passes,
@@ -113,13 +80,20 @@ class Prediction:
 
 
 def predict(
-    base: Fit, record: Record, tolerance: float, method: ExcitationMethod, relation: CalibratedCompanion | None = None
+    base: Fit,
+    covariance: FloatArray,
+    record: Record,
+    tolerance: float,
+    method: ExcitationMethod,
+    relation: CalibratedCompanion | None = None,
 ) -> Prediction:
     """Predict a record with the law of a fit.
 
     Parameters
     ----------
     base : Fit
+    covariance : ndarray, shape (free, free)
+        Of its parameters, `trial.joint_covariance`.
     record : Record
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
@@ -131,7 +105,7 @@ def predict(
     problem = RecordProblem.prepare(record, excite(record, method), base.scheme, base.start, base.substeps)
     stress, sensitivity = problem.sensitivity(base.law)
     slopes = sensitivity[:, free_parameters(base)]
-    variance = np.einsum("ij,jk,ik->i", slopes, joint_covariance(base), slopes)
+    variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)
     variance += np.sum(companion_factor(base, problem.excitation, relation) ** 2, axis=1)
     return Prediction(
         id=record.id,

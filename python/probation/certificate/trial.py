@@ -15,7 +15,7 @@ from probation.identify.parameter import WEAKLY, outside_name
 from probation.records import Campaign
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     from probation._arrays import FloatArray
     from probation.calibration import CalibratedCompanion
@@ -58,9 +58,7 @@ class Trial:
             return given(self.campaign, self.scheme, excitation=self.excitation, start=self.start)
         return self.fit(self.campaign.identify)
 
-    def fit(
-        self, records: Iterable[Record], law: LawSettings | None = None, hold: Mapping[str, float] | None = None
-    ) -> Fit:
+    def fit(self, records: Iterable[Record], law: LawSettings | None = None) -> Fit:
         """Identify on records, whatever their role, with the campaign's law or another."""
         chosen = tuple(replace(record, role="identify") for record in records)
         campaign = Campaign(self.campaign.name, chosen, law or self.campaign.law)
@@ -68,7 +66,6 @@ class Trial:
             campaign,
             self.scheme,
             method="variable-projection",
-            hold=hold,
             excitation=self.excitation,
             start=self.start,
         )

@@ -55,7 +55,7 @@ def decide(
     """
     failing = [name for name, each in parameters.items() if not each.passes]
     kept = [name for name in parameters if name not in failing]
-    worst = max(predictions.values(), key=lambda each: each.systematic_MPa / max(each.tolerance_MPa, 1e-300))
+    worst = max(predictions.values(), key=lambda each: each.bias_MPa / max(each.tolerance_MPa, 1e-300))
     predicted = (
         f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
@@ -84,7 +84,7 @@ def _why_missed(
     worst: Prediction, left: float, parameters: Mapping[str, Consistency], held: Mapping[str, float]
 ) -> str:
     """Why a prediction errs though no parameter fails; `left` stays with parameters of its own [MPa]."""
-    if left > OWN_FAULT * worst.systematic_MPa:
+    if left > OWN_FAULT * worst.bias_MPa:
         return f"{left:.2g} MPa stay with parameters of its own: the law's form is at fault rather than a parameter"
     wrong = [name for name, value in held.items() if parameters[name].contradicts(value)]
     if wrong:

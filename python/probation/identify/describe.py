@@ -147,9 +147,8 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
     coloured = noise.correlation > 0.0 or noise.carried is not None
     if coloured and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
         deviation = float(np.sqrt(np.mean(residual**2)))
-    bias = bias_of(residual, record.time, record.true_strain, noise.scale, noise.correlation, noise.carried)
-    if not coloured:
-        bias = bias_of(residual, record.time, record.true_strain, deviation)
+    known = (noise.scale, noise.correlation, noise.carried) if coloured else (deviation,)
+    bias = bias_of(residual, record.time, record.true_strain, *known)
     return RecordFit(
         record.id,
         record.time,
@@ -157,8 +156,8 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
         record.true_stress,
         each.excitation,
         stress,
-        sensitivity,
         deviation,
+        sensitivity,
         bias,
         noise.correlation,
         noise.carried is not None,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from probation.answers import json_answer
+from probation.identify.modelled_record import ModelledRecord
 from probation.identify.parameter import SYMBOLS, Parameter, outside_name
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
     from probation.law import Law, Scheme, Start
@@ -27,22 +27,16 @@ METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex"
 
 
 @dataclass(frozen=True, eq=False)
-class RecordFit:
+class RecordFit(ModelledRecord):
     """One record against the identified law.
+
+    Its `noise_MPa` is the high-frequency part of the fit residual; all of it where the noise model (AR(1), strain
+    noise) leaves nothing else.
 
     Attributes
     ----------
-    id : str
-    time, true_strain, true_stress : ndarray, shape (n_times,) [s], [-], [MPa]
-        As measured.
-    excitation : Excitation
-        What drove the law.
-    model_stress : ndarray, shape (n_times,) [MPa]
     sensitivity : ndarray, shape (n_times, 3) [MPa per unit]
         Along E_u, tau_max or alpha, G.
-    noise_MPa : float
-        Standard deviation of the high-frequency part of the fit residual; of all of it where the noise model (AR(1),
-        strain noise) leaves nothing else.
     bias : Bias
         The low-frequency part: size and place.
     noise_correlation : float
@@ -51,37 +45,10 @@ class RecordFit:
         Whether the residual was weighed for the strain's noise.
     """
 
-    id: str
-    time: FloatArray
-    true_strain: FloatArray
-    true_stress: FloatArray
-    excitation: Excitation
-    model_stress: FloatArray
     sensitivity: FloatArray
-    noise_MPa: float  # noqa: N815 - as it leaves the program
     bias: Bias
     noise_correlation: float = 0.0
     strain_noise_weighed: bool = False
-
-    @property
-    def fit_residual(self) -> FloatArray:
-        """Model minus data, shape (n_times,) [MPa]."""
-        return self.model_stress - self.true_stress
-
-    @property
-    def rms_MPa(self) -> float:
-        """Root mean square of the fit residual."""
-        return float(np.sqrt(np.mean(self.fit_residual**2)))
-
-    @property
-    def max_MPa(self) -> float:
-        """Largest fit residual."""
-        return float(np.max(np.abs(self.fit_residual)))
-
-    @property
-    def bias_MPa(self) -> float:
-        """What of the fit residual is not noise."""
-        return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
 
     def to_json(self) -> dict[str, Any]:
         """Numbers only."""

@@ -12,11 +12,10 @@ from probation.certificate import certify
 from probation.identify.parameter import outside_name
 from probation.paper.exhibit import Drawing, Exhibit, Settings
 from probation.paper.twins import twin_campaign
-from probation.paper.wavy_bias import SINES, WAVES
+from probation.paper.wavy_bias import drawn_wave
 from probation.report.certificate_page import certificate_figure, parameter_figure
 
 if TYPE_CHECKING:
-    from probation._arrays import FloatArray
     from probation.certificate import Certificate
     from probation.records import Campaign, Record
 
@@ -95,9 +94,7 @@ def _with_bias(campaign: Campaign, seed: int) -> Campaign:
 
 def _biased(record: Record, random: np.random.Generator) -> Record:
     """A few sines in the strain that set in with the stress and reach the paper's largest bias."""
-    place = record.true_strain / record.true_strain[-1]
-    waves, phases = random.uniform(*WAVES, SINES), random.uniform(0.0, 2.0 * np.pi, SINES)
-    shape: FloatArray = np.sin(2.0 * np.pi * place[:, None] * waves + phases).sum(axis=1)
+    shape = drawn_wave(record.true_strain, random)
     shape *= np.minimum(np.abs(record.true_stress) / float(np.median(np.abs(record.true_stress))), 1.0)
     bias = LARGEST_BIAS[record.id] * shape / float(np.abs(shape).max())
     return replace(record, true_stress=record.true_stress + bias, sha256="")

@@ -167,15 +167,18 @@ def middle(values: FloatArray, part: float = 0.95) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _bias(test: Twin, fitted: ProfiledFit, largest: float, rise: float, random: np.random.Generator) -> FloatArray:
-    """A drawn bias [MPa], scaled until identification 2 leaves a largest residual of that size."""
-    part = test.true_strain / test.true_strain[-1]
+def drawn_wave(true_strain: FloatArray, random: np.random.Generator) -> FloatArray:
+    """`SINES` sines in the strain, their waves and phases drawn; of no particular size, shape (n_times,)."""
+    part = true_strain / true_strain[-1]
     waves = random.uniform(*WAVES, SINES)
     phases = random.uniform(0.0, 2.0 * np.pi, SINES)
-    shape: FloatArray = sum(
-        (np.sin(2.0 * np.pi * wave * part + phase) for wave, phase in zip(waves, phases, strict=True)),
-        start=np.zeros_like(part),
-    )
+    wave: FloatArray = np.sin(2.0 * np.pi * part[:, None] * waves + phases).sum(axis=1)
+    return wave
+
+
+def _bias(test: Twin, fitted: ProfiledFit, largest: float, rise: float, random: np.random.Generator) -> FloatArray:
+    """A drawn bias [MPa], scaled until identification 2 leaves a largest residual of that size."""
+    shape = drawn_wave(test.true_strain, random)
     if rise:
         shape *= -np.expm1(-test.true_strain / rise)
     scale = 1.0

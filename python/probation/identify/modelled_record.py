@@ -1,0 +1,57 @@
+"""A record beside the stress of a law, identified on it or not, and how far the two are apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.excitation import Excitation
+
+
+@dataclass(frozen=True, eq=False)
+class ModelledRecord:
+    """A record and what a law makes of it.
+
+    Attributes
+    ----------
+    id : str
+    time, true_strain, true_stress : ndarray, shape (n_times,) [s], [-], [MPa]
+        As measured.
+    excitation : Excitation
+        What drove the law.
+    model_stress : ndarray, shape (n_times,) [MPa]
+    noise_MPa : float
+        Standard deviation of what of the difference is noise.
+    """
+
+    id: str
+    time: FloatArray
+    true_strain: FloatArray
+    true_stress: FloatArray
+    excitation: Excitation
+    model_stress: FloatArray
+    noise_MPa: float  # noqa: N815 - as it leaves the program
+
+    @property
+    def fit_residual(self) -> FloatArray:
+        """Model minus data, shape (n_times,) [MPa]."""
+        return self.model_stress - self.true_stress
+
+    @property
+    def rms_MPa(self) -> float:
+        """Root mean square of the fit residual."""
+        return float(np.sqrt(np.mean(self.fit_residual**2)))
+
+    @property
+    def max_MPa(self) -> float:
+        """Largest fit residual."""
+        return float(np.max(np.abs(self.fit_residual)))
+
+    @property
+    def bias_MPa(self) -> float:
+        """What of the fit residual is not noise, root mean square."""
+        return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
