@@ -1,0 +1,358 @@
+"""What `probation.diagnose` found: where the simulation departs from reality, why, and how far that can be mended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from probation.answers import json_answer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.closure import Closure
+    from probation.gap.gap_test import GapTest
+    from probation.gap.where import Located, Where
+
+Verdict = Literal["no_gap", "explained", "unexplained"]
+Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
+
+UNKNOWN = "unknown"
+"""An effect outside the catalogue."""
+
+
+@dataclass(frozen=True)
+class BaseParameter:
+    """A parameter of the base law; `name` with its unit."""
+
+    name: str
+    value: float
+    se: float | None
+    status: Status
+
+
+@dataclass(frozen=True)
+class CauseParameter:
+    """A parameter of an explanation's effect.
+
+    Attributes
+    ----------
+    effect, name, unit : str
+        `name` carries the unit, too.
+    records : tuple of str
+        Ids of the records that it acts in.
+    value : float
+    se : float or None
+        None where the data say nothing beyond the prior.
+    bound : {"lower", "upper"} or None
+        The physical bound at which it ended.
+    """
+
+    effect: str
+    name: str
+    unit: str
+    records: tuple[str, ...]
+    value: float
+    se: float | None
+    bound: Literal["lower", "upper"] | None = None
+
+
+@dataclass(frozen=True)
+class Checks:
+    """What speaks for or against an explanation beside its probability.
+
+    Attributes
+    ----------
+    left_out : float or None
+        Closure of records that were left out one by one; None with fewer than three records, or where the explanation
+        sits in single records.
+    amplitude_p_value : float or None
+        That every record wants the same amplitude (Cochran's Q).
+    remaining_p_value : float
+        Gap test after the explanation.
+    notes : tuple of str
+        Sentences: a parameter at its bound, an amplitude that differs from record to record ...
+    """
+
+    left_out: float | None
+    amplitude_p_value: float | None
+    remaining_p_value: float
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A set of effects that may cause the gap.
+
+    Attributes
+    ----------
+    effects : tuple of str
+        Sorted; empty: no effect is needed; ("unknown",): one outside the catalogue; a name and "unknown": both.
+    titles : tuple of str
+        The same for people.
+    forms : tuple of str
+        Functional form of each.
+    records : tuple of str
+        Ids of the records that it touches.
+    probability : float
+    parameters : tuple of CauseParameter
+    checks : Checks or None
+        For the leading ones.
+    """
+
+    effects: tuple[str, ...]
+    titles: tuple[str, ...]
+    forms: tuple[str, ...]
+    records: tuple[str, ...]
+    probability: float
+    parameters: tuple[CauseParameter, ...] = ()
+    checks: Checks | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class RecordCurves:
+    """One record with the base law's and the best explanation's prediction.
+
+    Attributes
+    ----------
+    id : str
+    role : {"identify", "held-out"}
+    time, true_strain, strain_rate, data : ndarray, shape (n,) [s], [-], [1/s], [MPa]
+    base : ndarray, shape (n,) [MPa]
+    explained : ndarray, shape (n,) [MPa], or None
+        None where no effect is needed or known.
+    noise : ndarray, shape (n,) [MPa]
+        Standard deviation of a sample.
+    """
+
+    id: str
+    role: str
+    time: FloatArray
+    true_strain: FloatArray
+    strain_rate: FloatArray
+    data: FloatArray
+    base: FloatArray
+    explained: FloatArray | None
+    noise: FloatArray
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Something sharp or drifting in the fit residual that points at a cause; `text` is a sentence."""
+
+    kind: Literal["line", "step", "parameter"]
+    record: str | None
+    p_value: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Shrink:
+    """How far the gap shrinks.
+
+    Attributes
+    ----------
+    identify : Closure
+    held_out : Closure or None
+    records : dict of str to Closure
+    regions : tuple of (Located, Closure)
+        The regions of `where`.
+    ceiling : Closure or None
+        What any smooth curve through the identify records' residuals could close.
+    """
+
+    identify: Closure
+    held_out: Closure | None
+    records: Mapping[str, Closure]
+    regions: tuple[tuple[Located, Closure], ...]
+    ceiling: Closure | None
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """The experiment that best separates what is still ambiguous."""
+
+    what: str
+    separates: tuple[tuple[str, ...], ...]
+    probability_before: float
+    probability_after: float
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Where, which, how far.
+
+    Attributes
+    ----------
+    campaign : str
+    verdict : {"no_gap", "explained", "unexplained"}
+    headline : str
+        One sentence a person can act on.
+    law : str
+        The base law in words.
+    scheme : str
+    base : tuple of BaseParameter
+    gap : GapTest
+    rms_MPa, noise_MPa : float
+        Of the base law's fit residual on the identify records.
+    located : tuple of Located
+        By share, most first.
+    where : Where
+        Every region that was looked at.
+    acts : tuple of Located
+        Where the best explanation's own contribution is certain.
+    signatures : tuple of Signature
+    explanations : tuple of Explanation
+        By probability, which sums to 1.
+    answer_set : tuple of tuple of str
+        Every explanation that the data cannot tell from the best, best first.
+    shrink : Shrink
+    next_test : NextTest or None
+    curves : dict of str to RecordCurves
+    warnings : tuple of str
+        Fall-backs for want of data, records that stand out, ...
+    data_sha256 : str
+    seed : int
+    """
+
+    campaign: str
+    verdict: Verdict
+    headline: str
+    law: str
+    scheme: str
+    base: tuple[BaseParameter, ...]
+    gap: GapTest
+    rms_MPa: float  # noqa: N815 - as it leaves the program
+    noise_MPa: float  # noqa: N815
+    located: tuple[Located, ...]
+    where: Where
+    acts: tuple[Located, ...]
+    signatures: tuple[Signature, ...]
+    explanations: tuple[Explanation, ...]
+    answer_set: tuple[tuple[str, ...], ...]
+    shrink: Shrink
+    next_test: NextTest | None
+    curves: Mapping[str, RecordCurves]
+    warnings: tuple[str, ...]
+    data_sha256: str
+    seed: int
+
+    @property
+    def best(self) -> Explanation:
+        """The most probable explanation."""
+        return self.explanations[0]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer in the form of the contract, `probation.diagnosis/1`, as Python objects."""
+        shrink = self.shrink
+        return {
+            "campaign": self.campaign,
+            "data_sha256": self.data_sha256,
+            "seed": self.seed,
+            "scheme": self.scheme,
+            "verdict": self.verdict,
+            "headline": self.headline,
+            "base": {
+                "parameters": {
+                    each.name: {"value": each.value, "se": each.se, "status": each.status} for each in self.base
+                }
+            },
+            "gap": {
+                "rms_MPa": self.rms_MPa,
+                "noise_MPa": self.noise_MPa,
+                "p_value": self.gap.p_value,
+                "p_value_low_noise": self.gap.p_value_low_noise,
+                "p_value_high_noise": self.gap.p_value_high_noise,
+                "level": self.gap.level,
+            },
+            "where": [_located(each) for each in self.located],
+            "acts": [_located(each) for each in self.acts],
+            "signatures": [
+                {"kind": each.kind, "record": each.record, "p_value": each.p_value, "text": each.text}
+                for each in self.signatures
+            ],
+            "causes": [_explanation(each) for each in self.explanations],
+            "answer_set": [list(each) for each in self.answer_set],
+            "shrink": {
+                "identify": shrink.identify.to_dict(),
+                "held_out": None if shrink.held_out is None else shrink.held_out.to_dict(),
+                "records": {name: each.to_dict() for name, each in shrink.records.items()},
+                "regions": [{**_located(place), **each.to_dict()} for place, each in shrink.regions],
+                "ceiling": None if shrink.ceiling is None else shrink.ceiling.to_dict(),
+            },
+            "next_test": None
+            if self.next_test is None
+            else {
+                "what": self.next_test.what,
+                "separates": [list(each) for each in self.next_test.separates],
+                "probability_before": self.next_test.probability_before,
+                "probability_after": self.next_test.probability_after,
+            },
+            "warnings": list(self.warnings),
+        }
+
+    def to_json(self) -> str:
+        """The answer as JSON text."""
+        return json_answer("probation.diagnosis/1", self.to_dict())
+
+    def summary(self) -> str:
+        """The headline, then where, which, how far as three short tables, then the next test."""
+        from probation.diagnosis.summary import summary  # noqa: PLC0415 - words only when asked for
+
+        return summary(self)
+
+    def plot(self) -> Figure:
+        """Every record before and after the best explanation, the regions of the gap marked."""
+        from probation.report.diagnosis_figures import diagnosis_figure  # noqa: PLC0415 - plotting only when asked for
+
+        return diagnosis_figure(self)
+
+    def report(self, path: str | PathLike[str]) -> Path:
+        """Write a self-contained HTML page and return its path."""
+        from probation.report.diagnosis_page import write_diagnosis_page  # noqa: PLC0415
+
+        return write_diagnosis_page(self, Path(path))
+
+
+def _located(each: Located) -> dict[str, Any]:
+    return {
+        "record": each.record,
+        "time_s": each.time_s,
+        "true_strain": each.true_strain,
+        "rms_MPa": each.rms_MPa,
+        "share": each.share,
+        "p_value": each.p_value,
+    }
+
+
+def _explanation(each: Explanation) -> dict[str, Any]:
+    parameters = {}
+    for parameter in each.parameters:
+        name = parameter.name if parameter.name not in parameters else f"{parameter.effect}.{parameter.name}"
+        parameters[name] = {
+            "value": parameter.value,
+            "se": parameter.se,
+            "unit": parameter.unit,
+            "bound": parameter.bound,
+        }
+    checks = each.checks
+    return {
+        "effects": list(each.effects),
+        "records": list(each.records),
+        "probability": each.probability,
+        "forms": list(each.forms),
+        "parameters": parameters,
+        "checks": None
+        if checks is None
+        else {
+            "left_out_closure": checks.left_out,
+            "amplitude_p_value": checks.amplitude_p_value,
+            "remaining_p_value": checks.remaining_p_value,
+            "notes": list(checks.notes),
+        },
+    }
