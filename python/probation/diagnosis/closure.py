@@ -3,7 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.gap.noise_model import NoiseModel
+
+DRAWS = 1000
+ENOUGH = 6
+"""Records from which on they are resampled."""
+
+BLOCKS = 8
+"""Contiguous parts that stand in for records where there is only one."""
+
+COVERAGE = 0.9
 
 
 @dataclass(frozen=True)
@@ -42,3 +59,118 @@ class Closure:
             "interval": self.interval,
             "how": self.how,
         }
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One record, or a part of it, before and after an explanation.
+
+    Attributes
+    ----------
+    before, after : ndarray, shape (n,) [MPa]
+        Fit residuals.
+    noise : NoiseModel
+        Of the whole record.
+    inside : slice, optional
+        Which of the record's samples these are; all if left out.
+    """
+
+    before: FloatArray
+    after: FloatArray
+    noise: NoiseModel
+    inside: slice | None = None
+
+    @property
+    def floor(self) -> FloatArray:
+        """Variance of the noise, shape (n,) [MPa^2]."""
+        deviation = self.noise.deviation
+        return (deviation if self.inside is None else deviation[self.inside]) ** 2
+
+    def blocks(self) -> list[Piece]:
+        """Contiguous parts of a whole record."""
+        parts = np.array_split(np.arange(len(self.before)), BLOCKS)
+        return [
+            Piece(self.before[part], self.after[part], self.noise, slice(int(part[0]), int(part[-1]) + 1))
+            for part in parts
+            if part.size
+        ]
+
+
+def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
+    """Closure over records, with its interval.
+
+    Six records or more are resampled; fewer keep their places, and the noise is drawn; of one record contiguous parts
+    are resampled. The noise level's own error is in every draw.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    rng : numpy.random.Generator
+    """
+    count = np.array([len(piece.before) for piece in pieces], dtype=np.float64)
+    before = np.array([float(piece.before @ piece.before) for piece in pieces])
+    after = np.array([float(piece.after @ piece.after) for piece in pieces])
+    floor = np.array([float(np.sum(piece.floor)) for piece in pieces])
+    level = np.sqrt([piece.noise.level_variance + piece.noise.shape_variance for piece in pieces])
+    total = float(count.sum())
+    excess = float(before.sum() - floor.sum())
+    # Sum of squares of correlated noise scatters as if there were fewer samples.
+    fewer = np.array([_correlation(piece.noise) for piece in pieces])
+    own = np.sqrt(2.0 * fewer / count) * floor
+    error = float(np.sqrt(np.sum(own**2 + (level * floor) ** 2)))
+    known = (
+        float(np.sqrt(before.sum() / total)),
+        float(np.sqrt(after.sum() / total)),
+        float(np.sqrt(floor.sum() / total)),
+    )
+    if not excess > 2.0 * error:
+        return Closure(*known, None, None, "the gap is not above two standard errors of the noise")
+    value = 1.0 - float(after.sum() - floor.sum()) / excess
+    if len(pieces) == 1 and pieces[0].inside is None:
+        parts = pieces[0].blocks()
+        if len(parts) > 2:
+            found = closure_of_blocks(parts, rng)
+            return Closure(*known, value, found, "contiguous parts of the one record, resampled")
+    if len(pieces) >= ENOUGH:
+        chosen = rng.integers(len(pieces), size=(DRAWS, len(pieces)))
+        how = "records resampled, the noise level's error included"
+        noise = np.exp(level * rng.standard_normal((DRAWS, len(pieces))))
+        draws = _ratio(before[chosen], after[chosen], np.take_along_axis(floor * noise, chosen, axis=1))
+    else:
+        how = "noise drawn: too few records to resample them"
+        left = np.maximum(before - floor, 0.0), np.maximum(after - floor, 0.0)
+        mean_floor = floor / count
+        common = own * rng.standard_normal((DRAWS, len(pieces)))
+        drawn = [
+            each + common + 2.0 * np.sqrt(part * mean_floor * fewer) * rng.standard_normal((DRAWS, len(pieces)))
+            for each, part in zip((before, after), left, strict=True)
+        ]
+        draws = _ratio(drawn[0], drawn[1], floor * np.exp(level * rng.standard_normal((DRAWS, len(pieces)))))
+    return Closure(*known, value, _interval(draws, value), how)
+
+
+def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple[float, float]:
+    """Interval from parts of one record."""
+    before = np.array([float(piece.before @ piece.before) for piece in parts])
+    after = np.array([float(piece.after @ piece.after) for piece in parts])
+    floor = np.array([float(np.sum(piece.floor)) for piece in parts])
+    chosen = rng.integers(len(parts), size=(DRAWS, len(parts)))
+    level = np.sqrt(parts[0].noise.level_variance + parts[0].noise.shape_variance)
+    draws = _ratio(before[chosen], after[chosen], floor[chosen] * np.exp(level * rng.standard_normal((DRAWS, 1))))
+    return _interval(draws, 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum()))
+
+
+def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArray:
+    below = before.sum(axis=1) - floor.sum(axis=1)
+    return np.asarray(1.0 - (after.sum(axis=1) - floor.sum(axis=1)) / np.where(below > 0.0, below, np.nan))
+
+
+def _interval(draws: FloatArray, value: float) -> tuple[float, float]:
+    low, high = np.nanquantile(draws, [0.5 - 0.5 * COVERAGE, 0.5 + 0.5 * COVERAGE])
+    return float(min(low, value)), float(max(high, value))
+
+
+def _correlation(noise: NoiseModel) -> float:
+    """Variance of a mean square over that of as many independent samples (at least 1)."""
+    ratio = noise.arma.long_run / max(noise.arma.deviation, 1e-300)
+    return float(max(ratio, 1.0))

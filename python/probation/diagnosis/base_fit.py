@@ -1,0 +1,184 @@
+"""The base law on a campaign as the diagnosis needs it: best parameters, the noise, white coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.refit import Refit, refit
+from probation.diagnosis.whitener import Whitener
+from probation.excitation import excite
+from probation.gap.dnlr_law import DnlrLaw
+from probation.gap.model import CampaignModel
+from probation.gap.noise import carried_strain_noise, estimate_noise
+from probation.gap.record_residual import RecordResidual
+from probation.gap.record_view import views_of
+from probation.gap.whitening import Whitened
+from probation.identify import fit
+from probation.identify.given import given
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.excitation import Excitation
+    from probation.gap.protocol import GapLaw
+    from probation.gap.record_view import RecordView
+    from probation.law import Scheme
+    from probation.records import Campaign, Record
+
+ROUNDS = 3
+"""Noise and parameters are found in turns; they settle within two."""
+
+STRAIN_STEP = 1e-6
+"""Strain by which the law is probed for what strain noise does to the stress."""
+
+PARAMETERS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class BaseFit:
+    """The base law at its generalised least-squares optimum on the identify records.
+
+    Attributes
+    ----------
+    law : GapLaw
+    views : tuple of RecordView
+        All records', in the campaign's order.
+    refit : Refit
+        On the identify records, without causes.
+    whitened : Whitened
+        The same as the statistics see it.
+    """
+
+    law: GapLaw
+    views: tuple[RecordView, ...]
+    refit: Refit
+    whitened: Whitened
+
+    @property
+    def model(self) -> CampaignModel:
+        """The base law on the identify records."""
+        return self.refit.model
+
+    @property
+    def parameters(self) -> FloatArray:
+        """Shape (n_base,)."""
+        return self.refit.parameters
+
+    @property
+    def whitener(self) -> Whitener:
+        """Of the identify records."""
+        return Whitener(self.whitened.noises)
+
+
+def base_fit(campaign: Campaign, scheme: Scheme = "be2", hold: Mapping[str, float] | None = None) -> BaseFit:
+    """Fit the engine's law to the identify records of a campaign.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    scheme : {"be2", "sa2", "sa3"}
+    hold : dict of str to float, optional
+        Parameters that are not identified, on top of the campaign's own.
+
+    Raises
+    ------
+    InputError
+        As `probation.fit`.
+    """
+    if len(campaign.law.fixed) == PARAMETERS and not hold:
+        found = given(campaign, scheme)
+    else:
+        found = fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection")
+    excitations = {name: each.excitation for name, each in found.records.items()}
+    excitations |= {record.id: excite(record) for record in campaign.records if record.id not in excitations}
+    samples = {record.id: _at_samples(excitations[record.id], record) for record in campaign.records}
+    views = views_of(campaign, excitations=samples, scheme=scheme, substeps=found.substeps)
+    free = [name for name in found.law.parameter_names if name in found.names]
+    law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in free])
+    return fit_views(law, views, campaign.records, samples)
+
+
+def _at_samples(excitation: Excitation, record: Record) -> Excitation:
+    return excitation if len(excitation.time) == len(record.time) else excite(record)
+
+
+def fit_views(
+    law: GapLaw, views: Sequence[RecordView], records: Sequence[Record], excitations: Mapping[str, Excitation]
+) -> BaseFit:
+    """Fit any law to the views whose role is "identify": parameters and noise in turns."""
+    known = {record.id: record for record in records}
+    chosen = [view for view in views if view.role == "identify"]
+    model = CampaignModel(law, chosen)
+    parameters = law.start
+    carried: dict[str, FloatArray | None] = {}
+    noises = None
+    for _ in range(ROUNDS):
+        raw, jacobian = model.residual_and_jacobian(parameters)
+        if noises is None:
+            carried = {view.id: _carried(law, view, excitations[view.id], parameters) for view in chosen}
+        residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
+        noises = estimate_noise(residuals)
+        found = refit(model, parameters, Whitener(noises), most_steps=12)
+        moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
+        parameters = found.parameters
+        if moved.size == 0 or float(moved.max()) < 1e-5:
+            break
+    raw, jacobian = model.residual_and_jacobian(parameters)
+    residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
+    assert noises is not None
+    # Effects that hand the force back to the strain must not be handed its noise.
+    quiet = CampaignModel(law, views).quietened(parameters).views
+    fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
+    return BaseFit(law, quiet, replace(found, model=fitted), Whitened.of(residuals, noises))
+
+
+def _residual(
+    model: CampaignModel,
+    view: RecordView,
+    record: Record,
+    residual: FloatArray,
+    jacobian: FloatArray,
+    carried: FloatArray | None,
+) -> RecordResidual:
+    rows = model.rows(view.id)
+    return RecordResidual(
+        name=view.id,
+        time=view.sampled(view.time),
+        true_strain=view.sampled(view.true_strain),
+        strain_rate=view.sampled(_signed_rate(view)),
+        residual=residual[rows],
+        tangent=jacobian[rows],
+        jumps=tuple(jump // view.stride for jump in view.jumps),
+        measured=view.data,
+        given_noise=record.noise.stress_MPa,
+        carried=carried,
+    )
+
+
+def _signed_rate(view: RecordView) -> FloatArray:
+    """Strain rate with its sign, 0 in a dwell; shape (n,) [1/s]."""
+    step = np.append(view.direction[:1], view.direction)
+    return np.asarray(step * view.rate)
+
+
+def _carried(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray | None:
+    """What a smoothed strain's noise does to the stress, (n_samples, waves) [MPa]; None where it is as measured."""
+    if excitation.operators is None or not excitation.strain_noise > 0.0:
+        return None
+    still = law.stress(view, parameters)
+    instants, samples = view.time, view.sampled(view.time)
+
+    def apply(columns: FloatArray) -> FloatArray:
+        found = np.empty_like(columns)
+        for index, column in enumerate(columns.T):
+            size = max(float(np.max(np.abs(column))), 1e-300)
+            moved = view.true_strain + STRAIN_STEP / size * np.interp(instants, samples, column)
+            found[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)
+        return found
+
+    deviation = excitation.strain_noise * np.sqrt(excitation.noise_inflation)
+    return carried_strain_noise(apply, deviation, len(samples))

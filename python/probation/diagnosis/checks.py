@@ -1,0 +1,114 @@
+"""What else speaks for or against an explanation: records left out, one amplitude for all, bounds; gap-method 4 and 6.
+
+Both are worked out from the Jacobian at the optimum: leaving a record out moves the parameters little, and the solves
+would be spent for the same figures.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.result import Checks
+from probation.gap.tail import chi_square_tail
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.refit import Refit
+    from probation.gap.whitening import Whitened
+
+FEWEST = 3
+"""Records below which none can be left out."""
+
+DISAGREE = 1e-3
+"""Below this p-value, and with the amplitude scattering by `SCATTER`, records are said to want different ones."""
+
+SCATTER = 0.25
+
+
+def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_value: float) -> Checks:
+    """Check an explanation that has causes.
+
+    Parameters
+    ----------
+    hypothesis : Hypothesis
+    base : Refit
+        Of the base law.
+    whitened : Whitened
+    remaining_p_value : float
+        Of the gap test after it.
+    """
+    found = hypothesis.refit
+    shared = all(cause.records is None for cause in hypothesis.causes)
+    left_out = None
+    if shared and len(whitened.records) >= FEWEST:
+        count = len(whitened)
+        before, after = (
+            float(np.sum(left_out_squares(base, whitened))),
+            float(np.sum(left_out_squares(found, whitened))),
+        )
+        left_out = 1.0 - (after - count) / (before - count) if before > count + 2.0 * np.sqrt(2.0 * count) else None
+    p_value, scatter = amplitude_consistency(hypothesis, whitened) if shared else (None, 0.0)
+    notes = []
+    if p_value is not None and p_value < DISAGREE and scatter > SCATTER:
+        notes.append(f"the records want amplitudes that differ by {100.0 * scatter:.0f} %")
+    if left_out is not None and left_out < 0.5:
+        notes.append(
+            f"records that are left out are foretold {'worse than without it' if left_out < 0.0 else 'poorly'}"
+        )
+    low, high = found.at_bound
+    for index, name in enumerate(found.model.parameter_names[found.model.base_count :], found.model.base_count):
+        # An amplitude at zero is an effect that is not there; a shape at its bound asks for another form.
+        if low[index] or high[index]:
+            notes.append(f"{name.rsplit('.', 1)[-1]} ended at its {'lower' if low[index] else 'upper'} bound")
+    return Checks(left_out, p_value, remaining_p_value, tuple(notes))
+
+
+def left_out_squares(found: Refit, whitened: Whitened) -> FloatArray:
+    """|z_r|^2 of every record as the others foretell it, shape (n_records,)."""
+    coordinates = found.coordinates
+    prior = np.diag(coordinates.precision)
+    normal = found.jacobian.T @ found.jacobian + prior
+    squares = []
+    for part in whitened.slices:
+        own, z = found.jacobian[part], found.residual[part]
+        rest = normal - own.T @ own
+        size = np.sqrt(np.maximum(np.diag(rest), 1e-300))
+        step = np.linalg.pinv(rest / np.outer(size, size), rcond=1e-10, hermitian=True) @ ((own.T @ z) / size) / size
+        foretold = z + own @ step
+        squares.append(float(foretold @ foretold))
+    return np.array(squares)
+
+
+def amplitude_consistency(hypothesis: Hypothesis, whitened: Whitened) -> tuple[float | None, float]:
+    """Cochran's Q of the first cause's amplitude over the records: p-value, and its relative scatter beyond chance."""
+    found = hypothesis.refit
+    column = found.model.base_count
+    own = np.zeros((len(whitened), len(whitened.records)))
+    for index, part in enumerate(whitened.slices):
+        own[part, index] = found.jacobian[part, column]
+    design = np.hstack([own, np.delete(found.jacobian, column, axis=1)])
+    count = own.shape[1]
+    size = np.linalg.norm(design, axis=0)
+    used = size > 0.0
+    left, upper = np.linalg.qr(design[:, used] / size[used])
+    inverse = np.linalg.pinv(upper, rcond=1e-8) / size[used][:, None]
+    change, covariance = np.zeros(len(size)), np.full((len(size), len(size)), np.nan)
+    change[used] = -inverse @ (left.T @ found.residual)
+    covariance[np.ix_(used, used)] = inverse @ inverse.T
+    amplitude = float(found.coordinates.of(found.parameters)[column])
+    deviation = np.sqrt(np.diag(covariance)[:count])
+    # Records that say next to nothing of the amplitude have no vote.
+    known = np.flatnonzero(used[:count] & (deviation < 3.0 * abs(amplitude)))
+    if known.size < 2 or amplitude == 0.0:
+        return None, 0.0
+    weight = np.linalg.pinv(covariance[np.ix_(known, known)], hermitian=True)
+    value = change[known]
+    common = float(weight.sum(axis=0) @ value / weight.sum())
+    away = value - common
+    q = float(away @ weight @ away)
+    excess = max(float(np.var(away)) - float(np.mean(deviation[known] ** 2)), 0.0)
+    p_value = float(chi_square_tail(q, known.size - 1, whitened.scale_spread))
+    return p_value, float(np.sqrt(excess)) / abs(amplitude)

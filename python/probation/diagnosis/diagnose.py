@@ -1,0 +1,176 @@
+"""`probation.diagnose`: where a simulation departs from reality, which effect causes it, how far the gap shrinks."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation._arrays import one_of
+from probation.diagnosis.base_fit import BaseFit, base_fit
+from probation.diagnosis.candidate import WhitenedColumns
+from probation.diagnosis.checks import checks
+from probation.diagnosis.evidence import Discrepancy
+from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
+from probation.diagnosis.linear import linear_hypotheses
+from probation.diagnosis.probabilities import answer_set, weigh
+from probation.diagnosis.remaining import remaining_gap
+from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
+from probation.diagnosis.search import Search
+from probation.diagnosis.shrink import shrink_of
+from probation.diagnosis.signatures import signatures
+from probation.diagnosis.words import headline
+from probation.gap.gap_test import GapTester
+from probation.gap.registry import effects as catalogue
+from probation.gap.screen import screen
+from probation.gap.where import locate
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from probation.diagnosis.probabilities import Weighed
+    from probation.law import Scheme
+    from probation.records import Campaign
+
+DRIFT = 1.0
+"""Variance, relative to the noise's, that the slowest waves of a record may have without a gap (1/f)."""
+
+SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+
+
+def diagnose(
+    campaign: Campaign,
+    scheme: Scheme = "be2",
+    *,
+    effects: Iterable[str] | None = None,
+    hold: Mapping[str, float] | None = None,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Diagnosis:
+    """Diagnose the gap between the campaign's base law and its records.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    scheme : {"be2", "sa2", "sa3"}
+    effects : iterable of str, optional
+        Names of those to be considered; all of the catalogue if left out.
+    hold : dict of str to float, optional
+        Parameters that are not identified, by name with unit; on top of the campaign's own.
+    seed : int
+        Of the bootstraps.
+    threads : int, optional
+        By default as many as there are processors, at most 4.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
+
+    Returns
+    -------
+    Diagnosis
+
+    Raises
+    ------
+    InputError
+        For an unknown effect or parameter, suggesting the nearest.
+    """
+    one_of(scheme, "scheme", SCHEMES)
+    considered = catalogue(effects)
+    workers = threads or min(os.cpu_count() or 1, 4)
+
+    def told(part: float) -> None:
+        if progress:
+            progress(part)
+
+    base = base_fit(campaign, scheme, hold)
+    told(0.1)
+    at = base.parameters
+    columns = WhitenedColumns.of(
+        screen(base.model, at, considered, residual=base.model.residual(at), threads=workers),
+        base.whitener,
+        len(base.whitened),
+    )
+    told(0.2)
+    gap = GapTester(base.whitened, columns.by_effect(), drift=DRIFT, seed=seed)()
+    where = locate(base.whitened, seed=seed)
+    told(0.35)
+    discrepancy = Discrepancy.of(base.whitened, DRIFT)
+    if gap.rejected:
+        found = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.45 * part)).run(columns)
+    else:
+        found = linear_hypotheses(base, columns, discrepancy)
+    weighed = weigh(found, len(considered))
+    if not gap.rejected:
+        weighed = _with_none_leading(weighed)
+    told(0.8)
+    best = weighed[0]
+    verdict: Verdict = "no_gap"
+    judged = None
+    if gap.rejected:
+        after = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, drift=DRIFT, seed=seed)
+        verdict = "unexplained" if UNKNOWN in best.effects or after.rejected else "explained"
+        if best.hypothesis.causes:
+            judged = checks(best.hypothesis, base.refit, base.whitened, after.p_value)
+    told(0.85)
+    explanations = explanations_of(weighed, judged)
+    chosen = answer_set(weighed)
+    acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
+    shrink, curves = shrink_of(base, best.hypothesis, campaign, where.located, seed=seed)
+    localised = 0 < len(explanations[0].records) < len(base.model.views)
+    told(1.0)
+    return Diagnosis(
+        campaign=campaign.name,
+        verdict=verdict,
+        headline=headline(verdict, explanations, chosen, shrink.identify, len(base.model.views), gap.p_value),
+        law=_law_text(campaign),
+        scheme=scheme,
+        base=base_parameters(base),
+        gap=gap,
+        rms_MPa=shrink.identify.before_MPa,
+        noise_MPa=shrink.identify.noise_MPa,
+        located=acts if localised and verdict == "explained" and acts else where.located,
+        where=where,
+        acts=acts,
+        signatures=signatures(base.whitened, base.law.parameter_names) if gap.rejected else (),
+        explanations=explanations,
+        answer_set=chosen,
+        shrink=shrink,
+        next_test=None,
+        curves=curves,
+        warnings=_warnings(base, gap.robust),
+        data_sha256=campaign.data_hash,
+        seed=seed,
+    )
+
+
+def _with_none_leading(weighed: list[Weighed]) -> list[Weighed]:
+    """Where no gap is seen, no explanation may lead "no effect is needed"."""
+    none = next(each for each in weighed if not each.effects)
+    others = [each for each in weighed if each.effects]
+    lifted = max(none.probability, *(each.probability for each in others))
+    total = 1.0 - none.probability + lifted
+    first = replace(none, probability=lifted)
+    return [replace(each, probability=each.probability / total) for each in (first, *others)]
+
+
+def _law_text(campaign: Campaign) -> str:
+    settings = campaign.law
+    companion = "constant tau_max" if settings.companion is None else f"companion relation: {settings.companion.form}"
+    return f"modal (DNLR) law, {settings.modes} modes over {settings.decades:g} decades, {companion}"
+
+
+def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
+    found = []
+    if not robust:
+        found.append("whether there is a gap hangs on the noise level: the verdict changes at 0.8 or 1.25 times it")
+    if len(base.whitened.records) == 1:
+        found.append("one record only: nothing can be left out, and a cause that acts alike in it cannot be told apart")
+    for noise in base.whitened.noises:
+        if noise.spikes:
+            found.append(f"{noise.name}: {len(noise.spikes)} readings stand out as spikes and were kept out")
+    levels = np.array([noise.sigma for noise in base.whitened.noises])
+    if levels.size > 1 and levels.max() > 10.0 * levels.min():
+        found.append("the noise of the records differs more than tenfold; each is weighed by its own")
+    return tuple(found)

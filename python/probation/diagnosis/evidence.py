@@ -1,0 +1,266 @@
+r"""How probable the data are under an explanation: Laplace's integral, with allowance for the form of an effect.
+
+A catalogue's form of an effect is never quite nature's. Taken at their word, two explanations that leave 40 and 60
+MPa^2 of a gap of 10 000 would differ by hundreds of log units; taken as forms known to some per cent, both have found
+nearly all of it. So what an explanation leaves is let be noise plus a smooth discrepancy,
+
+    y ~ N(J d, I + B D B^T),
+
+y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
+waves over every record and D = rho^2 lambda_r v the discrepancy's variance: rho the relative error of a form, lambda_r
+what the explanation does to record r, v the spectrum of smooth curves. rho is integrated out. "Unknown" is the same
+with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001; gap-method sections 4 and 7).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import log_ndtr, logsumexp
+
+from probation.gap.smooth_basis import smooth_basis
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.refit import Refit
+    from probation.gap.whitening import Whitened
+
+FORM_ERRORS = (0.0, 0.01, 0.02, 0.04, 0.08, 0.16)
+FORM_WEIGHTS = (0.3, 0.2, 0.2, 0.15, 0.1, 0.05)
+"""Relative errors of a form, and how probable they are beforehand."""
+
+SIZES = tuple((10.0 ** np.arange(0.5, 9.0, 0.25)).tolist())
+"""Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
+
+SOFTNESS = 2.0
+"""The spectrum of a smooth discrepancy falls with the order of its waves to this power."""
+
+DEPENDENT = 1e-4
+"""Part of a wave that smoother ones leave, below which it adds nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Discrepancy:
+    """Smooth waves over every record, whitened and orthonormal, and the spectrum of a discrepancy along them.
+
+    Attributes
+    ----------
+    columns : tuple of ndarray, shape (n_r, d_r)
+        By record.
+    spectrum : tuple of ndarray, shape (d_r,)
+        Shares of the waves in a discrepancy's energy; sum to 1 in each record.
+    slices : tuple of slice
+        Rows of each record.
+    places : tuple of slice
+        Its waves among all.
+    drift : float
+        Variance, relative to the noise, that the slowest waves may have without any gap.
+    """
+
+    columns: tuple[FloatArray, ...]
+    spectrum: tuple[FloatArray, ...]
+    slices: tuple[slice, ...]
+    places: tuple[slice, ...]
+    drift: float
+
+    @classmethod
+    def of(cls, whitened: Whitened, drift: float = 0.0) -> Discrepancy:
+        """Of the identify records."""
+        columns, spectrum, places, at = [], [], [], 0
+        for record, noise in zip(whitened.records, whitened.noises, strict=True):
+            basis = smooth_basis(record.time, record.jumps)
+            left, upper = np.linalg.qr(noise.whiten(basis.columns / np.linalg.norm(basis.columns, axis=0)))
+            size = np.abs(np.diag(upper))
+            kept = size > DEPENDENT * float(size.max())
+            share = (1.0 + basis.order[kept]) ** -SOFTNESS
+            columns.append(left[:, kept])
+            spectrum.append(share / share.sum())
+            places.append(slice(at, at + int(kept.sum())))
+            at = places[-1].stop
+        return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places), drift)
+
+    def __len__(self) -> int:
+        return self.places[-1].stop
+
+    def of_columns(self, matrix: FloatArray) -> FloatArray:
+        """B^T times whitened columns (N,) or (N, m)."""
+        return np.concatenate([own.T @ matrix[part] for own, part in zip(self.columns, self.slices, strict=True)])
+
+    def energy(self, values: FloatArray) -> FloatArray:
+        """Energy of whitened samples (N,) by record, shape (n_records,)."""
+        return np.array([float(values[part] @ values[part]) for part in self.slices])
+
+    def variances(self, energy: FloatArray) -> FloatArray:
+        """D for a discrepancy of so much energy in each record, the noise's own drift added; shape (d,)."""
+        parts = [size * share for size, share in zip(energy, self.spectrum, strict=True)]
+        noise = [self.drift * share / share.max() for share in self.spectrum]
+        return np.concatenate(parts) + np.concatenate(noise)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the data say of one explanation.
+
+    Attributes
+    ----------
+    log_evidence : float
+        Up to a constant that all explanations of a campaign share.
+    form_error : float
+        Posterior mean of the relative error of its form.
+    log_evidence_unknown : float
+        With an effect outside the catalogue beside it.
+    covariance : ndarray, shape (p, p)
+        Of the search coordinates, the form's error included; parameters at a bound have none.
+    """
+
+    log_evidence: float
+    form_error: float
+    log_evidence_unknown: float
+    covariance: FloatArray
+
+
+def evidence(found: Refit, base: Refit, discrepancy: Discrepancy, *, unknown: bool = True) -> Evidence:
+    """Evidence of an explanation, or of the base law itself.
+
+    Parameters
+    ----------
+    found : Refit
+    base : Refit
+        Of the base law without causes.
+    discrepancy : Discrepancy
+    unknown : bool
+        Whether an unknown effect beside it is looked for, too; else its evidence is -inf.
+    """
+    problem = _Problem.of(found, discrepancy)
+    done = discrepancy.energy(found.residual - base.residual)
+    errors = FORM_ERRORS if found.model.causes else (0.0,)
+    weights = FORM_WEIGHTS if found.model.causes else (1.0,)
+    scores = [
+        problem.log_integral(discrepancy.variances(error**2 * done)) + float(np.log(weight))
+        for error, weight in zip(errors, weights, strict=True)
+    ]
+    together = float(logsumexp(scores))
+    posterior = np.exp(np.array(scores) - together)
+    form_error = float(posterior @ np.array(errors))
+    covariance = problem.covariance(discrepancy.variances(form_error**2 * done))
+    beside = _unknown(problem, discrepancy) if unknown else -np.inf
+    return Evidence(together, form_error, beside, covariance)
+
+
+def _unknown(problem: _Problem, discrepancy: Discrepancy) -> float:
+    """With a discrepancy of any size in any record: coordinate ascent over the records' sizes, each paid for."""
+    count = len(discrepancy.spectrum)
+    # A start record by record: the waves' power over what a unit of energy would give them.
+    waves = problem.waves_of_residual
+    energy = np.array(
+        [max(float(np.sum(waves[place] ** 2)) - (place.stop - place.start), 0.0) for place in discrepancy.places]
+    )
+    grid = np.array(SIZES)
+    best = energy.copy()
+    score = problem.log_integral(discrepancy.variances(best))
+    for _ in range(2):
+        before = score
+        for index in range(count):
+            for size in (0.0, *(grid[np.argsort(np.abs(np.log(grid / max(best[index], 1.0))))[:5]])):
+                tried = best.copy()
+                tried[index] = size
+                value = problem.log_integral(discrepancy.variances(tried))
+                if value > score:
+                    best, score = tried, value
+        if score - before < 0.1:
+            break
+    return float(score - count * np.log(len(SIZES) / 3.0))
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """The linearised problem in the few numbers that the integral needs."""
+
+    square: float
+    gradient: FloatArray
+    normal: FloatArray
+    waves_of_residual: FloatArray
+    waves_of_jacobian: FloatArray
+    away: FloatArray
+    precision: FloatArray
+    log_prior: float
+    bound_factor: float
+    free: NDArray[np.bool_]
+    room: FloatArray
+
+    @classmethod
+    def of(cls, found: Refit, discrepancy: Discrepancy) -> _Problem:
+        model, coordinates = found.model, found.coordinates
+        x = coordinates.of(found.parameters)
+        jacobian, residual = found.jacobian, found.residual
+        gradient = jacobian.T @ residual + coordinates.precision * (x - coordinates.centre)
+        held = coordinates.pushed_out(x, gradient) & (np.arange(len(x)) >= model.base_count)
+        slope = np.abs(gradient)
+        width = np.linalg.norm(jacobian, axis=0)
+        width = np.sqrt(np.pi / 2.0) / np.maximum(np.maximum(width, np.sqrt(coordinates.precision)), 1e-300)
+        factor = float(np.sum(np.log(np.minimum(1.0 / np.maximum(slope[held], 1e-300), np.minimum(width[held], 1e3)))))
+        free = ~held
+        inside = jacobian[:, free]
+        amplitudes = np.zeros(len(x), dtype=bool)
+        at = model.base_count
+        for cause in model.causes:
+            amplitudes[at] = True
+            at += len(cause.form.parameters)
+        room = np.where(amplitudes, x - coordinates.lower, np.inf)
+        normal_part = -0.5 * coordinates.precision * (x - coordinates.centre) ** 2
+        return cls(
+            square=float(residual @ residual),
+            gradient=-(inside.T @ residual),
+            normal=inside.T @ inside,
+            waves_of_residual=-discrepancy.of_columns(residual),
+            waves_of_jacobian=discrepancy.of_columns(inside),
+            away=(coordinates.centre - x)[free],
+            precision=coordinates.precision[free],
+            # Normalisation of the priors and, held at a bound, their value there.
+            log_prior=model.log_prior(found.parameters) - float(np.sum(normal_part[free])),
+            bound_factor=factor,
+            free=free,
+            room=room[free],
+        )
+
+    def log_integral(self, variances: FloatArray) -> float:
+        """Log of the integral over the parameters of likelihood times prior, C = I + B D B^T."""
+        shrink = variances / (1.0 + variances)
+        inside, own = self.waves_of_jacobian, self.waves_of_residual
+        normal = self.normal - inside.T @ (shrink[:, None] * inside)
+        gradient = self.gradient - inside.T @ (shrink * own)
+        square = self.square - float(own @ (shrink * own))
+        total = normal + np.diag(self.precision)
+        pull = gradient + self.precision * self.away
+        size = np.sqrt(np.maximum(np.diag(total), 1e-300))
+        values, vectors = np.linalg.eigh(total / np.outer(size, size))
+        values = np.maximum(values, 1e-14)
+        turned = vectors.T @ (pull / size)
+        step = (vectors @ (turned / values)) / size
+        quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
+        deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
+        cut = float(np.sum(log_ndtr((self.room + step) / deviation)))
+        log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))
+        return (
+            -0.5 * quadratic
+            - 0.5 * float(np.sum(np.log1p(variances)))
+            - 0.5 * log_determinant
+            + 0.5 * len(values) * float(np.log(2.0 * np.pi))
+            + self.log_prior
+            + self.bound_factor
+            + cut
+        )
+
+    def covariance(self, variances: FloatArray) -> FloatArray:
+        """Of all search coordinates; zero for those at a bound."""
+        inside, prior = self.waves_of_jacobian, np.diag(self.precision)
+        inverse = np.linalg.pinv(self.normal + prior, hermitian=True)
+        # The discrepancy widens what the estimate, made without it, scatters by.
+        own = inverse @ (self.normal + inside.T @ (variances[:, None] * inside) + prior) @ inverse
+        full = np.zeros((len(self.free), len(self.free)))
+        full[np.ix_(self.free, self.free)] = own
+        return full

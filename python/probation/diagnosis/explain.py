@@ -1,0 +1,111 @@
+"""From hypotheses to the entries of an answer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.result import UNKNOWN, BaseParameter, CauseParameter, Explanation, Status
+from probation.diagnosis.words import title
+from probation.gap.where import Located, contribution_regions
+from probation.identify.parameter import IDENTIFIABLE, WEAKLY
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.result import Checks
+
+UNINFORMED = 0.9
+"""A standard error above so much of the prior's means that the data add nothing."""
+
+
+def explanations_of(weighed: Sequence[Weighed], checks: Checks | None) -> tuple[Explanation, ...]:
+    """Entries of the answer, in the order of `weighed`; the first one is given the checks."""
+    found = []
+    for index, each in enumerate(weighed):
+        causes = each.hypothesis.causes
+        found.append(
+            Explanation(
+                effects=each.effects,
+                titles=tuple(title(name) for name in each.effects),
+                forms=tuple(cause.form.name for cause in causes),
+                records=each.hypothesis.records,
+                probability=each.probability,
+                parameters=cause_parameters(each.hypothesis),
+                checks=checks if index == 0 else None,
+            )
+        )
+    return tuple(found)
+
+
+def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
+    """What is known of the causes' parameters."""
+    found = hypothesis.refit
+    slopes = found.coordinates.slopes(found.parameters)
+    deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0)) * slopes
+    low, high = found.at_bound
+    result, at = [], found.model.base_count
+    everywhere = tuple(view.id for view in found.model.views)
+    for cause in hypothesis.causes:
+        for parameter in cause.form.parameters:
+            scale = parameter.scale * (abs(found.parameters[at]) if parameter.log else 1.0)
+            known = 0.0 < deviation[at] < UNINFORMED * scale
+            result.append(
+                CauseParameter(
+                    effect=cause.effect.name,
+                    name=parameter.name,
+                    unit=parameter.unit,
+                    records=cause.records or everywhere,
+                    value=float(found.parameters[at]),
+                    se=float(deviation[at]) if known else None,
+                    bound="lower" if low[at] else "upper" if high[at] else None,
+                )
+            )
+            at += 1
+    return tuple(result)
+
+
+def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
+    """The base law's parameters with their standard errors by noise."""
+    found = base.refit
+    covariance = np.linalg.pinv(found.jacobian.T @ found.jacobian, hermitian=True)
+    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * found.coordinates.slopes(found.parameters)
+    result = []
+    for name, value, error in zip(base.law.parameter_names, found.parameters, deviation, strict=True):
+        relative = float(error) / max(abs(float(value)), 1e-300)
+        status: Status = "identifiable"
+        if relative > IDENTIFIABLE:
+            status = "weakly_identifiable" if relative <= WEAKLY else "not_identifiable"
+        result.append(BaseParameter(name, float(value), float(error), status))
+    return tuple(result)
+
+
+def regions_of(hypothesis: Hypothesis, base: BaseFit, p_value: float) -> tuple[Located, ...]:
+    """Where the causes' own contribution is certain, gap-method section 3."""
+    found, model = hypothesis.refit, hypothesis.refit.model
+    first = model.base_count
+    absent = found.parameters.copy()
+    amplitudes, at = [], first
+    for cause in model.causes:
+        amplitudes.append(at)
+        at += len(cause.form.parameters)
+    absent[amplitudes] = 0.0
+    contribution = model.residual(found.parameters) - model.residual(absent)
+    slopes = model.jacobian(found.parameters)[:, first:] * found.coordinates.slopes(found.parameters)[first:]
+    rows = [model.rows(view.id) for view in model.views]
+    return contribution_regions(
+        base.whitened.records,
+        [contribution[part] for part in rows],
+        [slopes[part] for part in rows],
+        hypothesis.evidence.covariance[first:, first:],
+        p_value,
+    )
+
+
+def is_known(effects: Sequence[str]) -> bool:
+    """Whether an explanation has no part outside the catalogue."""
+    return UNKNOWN not in effects

@@ -1,0 +1,71 @@
+"""Hypotheses without refits: where no gap is seen, the linearised model says all there is to say."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import logsumexp
+
+from probation.diagnosis.candidate import Key, cause_key
+from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.refit import Coordinates, Refit, refit
+
+if TYPE_CHECKING:
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.diagnosis.candidate import WhitenedColumns
+
+SHARP_STEPS = 6
+
+
+def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Discrepancy) -> list[Hypothesis]:
+    """The base law and every cause at its best start, in linearised form.
+
+    Parameters
+    ----------
+    base : BaseFit
+    columns : WhitenedColumns
+        Of the screen at the base fit.
+    discrepancy : Discrepancy
+    """
+    found = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
+    span = base.whitened.span
+    left = base.refit.residual - span @ (span.T @ base.refit.residual)
+    grouped: dict[Key, list[tuple[float, int]]] = {}
+    for index, column in enumerate(columns.columns):
+        slope = columns.matrix[:, index]
+        seen = slope - span @ (span.T @ slope)
+        scale = column.cause.form.amplitude.scale
+        gain = float(seen @ left) ** 2 / max(float(seen @ seen) + scale**-2.0, 1e-300)
+        grouped.setdefault(cause_key(column.cause), []).append((gain, index))
+    for entries in grouped.values():
+        entries.sort(reverse=True)
+        chosen = [_at_zero(base, columns, index) for _, index in entries]
+        if _sharp(chosen[0]):
+            # A start that was read off the residual: only a refit says how narrow the peak is.
+            column = columns.columns[entries[0][1]]
+            start = chosen[0].parameters.copy()
+            start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
+            chosen = [refit(chosen[0].model, start, base.whitener, most_steps=SHARP_STEPS)]
+        judged = [evidence(each, base.refit, discrepancy, unknown=False) for each in chosen]
+        together = float(logsumexp([each.log_evidence for each in judged])) - np.log(len(judged))
+        found.append(Hypothesis(chosen[0], replace(judged[0], log_evidence=together)))
+    return found
+
+
+def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
+    """The model with a cause of amplitude 0, from which the integral over the amplitude starts."""
+    column = columns.columns[index]
+    model = base.model.with_causes([column.cause])
+    parameters = model.parameters(base.parameters, (0.0, *column.values[1:]))
+    jacobian = np.zeros((len(base.whitened), len(parameters)))
+    jacobian[:, : model.base_count] = base.refit.jacobian
+    jacobian[:, model.base_count] = columns.matrix[:, index]
+    return Refit(model, parameters, base.refit.residual, jacobian, Coordinates.of_model(model), 0)
+
+
+def _sharp(found: Refit) -> bool:
+    """Whether a shape may lie anywhere, so that the data choose it: a frequency, an instant."""
+    return any(not np.isfinite(each.scale) for each in found.model.effect_parameters[1:])

@@ -1,0 +1,118 @@
+"""How probable every explanation is: evidence times what was probable beforehand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import comb, log
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import logsumexp
+
+from probation.diagnosis.candidate import Key, cause_key
+from probation.diagnosis.result import UNKNOWN
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.gap.cause import Cause
+
+NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.40, 0.06, 0.01
+UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.05, 0.03
+"""Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
+
+COVERED = 0.95
+"""Probability that an answer set holds."""
+
+
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """An explanation's probability and the hypothesis that stands for it.
+
+    Attributes
+    ----------
+    effects : tuple of str
+        As in the contract: empty for none, with "unknown" where there is one.
+    probability : float
+    hypothesis : Hypothesis
+        The form and place with the most evidence.
+    """
+
+    effects: tuple[str, ...]
+    probability: float
+    hypothesis: Hypothesis
+
+
+def weigh(hypotheses: Sequence[Hypothesis], effect_count: int) -> list[Weighed]:
+    """Probabilities of all explanations, most probable first.
+
+    Parameters
+    ----------
+    hypotheses : sequence of Hypothesis
+        The base law's first; several forms and places of the same effects are summed.
+    effect_count : int
+        Of the catalogue.
+    """
+    together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
+    for each in _best_starts(hypotheses):
+        value = each.evidence.log_evidence
+        inside = sum(_form_and_place(cause, each) for cause in each.causes)
+        for effects, score in (
+            (each.effects, value),
+            ((*each.effects, UNKNOWN), each.evidence.log_evidence_unknown),
+        ):
+            together.setdefault(effects, []).append((score + inside, each))
+    scores = {
+        effects: float(logsumexp([score for score, _ in entries])) + log_prior(effects, effect_count)
+        for effects, entries in together.items()
+    }
+    total = float(logsumexp(list(scores.values())))
+    found = [
+        Weighed(effects, float(np.exp(score - total)), max(together[effects], key=lambda entry: entry[0])[1])
+        for effects, score in scores.items()
+    ]
+    return sorted(found, key=lambda each: -each.probability)
+
+
+def _best_starts(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
+    """Of starts with the same causes, forms and places the best one: most end in one optimum."""
+    best: dict[frozenset[Key], Hypothesis] = {}
+    for each in hypotheses:
+        key = frozenset(cause_key(cause) for cause in each.causes)
+        if not np.isfinite(each.evidence.log_evidence):
+            continue
+        if key not in best or each.evidence.log_evidence > best[key].evidence.log_evidence:
+            best[key] = each
+    return list(best.values())
+
+
+def log_prior(effects: tuple[str, ...], count: int) -> float:
+    """Log prior probability of a set of effects of a catalogue of so many."""
+    known = [name for name in effects if name != UNKNOWN]
+    if len(known) < len(effects):
+        return log(UNKNOWN_ALONE) if not known else log(UNKNOWN_BESIDE / count) * len(known)
+    share = (NONE, SINGLE, PAIR, TRIPLE)[len(known)]
+    return log(share / max(comb(count, len(known)), 1))
+
+
+def answer_set(weighed: Sequence[Weighed], covered: float = COVERED) -> tuple[tuple[str, ...], ...]:
+    """The most probable explanations that hold so much probability together, best first."""
+    chosen, total = [], 0.0
+    for each in weighed:
+        chosen.append(each.effects)
+        total += each.probability
+        if total >= covered:
+            break
+    return tuple(chosen)
+
+
+def _form_and_place(cause: Cause, hypothesis: Hypothesis) -> float:
+    """Log share of a form among an effect's, and of its place among those where it may sit."""
+    effect, form = cause.effect, cause.form
+    places = effect.placements(form)
+    records = len(hypothesis.refit.model.views)
+    share = 1.0 / len(places)
+    if cause.records is not None:
+        share /= records
+    return log(share / len(effect.forms))

@@ -1,0 +1,234 @@
+"""Which causes: a race of single ones, then combinations forward and backward, gap-method sections 4 and 6."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key, span_of
+from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.refit import Refit, refit
+from probation.errors import ConvergenceError, InputError
+from probation.gap.screen import screen
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.gap.effect import Effect
+    from probation.gap.model import CampaignModel
+
+Item = TypeVar("Item")
+
+HEAT_STEPS = 4
+"""Gauss-Newton steps of the race's first round."""
+
+IN_THE_RUNNING, SLACK = 6.0, 40.0
+"""A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
+
+STARTS = 3
+"""Starts per form and place that a cause in the running is given."""
+
+PLACES = 2
+"""Records in which a rig's fault is tried alone, those with the best score."""
+
+FORWARD, ADDITIONS = 3, 6
+"""How many of the best explanations are added to, and how many additions each is given."""
+
+MOST_EFFECTS = 3
+EXPLAINED = 3.0
+"""Log evidence by which an unknown effect beside an explanation must lead for the search to go on."""
+
+
+@dataclass
+class Search:
+    """Hypotheses that were refitted, and the means to refit more.
+
+    Attributes
+    ----------
+    base : BaseFit
+    discrepancy : Discrepancy
+    effects : tuple of Effect
+    threads : int
+    found : list of Hypothesis
+        The base law's first.
+    """
+
+    base: BaseFit
+    discrepancy: Discrepancy
+    effects: tuple[Effect, ...]
+    threads: int = 2
+    progress: Callable[[float], None] | None = None
+    found: list[Hypothesis] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.found.append(self._judged(self.base.refit))
+
+    @property
+    def none(self) -> Hypothesis:
+        """The base law."""
+        return self.found[0]
+
+    def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
+        """Singles, then combinations while something is left."""
+        self._singles(columns)
+        self._told(0.6)
+        size = 1
+        while size < MOST_EFFECTS:
+            leading = self.ranked(size)
+            if not leading or not self._something_left(self.ranked()[0]):
+                break
+            for each in leading[: FORWARD if size == 1 else 1]:
+                self._additions(each)
+            if size == 1:
+                self._swaps()
+            size += 1
+            self._told(0.6 + 0.2 * (size - 1))
+        return self.found
+
+    def ranked(self, size: int | None = None) -> list[Hypothesis]:
+        """Hypotheses with causes, most evidence first, the best of each set of effects; of so many effects only."""
+        best: dict[tuple[str, ...], Hypothesis] = {}
+        for each in self.found[1:]:
+            if size is not None and len(each.effects) != size:
+                continue
+            known = best.get(each.effects)
+            if known is None or each.evidence.log_evidence > known.evidence.log_evidence:
+                best[each.effects] = each
+        return sorted(best.values(), key=lambda each: -each.evidence.log_evidence)
+
+    def _something_left(self, best: Hypothesis) -> bool:
+        return best.evidence.log_evidence_unknown > best.evidence.log_evidence + EXPLAINED
+
+    def _singles(self, columns: WhitenedColumns) -> None:
+        candidates = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+        first = _first_of_each(candidates)
+        raced = self._refitted([], first, HEAT_STEPS)
+        excess = np.array([self._left(each) for each in raced])
+        limit = IN_THE_RUNNING * max(float(excess.min(initial=np.inf)), 0.0) + SLACK
+        running = [each for each, left in zip(raced, excess, strict=True) if left <= limit]
+        out = [each for each, left in zip(raced, excess, strict=True) if left > limit]
+        self.found += [self._judged(each) for each in out]
+        polished = self._polished(running)
+        keys = {cause_key(each.model.causes[-1]) for each in running}
+        more = [each for each in _others(candidates, first, STARTS - 1) if cause_key(each.cause) in keys]
+        polished += self._refitted([], more, None)
+        self.found += [self._judged(each) for each in polished]
+
+    def _additions(self, leading: Hypothesis) -> None:
+        """One more cause beside those of a hypothesis."""
+        model, at = leading.refit.model, leading.refit.parameters
+        raw = model.residual(at)
+        columns = screen(model, at, self.effects, residual=raw, threads=self.threads)
+        taken = {(cause.effect.name, cause.records) for cause in leading.causes}
+        present = {cause.effect.name for cause in leading.causes if cause.records is None}
+        columns = [
+            each
+            for each in columns
+            if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
+        ]
+        white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
+        ranked = white.candidates(leading.refit.residual, span_of(leading.refit.jacobian))
+        chosen = _first_of_each_effect(ranked, ADDITIONS)
+        self.found += [self._judged(each) for each in self._refitted([leading], chosen, None)]
+
+    def _swaps(self) -> None:
+        """The best pair with one of its causes given up for another: the first may have stood in for both."""
+        pairs = self.ranked(2)
+        if not pairs:
+            return
+        begun = {each.effects for each in self.ranked(1)[:FORWARD]}
+        for name in pairs[0].effects:
+            alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
+            if alone is not None and alone.effects not in begun:
+                self._additions(alone)
+
+    def _left(self, found: Refit) -> float:
+        """Squared gap that a refit leaves, in units of the noise."""
+        return max(found.chi_square - len(found.residual), 0.0)
+
+    def _refitted(
+        self, beside: Sequence[Hypothesis], candidates: Iterable[Candidate], steps: int | None
+    ) -> list[Refit]:
+        """Refits of candidates beside a hypothesis, or of candidates alone, in parallel."""
+        before = beside[0].refit if beside else self.base.refit
+
+        def one(candidate: Candidate) -> Refit | None:
+            model = before.model.with_causes([*before.model.causes, candidate.cause])
+            start = np.concatenate([before.parameters, candidate.values])
+            return self._tried(model, start, steps)
+
+        return self._in_parallel(one, list(candidates))
+
+    def _polished(self, refits: Sequence[Refit]) -> list[Refit]:
+        return self._in_parallel(lambda each: self._tried(each.model, each.parameters, None), list(refits))
+
+    def _tried(self, model: CampaignModel, start: FloatArray, steps: int | None) -> Refit | None:
+        try:
+            whitener = self.base.whitener
+            return refit(model, start, whitener) if steps is None else refit(model, start, whitener, most_steps=steps)
+        except (ConvergenceError, InputError):
+            return None  # the law cannot follow this cause from here
+
+    def _in_parallel(self, work: Callable[[Item], Refit | None], items: Sequence[Item]) -> list[Refit]:
+        if self.threads > 1:
+            with ThreadPoolExecutor(self.threads) as pool:
+                found = list(pool.map(work, items))
+        else:
+            found = [work(item) for item in items]
+        return [each for each in found if each is not None]
+
+    def _judged(self, found: Refit) -> Hypothesis:
+        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy))
+
+    def _told(self, part: float) -> None:
+        if self.progress:
+            self.progress(part)
+
+
+def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """The best start of every form and placement; of placements in one record the best few."""
+    found: list[Candidate] = []
+    seen: set[Key] = set()
+    alone: dict[tuple[str, str], int] = {}
+    for each in candidates:
+        key = cause_key(each.cause)
+        if key in seen:
+            continue
+        if each.cause.records is not None:
+            if alone.get(key[:2], 0) >= PLACES:
+                continue
+            alone[key[:2]] = alone.get(key[:2], 0) + 1
+        seen.add(key)
+        found.append(each)
+    return found
+
+
+def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: int) -> list[Candidate]:
+    """Further starts of the same causes."""
+    given = {id(each) for each in first}
+    wanted = {cause_key(each.cause) for each in first}
+    many: dict[Key, int] = {}
+    found = []
+    for each in candidates:
+        key = cause_key(each.cause)
+        if id(each) in given or key not in wanted or many.get(key, 0) >= count:
+            continue
+        many[key] = many.get(key, 0) + 1
+        found.append(each)
+    return found
+
+
+def _first_of_each_effect(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
+    """The best start of each of the best effects; in all records and in one count apart."""
+    found: dict[tuple[str, bool], Candidate] = {}
+    for each in candidates:
+        found.setdefault((each.cause.effect.name, each.cause.records is None), each)
+        if len(found) == count:
+            break
+    return list(found.values())

@@ -1,0 +1,124 @@
+"""How far the gap shrinks with the best explanation, on the records it was found on and on others."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.closure import Piece, closure_of
+from probation.diagnosis.result import RecordCurves, Shrink
+from probation.gap.model import CampaignModel
+from probation.gap.noise import estimate_noise
+from probation.gap.record_residual import RecordResidual
+from probation.gap.smooth_basis import smooth_basis
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.gap.noise_model import NoiseModel
+    from probation.gap.where import Located
+    from probation.records import Campaign
+
+
+def shrink_of(
+    base: BaseFit, best: Hypothesis, campaign: Campaign, located: Sequence[Located], *, seed: int
+) -> tuple[Shrink, dict[str, RecordCurves]]:
+    """Closure by role, record and region, and the curves behind it.
+
+    Parameters
+    ----------
+    base : BaseFit
+    best : Hypothesis
+        The explanation; the base law where no effect is needed.
+    campaign : Campaign
+    located : sequence of Located
+        Regions that are given their own closure.
+    seed : int
+    """
+    rng = np.random.default_rng(seed)
+    everywhere = CampaignModel(base.law, base.views)
+    before = everywhere.predict(base.parameters)
+    causes = best.refit.model.causes
+    after = everywhere.with_causes(causes).predict(best.refit.parameters) if causes else before
+    noises = {noise.name: noise for noise in base.whitened.noises} | _noise_of_others(base, everywhere, campaign)
+    pieces = {
+        view.id: Piece(before[view.id] - view.data, after[view.id] - view.data, noises[view.id]) for view in base.views
+    }
+    fitted = [view.id for view in base.views if view.role == "identify"]
+    others = [view.id for view in base.views if view.role != "identify"]
+    regions = tuple(
+        (
+            place,
+            closure_of(
+                [
+                    Piece(
+                        pieces[place.record].before[place.samples],
+                        pieces[place.record].after[place.samples],
+                        noises[place.record],
+                        place.samples,
+                    )
+                ],
+                rng,
+            ),
+        )
+        for place in located
+    )
+    shrink = Shrink(
+        identify=closure_of([pieces[name] for name in fitted], rng),
+        held_out=closure_of([pieces[name] for name in others], rng) if others else None,
+        records={name: closure_of([piece], rng) for name, piece in pieces.items()},
+        regions=regions,
+        ceiling=closure_of([_flexible(pieces[name], base, name) for name in fitted], rng),
+    )
+    curves = {
+        view.id: RecordCurves(
+            id=view.id,
+            role=view.role,
+            time=view.sampled(view.time),
+            true_strain=view.sampled(view.true_strain),
+            strain_rate=view.sampled(view.rate),
+            data=view.data,
+            base=before[view.id],
+            explained=after[view.id] if causes else None,
+            noise=noises[view.id].deviation,
+        )
+        for view in base.views
+    }
+    return shrink, curves
+
+
+def _noise_of_others(base: BaseFit, everywhere: CampaignModel, campaign: Campaign) -> dict[str, NoiseModel]:
+    """The noise of records that were not fitted, by what is rougher than any law's error."""
+    others = [view for view in base.views if view.role != "identify"]
+    if not others:
+        return {}
+    raw, jacobian = everywhere.residual_and_jacobian(base.parameters)
+    known = {record.id: record for record in campaign.records}
+    residuals = [
+        RecordResidual(
+            name=view.id,
+            time=view.sampled(view.time),
+            true_strain=view.sampled(view.true_strain),
+            strain_rate=view.sampled(view.rate),
+            residual=raw[everywhere.rows(view.id)],
+            tangent=jacobian[everywhere.rows(view.id)],
+            jumps=tuple(jump // view.stride for jump in view.jumps),
+            measured=view.data,
+            given_noise=known[view.id].noise.stress_MPa,
+        )
+        for view in others
+    ]
+    return {noise.name: noise for noise in estimate_noise(residuals)}
+
+
+def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:
+    """What any smooth curve would leave of a record, its own freedom paid for."""
+    index = [record.name for record in base.whitened.records].index(name)
+    record = base.whitened.records[index]
+    columns: FloatArray = np.linalg.qr(smooth_basis(record.time, record.jumps).columns)[0]
+    left = piece.before - columns @ (columns.T @ piece.before)
+    return Piece(piece.before, left * np.sqrt(len(left) / max(len(left) - columns.shape[1], 1)), piece.noise)
