@@ -84,7 +84,7 @@ class Discrepancy:
         return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places), drift)
 
     def __len__(self) -> int:
-        return self.places[-1].stop
+        return int(self.places[-1].stop)
 
     def of_columns(self, matrix: FloatArray) -> FloatArray:
         """B^T times whitened columns (N,) or (N, m)."""
@@ -98,7 +98,7 @@ class Discrepancy:
         """D for a discrepancy of so much energy in each record, the noise's own drift added; shape (d,)."""
         parts = [size * share for size, share in zip(energy, self.spectrum, strict=True)]
         noise = [self.drift * share / share.max() for share in self.spectrum]
-        return np.concatenate(parts) + np.concatenate(noise)
+        return np.asarray(np.concatenate(parts) + np.concatenate(noise), dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)

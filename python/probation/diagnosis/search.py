@@ -28,7 +28,7 @@ Item = TypeVar("Item")
 HEAT_STEPS = 4
 """Gauss-Newton steps of the race's first round."""
 
-IN_THE_RUNNING, SLACK = 6.0, 40.0
+IN_THE_RUNNING, SLACK = 6.0, 30.0
 """A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
 
 STARTS = 3
@@ -109,10 +109,13 @@ class Search:
         candidates = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
         first = _first_of_each(candidates)
         raced = self._refitted([], first, HEAT_STEPS)
-        excess = np.array([self._left(each) for each in raced])
-        limit = IN_THE_RUNNING * max(float(excess.min(initial=np.inf)), 0.0) + SLACK
-        running = [each for each, left in zip(raced, excess, strict=True) if left <= limit]
-        out = [each for each, left in zip(raced, excess, strict=True) if left > limit]
+        left = np.array([each.chi_square for each in raced])
+        best, count = float(left.min(initial=np.inf)), len(self.base.whitened)
+        # What is above the noise for certain; the noise itself is the same for all.
+        gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
+        limit = best + (IN_THE_RUNNING - 1.0) * gap + SLACK
+        running = [each for each, own in zip(raced, left, strict=True) if own <= limit]
+        out = [each for each, own in zip(raced, left, strict=True) if own > limit]
         self.found += [self._judged(each) for each in out]
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
@@ -147,10 +150,6 @@ class Search:
             alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
             if alone is not None and alone.effects not in begun:
                 self._additions(alone)
-
-    def _left(self, found: Refit) -> float:
-        """Squared gap that a refit leaves, in units of the noise."""
-        return max(found.chi_square - len(found.residual), 0.0)
 
     def _refitted(
         self, beside: Sequence[Hypothesis], candidates: Iterable[Candidate], steps: int | None
