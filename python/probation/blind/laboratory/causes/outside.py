@@ -1,0 +1,163 @@
+"""What no name of the catalogue stands for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.blind.laboratory.trial import Cause, on_steps
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+    from probation.blind.laboratory.material import FloatArray
+    from probation.blind.laboratory.trial import Setting, Shape, Trial
+
+
+def _mullins(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """The network is softer below the largest strain so far, and whole again beyond it."""
+    below = (trial.largest - trial.strain) / shape["strain"]
+    trial.network_factor *= 1.0 - amplitude * np.tanh(np.maximum(below, 0.0))
+
+
+def _yield_band(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """A band of localised strain passes through the gauge length: a dip and a bump of the mean stress."""
+    x = (trial.strain - shape["strain"]) / shape["width"]
+    trial.extra = trial.extra + amplitude * (x + shape["skew"]) * np.exp(-0.5 * x**2)
+
+
+def _bauschinger(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """After a reversal the times are shorter, until the strain has moved on by some hundredths."""
+    direction = np.sign(trial.rate)
+    since, fresh = 0.0, np.zeros(len(direction))
+    steps = np.abs(np.diff(trial.strain))
+    reversed_once = False
+    for m in range(1, len(direction)):
+        if direction[m] * direction[m - 1] < 0.0 and steps[m] > 0.2 * np.median(steps):
+            since, reversed_once = 0.0, True
+        since += steps[m]
+        fresh[m] = np.exp(-since / shape["strain"]) if reversed_once else 0.0
+    trial.log_factor -= amplitude * fresh
+
+
+def _open_door(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """The room cools for a while and recovers."""
+    x = (trial.elapsed / trial.elapsed[-1] - shape["instant_of_record"]) / shape["length_of_record"]
+    dip = np.where(x > 0.0, x * np.exp(1.0 - np.maximum(x, 0.0)), 0.0)
+    trial.log_factor += 0.1 * amplitude * on_steps(dip)
+
+
+def _wavy_strain(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """The extensometer's scale is wavy: recorded and true strain differ by a sine of the strain."""
+    wave = np.sin(2.0 * np.pi * trial.nominal / shape["period_strain"] + shape["phase_rad"])
+    trial.strain = trial.strain + amplitude * (wave - np.sin(shape["phase_rad"]))
+
+
+def _moisture(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """Water taken up between the tests softens the glass: E_u falls from test to test, neither tau nor G does."""
+    trial.modulus_factor *= 1.0 - amplitude * trial.place ** shape["power"]
+
+
+def _serrations(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:
+    """Stick and slip of a neck: a saw tooth whose pitch is a strain and which grows."""
+    pitch = trial.nominal / shape["pitch_strain"]
+    tooth = (pitch - np.floor(pitch)) - 0.5
+    grown = np.clip((trial.nominal - shape["onset_strain"]) / 0.3, 0.0, 1.0)
+    return stress + amplitude * tooth * grown * np.exp(trial.nominal)
+
+
+def _cell_hysteresis(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:
+    """The load cell reads more on the way down, for a force it has seen."""
+    force = stress * np.exp(-trial.nominal)
+    largest = np.maximum.accumulate(force)
+    below = np.maximum(largest - force, 0.0) / np.max(force)
+    return stress + amplitude * force * np.tanh(below / shape["width"]) * np.exp(trial.nominal)
+
+
+def _crystals(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """Crystals grow under strain and carry a stress of their own from an onset on."""
+    width = 0.05
+    beyond = width * np.logaddexp(0.0, (trial.largest - shape["onset_strain"]) / width)
+    level = width * np.logaddexp(0.0, -shape["onset_strain"] / width)
+    trial.extra = trial.extra + amplitude * (beyond - level) ** shape["power"]
+
+
+def _blade_slip(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """The extensometer's blade creeps forth and springs back: recorded strain that comes and goes."""
+    x = (trial.elapsed / trial.elapsed[-1] - shape["instant_of_record"]) / shape["length_of_record"]
+    trial.strain = trial.strain - amplitude * np.exp(-(x**2))
+
+
+def _somewhere(random: Generator, setting: Setting) -> Shape:
+    return {"instant_of_record": random.uniform(0.1, 0.8), "length_of_record": random.uniform(0.03, 0.12)}
+
+
+def _waves(random: Generator, setting: Setting) -> Shape:
+    return {
+        "period_strain": setting.end_strain / random.uniform(2.0, 6.0),
+        "phase_rad": random.uniform(0.0, 2.0 * np.pi),
+    }
+
+
+def _band(random: Generator, setting: Setting) -> Shape:
+    strain = random.uniform(0.15, 0.6) * setting.end_strain
+    return {"strain": strain, "width": random.uniform(0.1, 0.3) * strain, "skew": random.uniform(-1.0, 1.0)}
+
+
+CAUSES = (
+    Cause(
+        "mullins_softening",
+        0.1,
+        lambda r, s: {"strain": r.uniform(0.02, 0.08)},
+        change=_mullins,
+        outside=True,
+        localised=True,
+        needs_unloading=True,
+        draws=2,
+    ),
+    Cause("yield_band", 1.0, _band, change=_yield_band, outside=True, localised=True),
+    Cause(
+        "bauschinger",
+        1.0,
+        lambda r, s: {"strain": r.uniform(0.01, 0.05)},
+        change=_bauschinger,
+        outside=True,
+        localised=True,
+        needs_unloading=True,
+        draws=2,
+    ),
+    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True),
+    Cause("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, outside=True, placements=("all", "one")),
+    Cause("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, outside=True, draws=2),
+    Cause(
+        "serrations",
+        1.0,
+        lambda r, s: {
+            "pitch_strain": s.end_strain / r.uniform(6.0, 25.0),
+            "onset_strain": r.uniform(0.0, 0.4) * s.end_strain,
+        },
+        record=_serrations,
+        outside=True,
+        placements=("all", "one"),
+    ),
+    Cause(
+        "cell_hysteresis",
+        0.03,
+        lambda r, s: {"width": r.uniform(0.05, 0.3)},
+        record=_cell_hysteresis,
+        outside=True,
+        placements=("all",),
+        localised=True,
+        needs_unloading=True,
+        draws=2,
+    ),
+    Cause(
+        "strain_crystallisation",
+        5.0,
+        lambda r, s: {"onset_strain": r.uniform(0.3, 0.7) * s.end_strain, "power": r.uniform(1.0, 2.0)},
+        change=_crystals,
+        outside=True,
+    ),
+    Cause("blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True),
+)

@@ -1,0 +1,116 @@
+"""The data: the finely integrated truth through the channels' filter, their noise and their converters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.blind.laboratory.filters import low_pass
+from probation.blind.laboratory.rig import REFINEMENT
+from probation.blind.laboratory.trial import Trial, recorded_stress
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.random import Generator
+
+    from probation.blind.laboratory.bank import Bank, Bench
+    from probation.blind.laboratory.material import FloatArray
+    from probation.blind.laboratory.noise import Noise, RecordNoise
+    from probation.blind.laboratory.placing import Planted
+    from probation.blind.laboratory.trial import Acting
+
+_DRIFT_LIMIT = 0.95
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What the channels wrote, and what it amounts to.
+
+    Attributes
+    ----------
+    strain, stress : list of ndarray, each (n,) [-], [MPa]
+    clean : ndarray, shape (n_all,)
+        Whitened, projected: what the causes add, without noise.
+    observed : ndarray, shape (n_all,)
+        The same of the recorded stress less the base law along the recorded strain.
+    added_rms : list of float [MPa]
+        What the causes add to each record.
+    sampling_detectability, drift_detectability : float
+        See `Truth`.
+    """
+
+    strain: list[FloatArray]
+    stress: list[FloatArray]
+    clean: FloatArray
+    observed: FloatArray
+    added_rms: list[float]
+    sampling_detectability: float
+    drift_detectability: float
+
+
+def record_all(
+    random: Generator, bench: Bench, noise: Noise, noises: Sequence[RecordNoise], bank: Bank, planted: Sequence[Planted]
+) -> Recorded:
+    """Run every test on the fine grid and record it."""
+    share, drift = _drift_share(bank, noises)
+    strains, stresses, added_rms = [], [], []
+    clean, residual, sampling = {}, {}, {}
+    for k, each in enumerate(noises):
+        causes = [one.acting for one in planted if one.record is None or one.record == k]
+        truth, plain, seen = _channels(bench, k, causes, noise)
+        added_rms.append(float(np.sqrt(np.mean((truth - plain) ** 2))))
+        strain = _converted(seen + each.strain, noise.strain_quantum)
+        stress = _converted(truth + each.rough + share * each.drift, noise.quantum)
+        strains.append(_as_written(strain))
+        stresses.append(_as_written(stress))
+        if k in bench.identified:
+            clean[k] = truth - plain
+            sampling[k] = plain - _base_stress(bench, k, seen)
+            residual[k] = stresses[k] - _base_stress(bench, k, strains[k])
+    return Recorded(
+        strain=strains,
+        stress=stresses,
+        clean=bank.column(clean),
+        observed=bank.column(residual),
+        added_rms=added_rms,
+        sampling_detectability=float(np.linalg.norm(bank.column(sampling))),
+        drift_detectability=drift,
+    )
+
+
+def _drift_share(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[float, float]:
+    """By how much the drift is turned down so that it looks like no effect, and how much it does then."""
+    column = bank.column({k: noises[k].drift for k in bank.bench.identified})
+    most = max((abs(float(each.column @ column)) / each.norm for each in bank.signals if not each.cause.outside))
+    share = min(1.0, _DRIFT_LIMIT / max(most, 1e-12))
+    return share, share * most
+
+
+def _channels(
+    bench: Bench, k: int, causes: Sequence[Acting], noise: Noise
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Stress with the causes, stress without, strain; on the samples."""
+    trials = [(bench.trial(k, fine=True), causes), (bench.trial(k, fine=True), ())]
+    test = bench.tests[k]
+    channels = [*recorded_stress(trials), test.fine_strain]
+    time_constant = noise.filter_samples * float(np.min(np.diff(test.time)))
+    truth, plain, strain = (low_pass(test.fine_time, each, time_constant)[::REFINEMENT] for each in channels)
+    return truth, plain, strain
+
+
+def _base_stress(bench: Bench, k: int, strain: FloatArray) -> FloatArray:
+    """The base law along a recorded strain that is straight between its samples."""
+    trial = Trial(bench.law, bench.tests[k].time, strain, 0.0, bench.reference_rate)
+    return recorded_stress([(trial, ())])[0]
+
+
+def _converted(samples: FloatArray, quantum: float) -> FloatArray:
+    return np.asarray(np.round(samples / quantum) * quantum) if quantum > 0.0 else samples
+
+
+def _as_written(samples: FloatArray) -> FloatArray:
+    """Twelve digits, as in the file."""
+    return np.array([float(f"{each:.12g}") for each in samples])

@@ -1,0 +1,139 @@
+"""What is withheld: what was done to a campaign, and what could have been found out."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+
+SCHEMA = "probation.blind.truth/1"
+
+
+@dataclass(frozen=True)
+class Window:
+    """Where in a record a cause shows: nine tenths of its squared signal.
+
+    Attributes
+    ----------
+    record : str
+    time_s : tuple of float [s]
+    true_strain : tuple of float [-]
+        Least and largest recorded strain within.
+    """
+
+    record: str
+    time_s: tuple[float, float]
+    true_strain: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class WithheldCause:
+    """A cause that acts.
+
+    Attributes
+    ----------
+    effect : str
+        The contract's name, or "unknown".
+    kind : str
+        The laboratory's own name of it.
+    everywhere : bool
+        Whether it acts in all records.
+    records : tuple of str
+        Those identified records that it touches.
+    amplitude, scale : float
+        As the laboratory's form has it, and a usual one.
+    shape : dict
+        Its other parameters.
+    detectability : float
+        sqrt(lambda): norm of its whitened signal without what the base law can follow.
+    localised : bool
+    windows : tuple of Window
+    alike : dict
+        For every other cause (the laboratory's name), the largest cosine of its signals with this one's.
+    left_by_best_other : float
+        Detectability that is left when the nearest single cause of the catalogue has taken its part.
+    left_by_best_pair : float
+        The same of the nearest pair.
+    """
+
+    effect: str
+    kind: str
+    everywhere: bool
+    records: tuple[str, ...]
+    amplitude: float
+    scale: float
+    shape: dict[str, float]
+    detectability: float
+    localised: bool
+    windows: tuple[Window, ...]
+    alike: dict[str, float]
+    left_by_best_other: float
+    left_by_best_pair: float
+
+
+@dataclass(frozen=True)
+class Truth:
+    """All that a solver must not know.
+
+    Attributes
+    ----------
+    split, seed, index : what it was made from.
+    stratum : str
+        "none", "single", "pair", "outside" or "mimic".
+    target : float
+        Detectability that was aimed at; 0 for none.
+    causes : tuple of WithheldCause
+    mimics : str
+        Of a mimic, the effect of the catalogue it looks like.
+    explanation : tuple of str
+        Sorted names; "unknown" for what is outside the catalogue.
+    detectability : float
+        Of all causes together.
+    base : dict
+        Parameters of the base law, as the contract names them.
+    noise_MPa : dict
+        Root mean square of the noise of every record.
+    noise : dict
+        Its make.
+    records : dict
+        Kind and role of every record's history.
+    sampling_detectability : float
+        What sampling and filtering alone make of the base law's stress.
+    drift_detectability : float
+        Largest projection of the noise's drift on a signal of the catalogue.
+    oracle : dict
+        Posterior, part of repeats in which it is right, answer set, whether the truth is resolvable.
+    added_MPa : dict
+        Root mean square of what the causes add to every record.
+    """
+
+    split: str
+    seed: int
+    index: int
+    stratum: str
+    target: float
+    causes: tuple[WithheldCause, ...]
+    mimics: str
+    explanation: tuple[str, ...]
+    detectability: float
+    base: dict[str, float]
+    noise_MPa: dict[str, float]
+    noise: dict[str, float]
+    records: dict[str, dict[str, str]]
+    sampling_detectability: float
+    drift_detectability: float
+    oracle: dict[str, object]
+    added_MPa: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Of the campaign."""
+        return campaign_name(self.split, self.seed, self.index)
+
+    def to_json(self) -> str:
+        """As JSON text, in full precision."""
+        return json.dumps({"schema": SCHEMA, "name": self.name, **asdict(self)}, allow_nan=False, indent=1) + "\n"
+
+
+def campaign_name(split: str, seed: int, index: int) -> str:
+    """Such as "develop-7-0012"; it says nothing of the truth."""
+    return f"{split}-{seed}-{index:04d}"
