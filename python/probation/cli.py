@@ -11,7 +11,19 @@ import warnings
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
-from probation.commands import certify, companion, coverage, crosscheck, demo, excitation, fit, paper, preview, simulate
+from probation.commands import (
+    certify,
+    companion,
+    coverage,
+    crosscheck,
+    demo,
+    diagnose,
+    excitation,
+    fit,
+    paper,
+    preview,
+    simulate,
+)
 from probation.errors import ConvergenceError, InputError
 from probation.histories.named import nearest
 from probation.report.provenance import running
@@ -19,7 +31,7 @@ from probation.report.provenance import running
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (demo, preview, excitation, fit, companion, certify, crosscheck, simulate, coverage, paper)
+COMMANDS = (demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, coverage, paper)
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
 
 _DESCRIPTION = """\
@@ -30,6 +42,7 @@ Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline p
   strain rate, and how well known    probation excitation tension.csv
   identify the law on a campaign     probation fit hdpe-2020/ --report fit.html
   is the law intrinsic?              probation certify hdpe-2020/ --report certificate.html
+  what does it leave out?            probation diagnose hdpe-2020/ --report diagnosis.html
   how far the schemes agree          probation crosscheck hdpe-2020/
   simulate a test                    probation simulate --history ramp:rate=0.005,strain=2 \\
                                          --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from probation.errors import InputError
 
 if TYPE_CHECKING:
     import argparse
@@ -12,12 +15,12 @@ if TYPE_CHECKING:
     from probation.records import Campaign
 
 
-def add_campaign(parser: argparse.ArgumentParser) -> None:
-    """Add CAMPAIGN."""
+def add_campaign(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
+    """Add CAMPAIGN; `optional` for a command that can do something without."""
     parser.add_argument(
         "campaign",
         metavar="CAMPAIGN",
-        nargs="+",
+        nargs="*" if optional else "+",
         help="a folder with a campaign.toml, or that file; or data files, each specimen of which becomes a record",
     )
 
@@ -30,6 +33,38 @@ def add_control(parser: argparse.ArgumentParser) -> None:
         default="other",
         help="how the tests in data files were driven (other)",
     )
+
+
+def add_held_out(parser: argparse.ArgumentParser) -> None:
+    """Add ``--held-out``."""
+    parser.add_argument(
+        "--held-out",
+        metavar="ID",
+        action="append",
+        default=[],
+        help="predict this record and identify on all others, whatever their roles; may be given several times",
+    )
+
+
+def with_held_out(campaign: Campaign, held_out: Sequence[str]) -> Campaign:
+    """The campaign with those records held out and all others to identify on; as it is where none is named.
+
+    Raises
+    ------
+    InputError
+        For an unknown record, or if none is left to identify on.
+    """
+    if not held_out:
+        return campaign
+    for name in held_out:
+        try:
+            campaign.record(name)
+        except InputError as error:
+            raise InputError(f"--held-out: {error}") from None
+    if len(set(held_out)) == len(campaign.records):
+        raise InputError("--held-out: found every record, expected at least one left to identify on")
+    roles = {record.id: "held-out" if record.id in held_out else "identify" for record in campaign.records}
+    return replace(campaign, records=tuple(replace(each, role=roles[each.id]) for each in campaign.records))
 
 
 def campaign_from(options: argparse.Namespace) -> Campaign:

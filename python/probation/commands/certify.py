@@ -4,16 +4,10 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from probation.commands.campaign_options import add_campaign, add_control, campaign_from
+from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
-from probation.errors import InputError
-
-if TYPE_CHECKING:
-    from probation.records import Campaign
 
 NAME = "certify"
 
@@ -34,13 +28,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="the probation test: is the law intrinsic?", description=_DESCRIPTION)
     add_campaign(parser)
     add_control(parser)
-    parser.add_argument(
-        "--held-out",
-        metavar="ID",
-        action="append",
-        default=[],
-        help="predict this record and identify on all others, whatever their roles; may be given several times",
-    )
+    add_held_out(parser)
     parser.add_argument(
         "--tolerance",
         metavar="FRACTION",
@@ -65,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from probation.certificate import certify  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
-    campaign = _with_roles(campaign_from(options), options.held_out)
+    campaign = with_held_out(campaign_from(options), options.held_out)
     with shown(f"probation test on {campaign.name}") as advance:
         answer = certify(
             campaign,
@@ -77,21 +65,6 @@ def run(options: argparse.Namespace) -> int:
     deliver(answer, options)
     deliver_report(answer, options)
     return 0
-
-
-def _with_roles(campaign: Campaign, held_out: list[str]) -> Campaign:
-    """The campaign with those records held out and all others to identify on; as it is where none is named."""
-    if not held_out:
-        return campaign
-    for name in held_out:
-        try:
-            campaign.record(name)
-        except InputError as error:
-            raise InputError(f"--held-out: {error}") from None
-    if len(set(held_out)) == len(campaign.records):
-        raise InputError("--held-out: found every record, expected at least one left to identify on")
-    roles = {record.id: "held-out" if record.id in held_out else "identify" for record in campaign.records}
-    return replace(campaign, records=tuple(replace(each, role=roles[each.id]) for each in campaign.records))
 
 
 def _fraction(text: str) -> float:

@@ -14,6 +14,7 @@ from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.checks import checks
 from probation.diagnosis.evidence import Discrepancy
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
+from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.probabilities import answer_set, weigh
 from probation.diagnosis.remaining import remaining_gap
@@ -21,7 +22,6 @@ from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
-from probation.diagnosis.words import headline
 from probation.gap.gap_test import GapTester
 from probation.gap.registry import effects as catalogue
 from probation.gap.screen import screen

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.diagnosis.headline import title
 from probation.diagnosis.result import UNKNOWN, BaseParameter, CauseParameter, Explanation, Status
-from probation.diagnosis.words import title
 from probation.gap.where import Located, contribution_regions
 from probation.identify.parameter import IDENTIFIABLE, WEAKLY
 

@@ -1,71 +1,160 @@
-"""A diagnosis in one sentence."""
+"""A diagnosis in words that need no statistics: names, probabilities, parameters, checks."""
 
 from __future__ import annotations
 
+from math import floor, log10
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
-from probation.gap.registry import effect
+from probation.report.estimate import plus_minus
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from probation.diagnosis.closure import Closure
-    from probation.diagnosis.result import Explanation, Verdict
+    from probation.diagnosis.result import CauseParameter, Checks, Diagnosis, Explanation
 
-MOST_RIVALS = 3
+NOTHING = "no effect is needed"
+OUTSIDE = "an effect outside the catalogue"
 
+LONGEST_ID = 30
+"""Letters of a record's id that tables and figures show."""
 
-def title(name: str) -> str:
-    """An effect's name for people."""
-    return "an effect outside the catalogue" if name == UNKNOWN else effect(name).title
+SEEN = 0.01
+"""p-value below which a check is said to fail."""
 
-
-def titles(effects: Sequence[str]) -> str:
-    """A set of effects for people."""
-    return joined([title(name) for name in effects], "and") if effects else "no effect"
-
-
-def joined(parts: Sequence[str], last: str) -> str:
-    """Commas between, and a word before the last."""
-    return f" {last} ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+_SMALLEST_P = 1e-4  # draws of the noise tell no less
+_UNIT_WORDS = {"°C": "degC", "%": "percent"}
 
 
-def headline(
-    verdict: Verdict,
-    explanations: Sequence[Explanation],
-    answer_set: Sequence[tuple[str, ...]],
-    identify: Closure,
-    record_count: int,
-    p_value: float,
-) -> str:
-    """One sentence a person can act on."""
-    best = explanations[0]
-    records = "the one record" if record_count == 1 else f"all {record_count} records"
-    if verdict == "no_gap":
-        return (
-            f"No gap: the law describes {records} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {p_value:.2g})."
-        )
-    place = f" in {joined(best.records, 'and')}" if _confined(best, record_count) else ""
-    known = [name for name in best.effects if name != UNKNOWN]
-    fall = (
-        f"the misfit falls from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa, "
-        f"the noise being {identify.noise_MPa:.2g} MPa"
-    )
-    if verdict == "unexplained":
-        gap = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
-        if known:
-            return f"{gap}: {titles(known)}{place} is part of it ({fall}), but something outside the catalogue is left."
-        return f"{gap} and nothing in the catalogue explains it."
-    sentence = f"{titles(best.effects).capitalize()}{place} explains the gap: with it {fall}"
-    rivals = [each for each in answer_set if each != best.effects]
-    if rivals:
-        shown = joined([titles(each) for each in rivals[:MOST_RIVALS]], "or")
-        more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot tell it from {shown}{more}."
-    return f"{sentence} (probability {100.0 * best.probability:.0f} %)."
+def name_of(effects: Sequence[str], titles: Sequence[str] = ()) -> str:
+    """An explanation's name: "self-heating + damage"; `titles` where they are known."""
+    known = [each for each in effects if each != UNKNOWN]
+    words = " + ".join(titles if len(titles) == len(known) else [each.replace("_", " ") for each in known])
+    if UNKNOWN not in effects:
+        return words or NOTHING
+    return f"{words} + {OUTSIDE}" if words else OUTSIDE
 
 
-def _confined(best: Explanation, record_count: int) -> bool:
-    return 0 < len(best.records) < record_count
+def explanation_name(each: Explanation, found: Diagnosis) -> str:
+    """The same with the record that it sits in, where it does not touch all that were fitted."""
+    titles = [title for effect, title in zip(each.effects, each.titles, strict=False) if UNKNOWN not in (effect, title)]
+    name = name_of(each.effects, titles)
+    fitted = {curves.id for curves in found.curves.values() if curves.role == "identify"}
+    if not each.records or fitted <= set(each.records):
+        return name
+    if len(each.records) == 1:
+        return f"{name}, in {short_ids(found.curves)[each.records[0]]} alone"
+    return f"{name}, in {len(each.records)} of {len(fitted)} records"
+
+
+def explanation_of(effects: Sequence[str], found: Diagnosis) -> Explanation | None:
+    """The most probable explanation with those effects."""
+    return next((each for each in found.explanations if each.effects == tuple(effects)), None)
+
+
+def set_names(sets: Iterable[Sequence[str]], found: Diagnosis) -> list[str]:
+    """Names of an answer set, or of what a test separates."""
+    names = []
+    for effects in sets:
+        each = explanation_of(effects, found)
+        names.append(name_of(effects) if each is None else explanation_name(each, found))
+    return names
+
+
+def listed(names: Sequence[str], last: str = "or") -> str:
+    """Such as "a, b or c"."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""
+
+
+def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
+    """Record ids with the middle of long ones left out, where they still differ then."""
+    every = list(ids)
+    head, tail = (longest - 1) - longest // 2, longest // 2
+    short = [each if len(each) <= longest else f"{each[:head].rstrip()}…{each[-tail:].lstrip()}" for each in every]
+    return {name: brief if short.count(brief) == 1 else name for name, brief in zip(every, short, strict=True)}
+
+
+def percent(part: float) -> str:
+    """A probability or a share: "91 %", "< 1 %", "> 99 %"."""
+    if part < 0.01:
+        return "< 1 %" if part > 0.0 else "0 %"
+    if 0.99 < part < 1.0:
+        return "> 99 %"
+    return f"{100.0 * part:.0f} %"
+
+
+def p_text(value: float) -> str:
+    """A p-value: "0.021", "< 0.0001"."""
+    return f"{value:.2g}" if value >= _SMALLEST_P else f"< {_SMALLEST_P:.4f}"
+
+
+def closed(each: Closure) -> str:
+    """How much of the gap is gone, with the digits that mean something: "99.7 %"."""
+    return "no gap to close" if each.closure is None else f"{_closed(each.closure, _digits(each))} %"
+
+
+def closed_interval(each: Closure) -> str:
+    """Its interval: "99.1 to 99.9 %"."""
+    return "" if each.interval is None else f"{' to '.join(_closed(end, _digits(each)) for end in each.interval)} %"
+
+
+def span_text(ends: tuple[float, float]) -> str:
+    """An interval to two digits of its length: "0.58 to 1.32"."""
+    length = abs(ends[1] - ends[0])
+    digits = max(1 - floor(log10(length)), 0) if length > 0.0 else 3
+    return " to ".join(f"{end:.{digits}f}" for end in ends).replace("-", "−")
+
+
+def _digits(each: Closure) -> int:
+    if each.interval is None or each.interval[1] <= each.interval[0]:
+        return 1
+    return min(max(-floor(log10(50.0 * (each.interval[1] - each.interval[0]))), 0), 2)
+
+
+def _closed(part: float, digits: int = 0) -> str:
+    return f"{100.0 * part:.{digits}f}".replace("-", "−")
+
+
+def parameter_text(each: CauseParameter) -> str:
+    """Such as "heating 0.48 ± 0.02 °C/MPa": the unit goes from the name to behind the value."""
+    suffix = _suffix(each.unit)
+    words = (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
+    value = f"{each.value:.4g}" if each.se is None else plus_minus(each.value, each.se)
+    notes = []
+    if each.bound:
+        notes.append(f"at its {each.bound} bound")
+    elif each.se is None:
+        notes.append("not determined")
+    return " ".join([words, value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+
+
+def _suffix(unit: str) -> str:
+    above, _, below = unit.partition("/")
+    parts = [_UNIT_WORDS.get(part, part) for part in (above, below)]
+    if not below:
+        return parts[0]
+    return f"per_{parts[1]}" if above == "1" else f"{parts[0]}_per_{parts[1]}"
+
+
+def checks_text(each: Explanation) -> list[str]:
+    """What speaks for or against an explanation beside its probability, one phrase each."""
+    checks = each.checks
+    if checks is None:
+        return []
+    found = [*_prediction(checks)]
+    if checks.amplitude_p_value is not None:
+        same = checks.amplitude_p_value >= SEEN
+        found.append("one strength suits all records" if same else "each record wants another strength")
+    if each.effects not in ((), (UNKNOWN,)):
+        found.append("nothing but noise is left" if checks.remaining_p_value >= SEEN else "a gap is left beside it")
+    return [*found, *checks.notes]
+
+
+def _prediction(checks: Checks) -> list[str]:
+    if checks.left_out is None:
+        return []
+    if checks.left_out <= 0.0:
+        return ["foretells records left out no better than the base law"]
+    only = "" if checks.left_out >= 0.8 else "only "
+    return [f"foretells {only}{_closed(checks.left_out)} % of the gap in records left out"]

@@ -1,0 +1,162 @@
+"""``probation diagnose``: where the simulation departs from reality, why, and how far that can be mended."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from probation._files import write_whole
+from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
+from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, said
+from probation.commands.progress import shown
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from probation.records import Campaign
+
+NAME = "diagnose"
+
+_DESCRIPTION = """\
+What does the simulation leave out? The base law is fitted to the records with role "identify"; if what is left is more
+than noise, the answer says
+
+  where     in which records, and in which parts of them, the law departs from the measurement,
+  which     physical effect or fault of the rig explains that, with a probability for each; also "no effect is needed"
+            and "an effect outside the catalogue". What the data cannot tell apart is listed together,
+  how far   the gap shrinks once the effect is added, on records that were held out too,
+
+and which test would settle what is still open.
+
+  probation diagnose hdpe-2020/
+  probation diagnose hdpe-2020/ --held-out grip-0.02 --report diagnosis.html
+  probation diagnose hdpe-2020/ --effects self_heating,damage,machine_compliance --json -
+  probation diagnose --list-effects                     every effect that is known: physics, parameters, bounds
+  probation diagnose hdpe-2020/ --isolability           what these tests could tell apart, whatever they show
+
+In a first reading: the headline, the starred explanations, and "gap closed" of the held-out records.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="where, why and how far the law departs", description=_DESCRIPTION)
+    add_campaign(parser, optional=True)
+    add_control(parser)
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument("--list-effects", action="store_true", help="list the effects that are known; no campaign")
+    instead.add_argument(
+        "--isolability",
+        action="store_true",
+        help="say which effects these tests could tell apart, from strain histories and noise alone",
+    )
+    add_held_out(parser)
+    parser.add_argument(
+        "--effects",
+        metavar="NAME,NAME",
+        action="append",
+        type=_names,
+        help="consider only these effects (all); names as --list-effects tells them",
+    )
+    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="time integration (be2)")
+    parser.add_argument(
+        "--hold",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="hold a parameter: unrelaxed_modulus_MPa, tau_max_s, alpha, hardening_modulus_MPa",
+    )
+    parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
+    parser.add_argument("--threads", metavar="N", type=_count, help="at most so many at once (one per core)")
+    add_delivery(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    names = [name for group in options.effects or () for name in group] or None
+    _known(names)
+    if options.list_effects:
+        return _list_effects(options, names)
+    if not options.campaign:
+        raise InputError("found no campaign, expected CAMPAIGN or --list-effects")
+    held = named_numbers(options.hold, "--hold")
+    campaign = with_held_out(campaign_from(options), options.held_out)
+    if options.isolability:
+        return _isolability(options, campaign, held, names)
+    from probation.diagnosis import diagnose  # noqa: PLC0415 - see the package
+
+    with shown(f"diagnosis of {campaign.name}") as advance:
+        answer = diagnose(
+            campaign,
+            options.scheme,
+            effects=names,
+            hold=held,
+            seed=options.seed,
+            threads=options.threads,
+            progress=advance,
+        )
+    deliver(answer, options)
+    deliver_report(answer, options)
+    return 0
+
+
+def _isolability(
+    options: argparse.Namespace, campaign: Campaign, held: dict[str, float], names: list[str] | None
+) -> int:
+    from probation.diagnosis.isolability import campaign_isolability  # noqa: PLC0415 - see the package
+
+    with shown(f"what {campaign.name} could tell apart"):
+        answer = campaign_isolability(campaign, options.scheme, effects=names, hold=held, threads=options.threads)
+    deliver(answer, options)
+    deliver_report(answer, options)
+    return 0
+
+
+def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
+    from probation.answers import json_answer  # noqa: PLC0415 - see the package
+    from probation.gap import catalogue_json, catalogue_table, effects  # noqa: PLC0415
+
+    for option in ("plot", "report"):
+        if getattr(options, option):
+            raise InputError(f"found --{option} with --list-effects, expected --json or nothing")
+    if options.campaign:
+        raise InputError(f"found the campaign {options.campaign[0]!r} with --list-effects, expected none")
+    chosen = effects(names)
+    text = json_answer("probation.effects/1", {"effects": catalogue_json(chosen)}) if options.json else ""
+    if options.json == "-":
+        sys.stdout.write(text)
+        return 0
+    print(catalogue_table(chosen).rstrip())
+    if options.json:
+        write_whole(options.json, text)
+        said("JSON", options.json)
+    return 0
+
+
+def _known(names: list[str] | None) -> None:
+    from probation.gap.registry import effects  # noqa: PLC0415 - see the package
+
+    try:
+        effects(names)
+    except InputError as error:
+        raise InputError(f"--effects: {error}") from None
+
+
+def _names(text: str) -> list[str]:
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected names such as self_heating,damage")
+    return names
+
+
+def _whole(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 0")
+    return int(text)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 1")
+    return int(text)

@@ -1,0 +1,67 @@
+"""A diagnosis in one sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.result import UNKNOWN
+from probation.diagnosis.words import listed
+from probation.gap.registry import effect
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.closure import Closure
+    from probation.diagnosis.result import Explanation, Verdict
+
+MOST_RIVALS = 3
+
+
+def title(name: str) -> str:
+    """An effect's name for people."""
+    return "an effect outside the catalogue" if name == UNKNOWN else effect(name).title
+
+
+def titles(effects: Sequence[str]) -> str:
+    """A set of effects for people."""
+    return listed([title(name) for name in effects], "and") if effects else "no effect"
+
+
+def headline(
+    verdict: Verdict,
+    explanations: Sequence[Explanation],
+    answer_set: Sequence[tuple[str, ...]],
+    identify: Closure,
+    record_count: int,
+    p_value: float,
+) -> str:
+    """One sentence a person can act on."""
+    best = explanations[0]
+    records = "the one record" if record_count == 1 else f"all {record_count} records"
+    if verdict == "no_gap":
+        return (
+            f"No gap: the law describes {records} to within the noise of {identify.noise_MPa:.2g} MPa "
+            f"(p = {p_value:.2g})."
+        )
+    place = f" in {listed(best.records, 'and')}" if _confined(best, record_count) else ""
+    known = [name for name in best.effects if name != UNKNOWN]
+    fall = (
+        f"the misfit falls from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa, "
+        f"the noise being {identify.noise_MPa:.2g} MPa"
+    )
+    if verdict == "unexplained":
+        gap = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
+        if known:
+            return f"{gap}: {titles(known)}{place} is part of it ({fall}), but something outside the catalogue is left."
+        return f"{gap} and nothing in the catalogue explains it."
+    sentence = f"{titles(best.effects).capitalize()}{place} explains the gap: with it {fall}"
+    rivals = [each for each in answer_set if each != best.effects]
+    if rivals:
+        shown = listed([titles(each) for each in rivals[:MOST_RIVALS]], "or")
+        more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
+        return f"{sentence}; these tests cannot tell it from {shown}{more}."
+    return f"{sentence} (probability {100.0 * best.probability:.0f} %)."
+
+
+def _confined(best: Explanation, record_count: int) -> bool:
+    return 0 < len(best.records) < record_count

@@ -1,0 +1,108 @@
+"""A diagnosis on a terminal: the headline, then where, which, how far, the next test, and what to keep in mind."""
+
+from __future__ import annotations
+
+from textwrap import fill, wrap
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
+from probation.diagnosis.words import listed, percent, set_names
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.result import Diagnosis
+
+WIDTH = 100
+
+_CELLS = {"explanation": 24, "its parameters": 27, "checks": 27}
+"""Letters in a line of those columns."""
+
+
+def summary(found: Diagnosis) -> str:
+    """What was found, as text of at most `WIDTH` columns.
+
+    Parameters
+    ----------
+    found : Diagnosis
+
+    Returns
+    -------
+    str
+        The first line holds the campaign and the headline, however long.
+    """
+    parts = [f"{found.campaign}: {found.headline}", _gap(found)]
+    if found.located:
+        parts.append(_shown(*where_table(found, MOST)))
+    parts += [_sentence(each.text) for each in found.signatures]
+    parts.append(_shown(*which_table(found, MOST)))
+    if found.verdict != "no_gap":
+        parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
+    if found.next_test is not None:
+        parts.append(fill(next_test_text(found), WIDTH))
+    parts.append("\n".join(_sentence(f"warning: {warning}") for warning in found.warnings))
+    return "\n\n".join(part for part in parts if part)
+
+
+def gap_text(found: Diagnosis) -> str:
+    """How large the gap is against the noise, and whether that depends on how well the noise is known."""
+    gap = found.gap
+    text = (
+        f"The base law misses the fitted records by {found.rms_MPa:.3g} MPa rms; the noise is {found.noise_MPa:.3g} "
+        f"MPa. A gap is declared where noise alone would look like this in fewer than {100 * gap.level:g} % of all "
+        f"cases; here it is {_cases(gap.p_value)}."
+    )
+    if gap.robust:
+        return text
+    return (
+        f"{text} This hangs on how well the noise is known: {_cases(gap.p_value_low_noise)} if it were 0.8 times as "
+        f"large, {_cases(gap.p_value_high_noise)} if 1.25 times."
+    )
+
+
+def _cases(p_value: float) -> str:
+    return f"{100 * p_value:.2g} %" if p_value >= 1e-4 else "fewer than 0.01 %"
+
+
+def next_test_text(found: Diagnosis) -> str:
+    """The next test, what it separates, and what it is worth."""
+    test = found.next_test
+    if test is None:
+        return ""
+    text = f"Next test: {test.what.rstrip('.')}."
+    if test.separates:
+        names = set_names(test.separates, found)
+        text += f" It separates {listed(names, 'from' if len(names) == 2 else 'and')};"
+        return (
+            f"{text} the chance of naming the right one rises from {percent(test.probability_before)} to "
+            f"{percent(test.probability_after)}."
+        )
+    return text
+
+
+def _gap(found: Diagnosis) -> str:
+    return _sentence(gap_text(found))
+
+
+def _sentence(text: str) -> str:
+    return fill(text, WIDTH, initial_indent="  ", subsequent_indent="    ")
+
+
+def _shown(table: Table, rest: str) -> str:
+    rows: list[tuple[str, ...]] = []
+    for row in table.rows:
+        rows += _lines(row, table.headings)
+    text = Table(table.headings, tuple(rows), table.caption, table.left).text()
+    return f"{text}\n  {rest}" if rest else text
+
+
+def _lines(row: Sequence[str], headings: Sequence[str]) -> list[tuple[str, ...]]:
+    """A row with long cells as several lines."""
+    cells = []
+    for cell, heading in zip(row, headings, strict=True):
+        width = _CELLS.get(heading)
+        lines = cell.split("\n")
+        cells.append([part for line in lines for part in (wrap(line, width) if width else [line]) or [""]])
+    deepest = max(len(cell) for cell in cells)
+    return [tuple(cell[at] if at < len(cell) else "" for cell in cells) for at in range(deepest)]

@@ -1,0 +1,158 @@
+"""Where, which, how far: the tables of a diagnosis, for the terminal and for the page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.result import UNKNOWN
+from probation.diagnosis.words import (
+    checks_text,
+    closed,
+    closed_interval,
+    explanation_name,
+    p_text,
+    parameter_text,
+    percent,
+    short_ids,
+    span_text,
+)
+from probation.report.estimate import plus_minus
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from probation.diagnosis.closure import Closure
+    from probation.diagnosis.result import Diagnosis, Explanation
+
+MOST = 8
+"""Rows of a table on a terminal."""
+
+WORTH_A_ROW = 0.01
+"""Share or probability below which a row may be left out."""
+
+P_VALUE = "p: how often noise alone would do it"
+
+_STATUS = {
+    "identifiable": "determined",
+    "weakly_identifiable": "weakly determined",
+    "not_identifiable": "not determined",
+    "held": "held",
+}
+
+
+def where_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+    """Regions with a gap, most first, at most so many; and a line about those left out, empty if there are none."""
+    names = short_ids(found.curves)
+    rows = [
+        (
+            names[each.record],
+            span_text(each.time_s),
+            span_text(each.true_strain),
+            f"{each.rms_MPa:.2g}",
+            percent(each.share),
+            p_text(each.p_value),
+        )
+        for each in found.located
+    ]
+    kept = _kept([each.share for each in found.located], most)
+    headings = ("record", "time [s]", "true strain [–]", "rms error [MPa]", "share", "p")
+    caption = f"Where the simulation departs (share of the squared gap; {P_VALUE})"
+    return Table(headings, tuple(rows[:kept]), caption), _rest([each.share for each in found.located[kept:]], "region")
+
+
+def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+    """Explanations, the most probable first; a star marks those that the data cannot tell from the best."""
+    shown = list(found.explanations)
+    rows = []
+    for each in shown:
+        star = "★" if each.effects in found.answer_set else ""
+        detail = bool(star) or each.checks is not None
+        rows.append(
+            (
+                star,
+                explanation_name(each, found),
+                "\n".join(parameter_text(parameter) for parameter in each.parameters) if detail else "",
+                "\n".join(checks_text(each)),
+                percent(each.probability),
+            )
+        )
+    empty = {at for at in (2, 3) if not any(row[at] for row in rows)}
+    inside = [max(each.probability, float(bool(row[0]))) for each, row in zip(shown, rows, strict=True)]
+    kept = _kept(inside, most)
+    headings = ("", "explanation", "its parameters", "checks", "probability")
+    caption = "Which effect explains the gap (★: the data cannot tell these apart)"
+    lines = tuple(_without(row, empty) for row in rows[:kept])
+    table = Table(_without(headings, empty), lines, caption, left=4 - len(empty))
+    return table, _rest([each.probability for each in shown[kept:]], "explanation")
+
+
+def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+    """How far the best explanation closes the gap, all records together and one by one."""
+    shrink, names = found.shrink, short_ids(found.curves)
+    lines: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
+    if shrink.held_out is not None:
+        lines.append(("all held-out records", shrink.held_out))
+    if shrink.ceiling is not None:
+        lines.append(("(any smooth correction)", shrink.ceiling))
+    if len(shrink.records) > 1:
+        lines += [(names.get(record, record), each) for record, each in shrink.records.items()]
+    rows = [
+        (
+            label,
+            f"{each.before_MPa:.3g}",
+            f"{each.after_MPa:.3g}",
+            f"{each.noise_MPa:.3g}",
+            closed(each),
+            closed_interval(each),
+        )
+        for label, each in lines
+    ]
+    kept = len(rows) if most is None else min(most, len(rows))
+    headings = ("records", "before", "after", "noise", "gap closed", "90 % interval")
+    caption = f"How far the gap shrinks with {mended_by(found)} (rms errors in MPa)"
+    left_out = len(rows) - kept
+    rest = "" if not left_out else f"… and {left_out} more record{'s' if left_out > 1 else ''}"
+    return Table(headings, tuple(rows[:kept]), caption), rest
+
+
+def base_table(found: Diagnosis) -> Table:
+    """Parameters of the base law as fitted without any effect."""
+    rows = tuple(
+        (
+            each.name,
+            f"{each.value:.5g}" if each.se is None else plus_minus(each.value, each.se),
+            _STATUS.get(each.status, each.status),
+        )
+        for each in found.base
+    )
+    headings = ("parameter", "value ± standard error", "by the data")
+    return Table(headings, rows, "The base law, fitted without any effect")
+
+
+def leading(found: Diagnosis) -> tuple[Explanation, ...]:
+    """Those in the answer set, the most probable first."""
+    return tuple(each for each in found.explanations if each.effects in found.answer_set)
+
+
+def mended_by(found: Diagnosis) -> str:
+    """What the curves and errors called "after" are made with."""
+    known = [each for each in found.best.effects if each != UNKNOWN]
+    return explanation_name(found.best, found) if known == list(found.best.effects) else "the best of the catalogue"
+
+
+def _without(row: tuple[str, ...], left_out: set[int]) -> tuple[str, ...]:
+    return tuple(cell for at, cell in enumerate(row) if at not in left_out)
+
+
+def _kept(parts: list[float], most: int | None) -> int:
+    """How many rows are shown: all of them, or those worth one, at most so many."""
+    if most is None:
+        return len(parts)
+    return min(most, max((at + 1 for at, part in enumerate(parts) if part >= WORTH_A_ROW), default=0))
+
+
+def _rest(parts: list[float], what: str) -> str:
+    if not parts:
+        return ""
+    few = max(parts)
+    size = "below 1 %" if few < WORTH_A_ROW else f"of {percent(few)} at most"
+    return f"… and {len(parts)} more {what}{'s' if len(parts) > 1 else ''} {size}"

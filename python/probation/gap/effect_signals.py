@@ -1,0 +1,173 @@
+"""What effects of usual size do to the recorded stress: not derivatives, since some effects are far from linear."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.errors import ConvergenceError, InputError
+from probation.gap.cause import Cause
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from probation._arrays import FloatArray
+    from probation.gap.effect import Effect, EffectParameter, Form
+    from probation.gap.model import CampaignModel
+    from probation.gap.record_view import RecordView
+
+_SMALLER = 4.0
+_ATTEMPTS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class EffectSignal:
+    """What one cause of some size, at one start of its shapes, adds to the recorded stress.
+
+    Attributes
+    ----------
+    cause : Cause
+    values : tuple of float
+        Of the cause's parameters, amplitude first.
+    stress : ndarray, shape (n_samples,) [MPa]
+        With the effect less without, over all records of the model, in proportion to `values[0]` where the law could
+        only be solved at a smaller amplitude.
+    """
+
+    cause: Cause
+    values: tuple[float, ...]
+    stress: FloatArray
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Bounds of the amplitude as multiples of this one's, the lower first."""
+        amplitude, size = self.cause.form.amplitude, self.values[0]
+        ends = sorted((amplitude.lower / size, amplitude.upper / size))
+        return ends[0], ends[1]
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether the amplitude can have one sign only."""
+        return 0.0 in self.reach
+
+
+def effect_signals(
+    model: CampaignModel, parameters: FloatArray, effects: Iterable[Effect], *, threads: int = 1
+) -> list[EffectSignal]:
+    """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
+
+    In all records with one amplitude; a form that can sit in single records only: in each of them. Effects that the law
+    cannot follow are left out; see `CampaignModel.missing_notions`.
+
+    Parameters
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+    effects : iterable of Effect
+    threads : int
+        Signals are worked out in parallel.
+    """
+    wanted = [
+        (Cause(effect, form, records), values)
+        for effect in effects
+        for form in _placed_forms(effect)
+        if not model.missing_notions(Cause(effect, form))
+        for records, views in _places(model, effect, form)
+        for values in _usual(form, views)
+    ]
+    still = {view.id: at_rest(model, view, parameters) for view in model.views}
+
+    def work(item: tuple[Cause, tuple[float, ...]]) -> EffectSignal:
+        cause, values = item
+        return EffectSignal(cause, values, signal(model, parameters, cause, values, still))
+
+    if threads > 1:
+        with ThreadPoolExecutor(threads) as pool:
+            return list(pool.map(work, wanted))
+    return [work(item) for item in wanted]
+
+
+def at_rest(model: CampaignModel, view: RecordView, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Stress of the specimen and as recorded by the model as it is, each of shape (n,) [MPa]."""
+    base, active = model.split(parameters)
+    here = tuple(each for each in active if each[0].touches(view.id))
+    specimen = model.specimen(view, base, here).stress
+    return specimen, model.recorded(view, base, active, specimen)
+
+
+def signal(
+    model: CampaignModel,
+    parameters: FloatArray,
+    cause: Cause,
+    values: tuple[float, ...],
+    still: dict[str, tuple[FloatArray, FloatArray]] | None = None,
+) -> FloatArray:
+    """What a cause adds to the recorded stress of all records, shape (n_samples,) [MPa].
+
+    Where the law cannot be solved at that amplitude a smaller one is taken, and its signal in proportion.
+
+    Parameters
+    ----------
+    model, parameters
+        Without the cause.
+    cause : Cause
+    values : tuple of float
+        Amplitude first.
+    still : dict, optional
+        `at_rest` of every record by id, if that is known.
+
+    Raises
+    ------
+    InputError
+        If a 256th of the amplitude cannot be solved either.
+    """
+    base, active = model.split(parameters)
+    added = np.zeros(len(model.data))
+    for attempt in range(_ATTEMPTS + 1):
+        part = _SMALLER**-attempt
+        moved = (*active, (cause, (part * values[0], *values[1:])))
+        try:
+            for view in model.views:
+                if not cause.touches(view.id):
+                    continue
+                specimen, recorded = still[view.id] if still else at_rest(model, view, parameters)
+                stress = model.recorded(view, base, moved, None if cause.form.needs_solve else specimen)
+                added[model.rows(view.id)] = view.sampled(stress - recorded) / part
+        except (ConvergenceError, InputError, FloatingPointError):
+            continue
+        if np.isfinite(added).all():
+            return added
+    raise InputError(
+        f"{cause.label}: found no solution of the law with {cause.form.amplitude.name} = {values[0]:g} "
+        "nor with a 256th of it; expected one at its usual size, check the effect or the base parameters"
+    )
+
+
+def usual_size(amplitude: EffectParameter) -> float:
+    """One scale of the prior, in the direction that the bounds allow."""
+    if amplitude.upper > 0.0:
+        return min(amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper, amplitude.upper)
+    return max(-amplitude.scale if np.isfinite(amplitude.scale) else amplitude.lower, amplitude.lower)
+
+
+def _placed_forms(effect: Effect) -> tuple[Form, ...]:
+    """The forms that may sit in all records; if there are none, all forms."""
+    shared = tuple(form for form in effect.forms if "all" in effect.placements(form))
+    return shared or effect.forms
+
+
+def _places(
+    model: CampaignModel, effect: Effect, form: Form
+) -> list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]]:
+    if "all" in effect.placements(form):
+        return [(None, model.views)]
+    return [((view.id,), (view,)) for view in model.views]
+
+
+def _usual(form: Form, views: tuple[RecordView, ...]) -> list[tuple[float, ...]]:
+    """Values of usual size at every start of the shapes; a threshold's own amplitudes."""
+    shapes = form.shapes_at(views)
+    return shapes if form.threshold else [(usual_size(form.amplitude), *each) for each in shapes]

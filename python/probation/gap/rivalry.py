@@ -1,0 +1,120 @@
+"""Every effect's signal against every other's, at any size of the one that is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.gap.telling_apart import DETECTED, TOLD_APART, best_match, probability_of_the_right_one
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.gap.effect_signals import EffectSignal
+
+_HALVINGS = 30
+
+
+@dataclass(frozen=True, eq=False)
+class Rivalry:
+    """Signals of effects, one of each of which stands for the effect where it is there.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the effects.
+    owner : ndarray of int, shape (m,)
+        Whose signal each is, an index into `names`.
+    chosen : tuple of int
+        Which signal stands for each effect.
+    products : ndarray, shape (n_names, m)
+        Of the chosen signals with all, whitened and projected.
+    sizes : ndarray, shape (m,)
+        Lengths.
+    lower, upper : ndarray, shape (m,)
+        Bounds of the amplitudes as multiples of the signals' own.
+    """
+
+    names: tuple[str, ...]
+    owner: NDArray[np.intp]
+    chosen: tuple[int, ...]
+    products: FloatArray
+    sizes: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+
+    @classmethod
+    def of(cls, signals: Sequence[EffectSignal], left: FloatArray, sizes: FloatArray) -> Rivalry:
+        """Of signals, whitened and projected: `left` (n_samples, m), with their lengths (m,)."""
+        names = tuple(dict.fromkeys(each.cause.effect.name for each in signals))
+        owner = np.array([names.index(each.cause.effect.name) for each in signals])
+        chosen = tuple(_representative(signals, sizes, np.flatnonzero(owner == row)) for row in range(len(names)))
+        reach = np.array([each.reach for each in signals])
+        return cls(names, owner, chosen, left[:, chosen].T @ left, sizes, reach[:, 0], reach[:, 1])
+
+    def against(self, row: int, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:
+        """An effect at `factor` times its size, in both signs if it may have both, against every effect.
+
+        Returns
+        -------
+        cosine, probability : ndarray, each of shape (n_names,)
+            Of the likest match; of finding the right one more likely than the worst rival signal, the signs' mean.
+        """
+        k = self.chosen[row]
+        one_sided = self.sided[k]
+        length = factor * self.sizes[k]
+        cosines, chances = [], []
+        for sign in (1.0,) if one_sided else (1.0, -1.0):
+            cosine = best_match(length, sign * factor * self.products[row], self.sizes, self.lower, self.upper)
+            free, bound = (
+                probability_of_the_right_one(length, cosine, one_sided=bool(one_sided), rival_one_sided=rival)
+                for rival in (False, True)
+            )
+            cosines.append(cosine)
+            chances.append(np.where(self.sided, bound, free))
+        best = np.full(len(self.names), -1.0)
+        worst = np.ones(len(self.names))
+        np.maximum.at(best, self.owner, np.max(cosines, axis=0))
+        np.minimum.at(worst, self.owner, np.mean(chances, axis=0))
+        best[row] = worst[row] = 1.0
+        return best, worst
+
+    def length_to_name(self, row: int) -> float | None:
+        """sqrt(lambda) from which on an effect is told from every other; None beyond the bounds of its amplitude."""
+        k = self.chosen[row]
+        if self.sizes[k] == 0.0:
+            return None
+
+        def named(factor: float) -> bool:
+            return bool(np.all(self.against(row, factor)[1] >= TOLD_APART))
+
+        low, high = DETECTED / self.sizes[k], max(self.upper[k], DETECTED / self.sizes[k])
+        if not named(high):
+            return None
+        if named(low):
+            return DETECTED
+        for _ in range(_HALVINGS):
+            middle = float(np.sqrt(low * high))
+            low, high = (low, middle) if named(middle) else (middle, high)
+            if high < 1.01 * low:
+                break
+        return float(high * self.sizes[k])
+
+    @property
+    def sided(self) -> NDArray[np.bool_]:
+        """Which amplitudes can have one sign only, shape (m,)."""
+        return np.asarray((self.lower == 0.0) | (self.upper == 0.0))
+
+
+def _representative(signals: Sequence[EffectSignal], sizes: FloatArray, columns: NDArray[np.intp]) -> int:
+    """Of the first form: the record where it shows best, the start whose signal is of middle length."""
+    form = signals[columns[0]].cause.form.name
+    first = [int(k) for k in columns if signals[k].cause.form.name == form]
+    best = signals[max(first, key=lambda k: sizes[k])].cause.records
+    there = sorted((k for k in first if signals[k].cause.records == best), key=lambda k: sizes[k])
+    return there[len(there) // 2]

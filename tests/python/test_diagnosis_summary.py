@@ -1,0 +1,158 @@
+"""A diagnosis in words: where, which, how far, and what to do next."""
+
+from dataclasses import replace
+
+import pytest
+
+from campaigns import made_up_diagnosis as made_up
+from probation.diagnosis import Closure, Explanation
+from probation.diagnosis.result import CauseParameter, Checks
+from probation.diagnosis.tables import MOST, where_table, which_table
+from probation.diagnosis.words import (
+    NOTHING,
+    OUTSIDE,
+    checks_text,
+    closed,
+    closed_interval,
+    explanation_name,
+    name_of,
+    p_text,
+    parameter_text,
+    percent,
+    short_ids,
+    span_text,
+)
+
+
+@pytest.mark.parametrize("found", [made_up.self_heating(), made_up.no_gap(), made_up.unexplained()])
+def test_the_summary_says_the_headline_first_and_stays_within_a_hundred_columns(found):
+    first, *rest = found.summary().splitlines()
+    assert first == f"hdpe-2020: {found.headline}"
+    assert max(len(line) for line in rest) <= 100
+
+
+def test_where_which_how_far_and_the_next_test_follow_in_this_order():
+    text = made_up.self_heating().summary()
+    marks = ["Where the simulation", "Which effect explains", "How far the gap shrinks", "Next test:", "warning:"]
+    places = [text.index(mark) for mark in marks]
+    assert places == sorted(places)
+    assert "rises from 74 % to 97 %" in text
+
+
+def test_what_the_data_cannot_tell_from_the_best_bears_a_star():
+    table, _ = which_table(made_up.self_heating())
+    assert [row[1] for row in table.rows if row[0]] == ["self-heating", "structural softening"]
+
+
+def test_explanations_below_one_percent_are_counted_and_not_listed():
+    table, rest = which_table(made_up.self_heating(), MOST)
+    assert [row[1] for row in table.rows][-1] == OUTSIDE
+    assert rest == "… and 5 more explanations below 1 %"
+
+
+def test_no_more_than_eight_regions_are_listed_on_a_terminal_and_all_on_the_page():
+    found = made_up.self_heating()
+    found = replace(found, located=found.located * 3)
+    short, rest = where_table(found, MOST)
+    assert len(short.rows) == MOST
+    assert f"{len(found.located) - MOST} more regions" in rest
+    assert len(where_table(found)[0].rows) == len(found.located)
+
+
+def test_without_a_gap_there_is_no_talk_of_closing_it():
+    text = made_up.no_gap().summary()
+    assert NOTHING in text
+    assert "How far" not in text
+    assert "Where" not in text
+
+
+def test_a_verdict_that_hangs_on_the_noise_says_so():
+    found = made_up.self_heating()
+    shaky = replace(found, gap=replace(found.gap, p_value=0.001, p_value_low_noise=1e-5, p_value_high_noise=0.04))
+    assert "This hangs on how well the noise is known: fewer than 0.01 % if it were 0.8" in " ".join(
+        shaky.summary().split()
+    )
+    assert "This hangs" not in found.summary()
+
+
+def test_explanations_are_called_by_their_titles():
+    assert name_of(()) == NOTHING
+    assert name_of(("unknown",)) == OUTSIDE
+    assert name_of(("damage", "unknown")) == f"damage + {OUTSIDE}"
+    assert name_of(("force_gain", "self_heating"), ("gain of the force", "self-heating")) == (
+        "gain of the force + self-heating"
+    )
+
+
+def test_an_explanation_that_sits_in_some_records_says_in_which():
+    found = made_up.self_heating()
+    ids = [curves.id for curves in found.curves.values() if curves.role == "identify"]
+
+    def named(records):
+        return explanation_name(Explanation(("grip_slip",), ("slip in the grips",), ("f",), records, 0.1), found)
+
+    assert named((ids[0],)) == f"slip in the grips, in {ids[0]} alone"
+    assert named(tuple(ids[:2])) == "slip in the grips, in 2 of 5 records"
+    assert named(tuple(ids)) == "slip in the grips"
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "value", "se", "bound", "text"),
+    [
+        ("heating_degC_per_MPa", "°C/MPa", 0.4981, 0.012, None, "heating 0.498 ± 0.012 °C/MPa"),
+        ("cooling_rate_per_s", "1/s", 0.0041, 0.0003, None, "cooling rate 0.00410 ± 0.00030 1/s"),
+        ("drift_MPa_per_s", "MPa/s", 0.5, None, None, "drift 0.5 MPa/s (not determined)"),
+        ("slip_strain", "", 0.0123, 0.0004, None, "slip strain 0.01230 ± 0.00040"),
+        ("lag_s", "s", 3.0, None, "upper", "lag 3 s (at its upper bound)"),
+    ],
+)
+def test_a_parameter_reads_as_words_with_its_unit_behind(name, unit, value, se, bound, text):
+    assert parameter_text(CauseParameter("x", name, unit, (), value, se, bound)) == text
+
+
+def test_checks_say_what_speaks_for_and_what_against():
+    def said(*checks, effects=("damage",)):
+        return checks_text(Explanation(effects, effects, ("f",), (), 0.5, (), Checks(*checks)))
+
+    assert said(0.994, 0.4, 0.3) == [
+        "foretells 99 % of the gap in records left out",
+        "one strength suits all records",
+        "nothing but noise is left",
+    ]
+    assert said(0.5, 1e-4, 1e-4)[0] == "foretells only 50 % of the gap in records left out"
+    assert said(-0.1, 1e-4, 1e-4) == [
+        "foretells records left out no better than the base law",
+        "each record wants another strength",
+        "a gap is left beside it",
+    ]
+    assert said(None, None, 1e-4, effects=("unknown",)) == []
+
+
+def test_probabilities_and_shares_are_whole_percents_that_never_lie_about_certainty():
+    probabilities = (0.0, 0.004, 0.02, 0.912, 0.996, 1.0)
+    assert [percent(each) for each in probabilities] == ["0 %", "< 1 %", "2 %", "91 %", "> 99 %", "100 %"]
+    assert [p_text(p) for p in (0.0213, 0.0)] == ["0.021", "< 0.0001"]
+
+
+def test_closure_has_the_digits_that_its_interval_allows():
+    """Half-widths of 5 %, 0.5 % and 0.05 %: no, one and two decimals; beyond the noise it may pass 100 %."""
+    assert closed(Closure(1, 0.1, 0.1, 0.9512, (0.90, 1.0), "")) == "95 %"
+    assert closed(Closure(1, 0.1, 0.1, 0.9512, (0.945, 0.955), "")) == "95.1 %"
+    assert closed(Closure(1, 0.1, 0.1, 1.00021, (0.9997, 1.0007), "")) == "100.02 %"
+    assert closed_interval(Closure(1, 2, 0.1, -0.5, (-0.6, -0.4), "")) == "−60 to −40 %"
+    assert closed(Closure(0.1, 0.1, 0.1, None, None, "")) == "no gap to close"
+
+
+def test_ranges_have_two_digits_of_their_length():
+    assert span_text((97.04, 220.0)) == "97 to 220"
+    assert span_text((80.2, 1000.0)) == "80 to 1000"
+    assert span_text((0.5822, 1.32)) == "0.58 to 1.32"
+
+
+def test_long_record_names_are_shortened_only_where_they_stay_different():
+    ids = ["a", "x" * 20 + "-first-" + "y" * 20, "x" * 20 + "-second-" + "y" * 20, "specimen " + "z" * 40]
+    short = short_ids(ids)
+    assert short["a"] == "a"
+    assert short[ids[1]] == ids[1]
+    assert len(short[ids[3]]) <= 30
+    assert len(set(short.values())) == 4
