@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from probation.diagnosis.candidate import WhitenedColumns
 
 SHARP_STEPS = 6
+SHARP_PLACES = 3
+"""Forms and places of an effect with a frequency or an instant that are refitted, those with the best score."""
 
 
 def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Discrepancy) -> list[Hypothesis]:
@@ -40,11 +42,15 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Disc
         scale = column.cause.form.amplitude.scale
         gain = float(seen @ left) ** 2 / max(float(seen @ seen) + scale**-2.0, 1e-300)
         grouped.setdefault(cause_key(column.cause), []).append((gain, index))
-    for entries in grouped.values():
+    tried: dict[str, int] = {}
+    for key, entries in sorted(grouped.items(), key=lambda item: -max(item[1])[0]):
         entries.sort(reverse=True)
         chosen = [_at_zero(base, columns, index) for _, index in entries]
         if _sharp(chosen[0]):
             # A start that was read off the residual: only a refit says how narrow the peak is.
+            tried[key[0]] = tried.get(key[0], 0) + 1
+            if tried[key[0]] > SHARP_PLACES:
+                continue
             column = columns.columns[entries[0][1]]
             start = chosen[0].parameters.copy()
             start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
