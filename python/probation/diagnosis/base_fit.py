@@ -11,6 +11,7 @@ from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.whitener import Whitener
 from probation.excitation import excite
 from probation.gap.dnlr_law import DnlrLaw
+from probation.gap.drift import estimate_drift, with_drift
 from probation.gap.model import CampaignModel
 from probation.gap.noise import carried_strain_noise, estimate_noise
 from probation.gap.record_residual import RecordResidual
@@ -122,6 +123,8 @@ def fit_views(
             carried = {view.id: _carried(law, view, excitations[view.id], parameters) for view in chosen}
         residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
         noises = estimate_noise(residuals)
+        drift = estimate_drift(Whitened.of(residuals, noises))
+        noises = tuple(with_drift(noise, drift) for noise in noises)
         found = refit(model, parameters, Whitener(noises), most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters

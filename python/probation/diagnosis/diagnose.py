@@ -34,9 +34,6 @@ if TYPE_CHECKING:
     from probation.law import Scheme
     from probation.records import Campaign
 
-DRIFT = 1.0
-"""Variance, relative to the noise's, that the slowest waves of a record may have without a gap (1/f)."""
-
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
 
 
@@ -93,10 +90,10 @@ def diagnose(
         len(base.whitened),
     )
     told(0.2)
-    gap = GapTester(base.whitened, columns.by_effect(), drift=DRIFT, seed=seed)()
+    gap = GapTester(base.whitened, columns.by_effect(), seed=seed)()
     where = locate(base.whitened, seed=seed)
     told(0.35)
-    discrepancy = Discrepancy.of(base.whitened, DRIFT)
+    discrepancy = Discrepancy.of(base.whitened)
     if gap.rejected:
         found = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.45 * part)).run(columns)
     else:
@@ -109,7 +106,7 @@ def diagnose(
     verdict: Verdict = "no_gap"
     judged = None
     if gap.rejected:
-        after = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, drift=DRIFT, seed=seed)
+        after = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed)
         verdict = "unexplained" if UNKNOWN in best.effects or after.rejected else "explained"
         if best.hypothesis.causes:
             judged = checks(best.hypothesis, base.refit, base.whitened, after.p_value)

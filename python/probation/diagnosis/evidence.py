@@ -57,18 +57,15 @@ class Discrepancy:
         Rows of each record.
     places : tuple of slice
         Its waves among all.
-    drift : float
-        Variance, relative to the noise, that the slowest waves may have without any gap.
     """
 
     columns: tuple[FloatArray, ...]
     spectrum: tuple[FloatArray, ...]
     slices: tuple[slice, ...]
     places: tuple[slice, ...]
-    drift: float
 
     @classmethod
-    def of(cls, whitened: Whitened, drift: float = 0.0) -> Discrepancy:
+    def of(cls, whitened: Whitened) -> Discrepancy:
         """Of the identify records."""
         columns, spectrum, places, at = [], [], [], 0
         for record, noise in zip(whitened.records, whitened.noises, strict=True):
@@ -81,7 +78,7 @@ class Discrepancy:
             spectrum.append(share / share.sum())
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
-        return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places), drift)
+        return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places))
 
     def __len__(self) -> int:
         return int(self.places[-1].stop)
@@ -95,10 +92,9 @@ class Discrepancy:
         return np.array([float(values[part] @ values[part]) for part in self.slices])
 
     def variances(self, energy: FloatArray) -> FloatArray:
-        """D for a discrepancy of so much energy in each record, the noise's own drift added; shape (d,)."""
+        """D for a discrepancy of so much energy in each record, shape (d,)."""
         parts = [size * share for size, share in zip(energy, self.spectrum, strict=True)]
-        noise = [self.drift * share / share.max() for share in self.spectrum]
-        return np.asarray(np.concatenate(parts) + np.concatenate(noise), dtype=np.float64)
+        return np.asarray(np.concatenate(parts), dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)

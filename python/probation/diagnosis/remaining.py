@@ -20,9 +20,7 @@ TOLERATED = 0.05
 """Relative error of an effect's form that is let pass: so much of what an effect does is not another effect's doing."""
 
 
-def remaining_gap(
-    found: Refit, base: Refit, whitened: Whitened, discrepancy: Discrepancy, *, drift: float, seed: int
-) -> GapTest:
+def remaining_gap(found: Refit, base: Refit, whitened: Whitened, discrepancy: Discrepancy, *, seed: int) -> GapTest:
     """The gap test on what an explanation leaves, its parameters refitted, its form's error let pass.
 
     Parameters
@@ -32,15 +30,13 @@ def remaining_gap(
     whitened : Whitened
         At the base fit.
     discrepancy : Discrepancy
-    drift : float
-        As in `GapTester`.
     seed : int
     """
     allowed = TOLERATED**2 * discrepancy.energy(found.residual - base.residual)
     span = span_of(_widened(found.jacobian, discrepancy, allowed))
     residual = _widened(found.residual, discrepancy, allowed)
     after = replace(whitened, residual=residual - span @ (span.T @ residual), span=span)
-    return GapTester(after, drift=drift, size=2000, seed=seed)()
+    return GapTester(after, size=2000, seed=seed)()
 
 
 def _widened(values: FloatArray, discrepancy: Discrepancy, energy: FloatArray) -> FloatArray:

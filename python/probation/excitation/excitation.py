@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 RATE_NOISE = 2e-3
 """Smooth where the differenced strain's noise exceeds this fraction of the typical rate."""
 
+MISSES = 10.0
+"""A smoother that leaves so many times what neighbouring samples scatter by has missed the history itself."""
+
 TURN = 0.02
 """A segment that comes back by more than this fraction of the record's strain range has no single direction."""
 
@@ -185,7 +188,8 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     record : Record
     method : str
         One of `METHODS`. "raw" takes the strain as it is (and the rate if the record has one), the others smooth it,
-        segment by segment; "auto" does so by `DEFAULT` where the strain is noisy and the record has no rate of its own.
+        segment by segment; "auto" does so by `DEFAULT` where the strain is noisy, the record has no rate of its own,
+        and the smoother follows the record.
 
     Raises
     ------
@@ -196,7 +200,8 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     given = record.noise.strain
     noise = given if given is not None else scatter(record.time, record.true_strain)
     jumps = find_jumps(record.time, record.true_strain, noise)
-    if method == "auto":
+    automatic = method == "auto"
+    if automatic:
         method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
     if method == "raw":
         return _as_measured(record, jumps, noise)
@@ -210,6 +215,8 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
         smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
     except InputError as error:
         raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
+    if automatic and smoothed.noise > MISSES * max(noise, CLEAN):
+        return _as_measured(record, jumps, noise)
     # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
     noise = smoothed.noise if given is None else noise
     return Excitation(

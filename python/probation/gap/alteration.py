@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from probation import _core
 
 _FACTORS = ("relaxation_time_factor", "unrelaxed_modulus_factor", "hardening_factor", "load_bearing_area")
-_ONCE = ("rate_shift", "initial_stress")
+ONCE = frozenset({"rate_shift", "initial_stress"})
+"""What only one effect at a time can change."""
 
 
 class RateShift(NamedTuple):
@@ -86,7 +87,7 @@ class Alteration:
             mine, theirs = getattr(self, name), getattr(other, name)
             if mine is None or theirs is None:
                 both[name] = theirs if mine is None else mine
-            elif name in _ONCE:
+            elif name in ONCE:
                 raise InputError(f"both effects give {name}; a law can follow one only")
             elif name in _FACTORS:
                 both[name] = np.multiply(mine, theirs)

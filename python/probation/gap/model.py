@@ -10,7 +10,7 @@ import numpy as np
 from scipy.signal import savgol_filter
 
 from probation.errors import InputError
-from probation.gap.alteration import Alteration
+from probation.gap.alteration import ONCE, Alteration
 from probation.gap.cause import Cause
 from probation.records.complaint import suggestion
 
@@ -191,6 +191,17 @@ class CampaignModel:
             return frozenset()
         altered = cause.form.law_change(self.views[0], cause.form.typical)
         return frozenset() if altered is None else altered.notions - self.law.understands
+
+    def clashes(self, cause: Cause) -> bool:
+        """Whether a cause changes what a law can change once only, and one of the model's does."""
+        taken = frozenset[str]().union(*(self._once(each) for each in self.causes))
+        return bool(self._once(cause) & taken)
+
+    def _once(self, cause: Cause) -> frozenset[str]:
+        if cause.form.law_change is None:
+            return frozenset()
+        altered = cause.form.law_change(self.views[0], cause.form.typical)
+        return frozenset() if altered is None else altered.notions & ONCE
 
     def log_prior(self, parameters: FloatArray) -> float:
         """Log prior density of the causes' parameters, in their search coordinates; -inf outside the bounds."""

@@ -53,7 +53,8 @@ def screen(
 ) -> list[Column]:
     """Columns of every effect, form, placement and start, on top of the model as it is.
 
-    Effects that the law cannot follow are left out; see `CampaignModel.missing_notions`.
+    Effects that the law cannot follow, or not beside those of the model, are left out; see
+    `CampaignModel.missing_notions` and `clashes`.
 
     Parameters
     ----------
@@ -77,7 +78,7 @@ def screen(
         (Cause(effect, form, records), values, views)
         for effect in effects
         for form in effect.forms
-        if not model.missing_notions(Cause(effect, form))
+        if not model.missing_notions(Cause(effect, form)) and not model.clashes(Cause(effect, form))
         for records, views in _placed(model, effect, form, placements)
         for values in _starts(model, form, views, residual)
     ]
