@@ -2,8 +2,8 @@
 
 Below the dozenth half period of a record a bias would show first, so that `estimate_noise` looks at rougher leftovers.
 Slow electronics, a drifting laboratory: noise whose power falls as 1/k with the order k of a cosine wave shows there as a
-slight rise, and is many times the white noise at k = 1. A bias is smoother than that: its power falls as k^-4, or k^-2
-where the stress itself jumps. So the rise beyond the dozenth half period tells how much of the slow waves is noise.
+slight rise, and is many times the white noise at k = 1. A bias is smoother than that: its power falls as k^-2 to k^-4.
+So the spectrum beyond the first few half periods, 1 + c/k + d/k^3, tells how much of the slow waves is noise.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.fft import dct
+from scipy.special import logsumexp
 
-from probation.gap.smooth_basis import WAVES, waves
+from probation.gap.smooth_basis import waves
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -24,8 +25,15 @@ if TYPE_CHECKING:
 LEAST = 1.0
 """Relative variance at the first half period that is assumed in any case: less cannot be told from none."""
 
-SIZES = np.append(0.0, np.geomspace(0.5, 500.0, 24))
-"""Relative variances at the first half period that are tried, all as probable beforehand."""
+SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
+USUAL = 5.0
+"""Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
+
+BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
+"""The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
+
+LOWEST = 8
+"""Orders from here on are looked at: further down a bias is all there is."""
 
 HIGHEST = 4
 """Orders up to the samples over this are looked at."""
@@ -36,32 +44,47 @@ OUTLYING = 8.0
 MODELLED = 48
 """Orders that are given their drift; the roughest of them have little."""
 
+SURE = 0.7
+"""Standard deviations that are added to what is estimated."""
+
+APART = 0.2
+"""Part of the records that may have a spectrum of their own."""
+
 FEW = 64
 
 
 def estimate_drift(whitened: Whitened) -> float:
     """Variance of the first half period over the white noise's, the records' common one; power falls as 1/order.
 
-    Whittle's likelihood of (1 + c/k) at the orders beyond the dozenth, each record at its own level; the mean over c.
+    Whittle's likelihood of 1 + c/k + d/k^3, each record with its own level and bias d, one in five with its own c, too:
+    a fault that is sharp in one record must not speak for the others' noise. The mean, and part of a standard deviation
+    more, since too little makes gaps of noise.
 
     Parameters
     ----------
     whitened : Whitened
         Without any drift in its noises.
     """
-    score = np.zeros(len(SIZES))
+    score = -np.log1p(SIZES / USUAL)
     for part in whitened.slices:
         count = part.stop - part.start
         if count < FEW:
             continue
-        order = np.arange(WAVES, count // HIGHEST)
+        order = np.arange(LOWEST, count // HIGHEST)
         power = dct(whitened.residual[part], type=2, norm="ortho")[order] ** 2
-        power = np.minimum(power, OUTLYING * float(np.mean(power)))
-        for index, size in enumerate(SIZES):
-            shape = 1.0 + size / order
-            score[index] -= 0.5 * (len(order) * np.log(np.mean(power / shape)) + np.sum(np.log(shape)))
+        own = logsumexp(_scores(order, np.minimum(power, OUTLYING * float(np.mean(power)))), axis=1)
+        score += np.logaddexp(np.log(1.0 - APART) + own, np.log(APART / len(SIZES)) + logsumexp(own))
     weight = np.exp(score - score.max())
-    return max(float(weight @ SIZES / weight.sum()), LEAST)
+    chance = weight / weight.sum()
+    mean = float(chance @ SIZES)
+    return max(mean + SURE * float(np.sqrt(chance @ (SIZES - mean) ** 2)), LEAST)
+
+
+def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
+    """Log likelihoods over the grid, the level profiled out; shape (n_sizes, n_biases)."""
+    shape = 1.0 + SIZES[:, None, None] / order + BIASES[:, None] / order**3.0
+    level = np.mean(power / shape, axis=2)
+    return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
 
 
 def with_drift(noise: NoiseModel, size: float) -> NoiseModel:
