@@ -103,8 +103,8 @@ class Design:
         rows = zip(self.model.parameter_names, percent.tolist(), (shift / se).tolist(), strict=True)
         return tuple(sorted((Bias(*row) for row in rows), key=lambda bias: -abs(np.nan_to_num(bias.percent))))
 
-    def smallest_seen(self, usual: EffectSignal, size: float) -> float | None:
-        """Least amplitude that is seen, at the shapes of the usual signal, whose length is `size`.
+    def smallest_seen(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
+        """Least amplitude that is seen, at the shapes of the usual signal of length `size`; and what is left of it.
 
         By the slope from zero and, where that fails (an effect with a threshold), by halving; None beyond the bounds.
         """
@@ -130,8 +130,11 @@ class Design:
                 unseen = guess
             else:
                 amplitude, size = guess, length
-        return amplitude
+        return amplitude, self._left(usual, amplitude)
 
     def _length(self, usual: EffectSignal, amplitude: float) -> float:
+        return float(np.linalg.norm(self._left(usual, amplitude)))
+
+    def _left(self, usual: EffectSignal, amplitude: float) -> FloatArray:
         stress = signal(self.model, self.parameters, usual.cause, (amplitude, *usual.values[1:]))
-        return float(self.left_of(self.whitened(stress[:, None]))[1][0])
+        return np.asarray(self.left_of(self.whitened(stress[:, None]))[0][:, 0])

@@ -19,6 +19,12 @@ if TYPE_CHECKING:
     from probation.gap.model import CampaignModel
     from probation.gap.record_view import RecordView
 
+_SMALL = 0.02
+"""Part of the usual size that shows what an effect looks like where it is small."""
+
+_FURTHER = (-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5)
+"""Prior scales off the centre at which shapes are tried beside their starts; every other one of two shapes or more."""
+
 _SMALLER = 4.0
 _ATTEMPTS = 4
 
@@ -35,11 +41,15 @@ class EffectSignal:
     stress : ndarray, shape (n_samples,) [MPa]
         With the effect less without, over all records of the model, in proportion to `values[0]` where the law could
         only be solved at a smaller amplitude.
+    usual : bool
+        Of usual size, at one of the form's own starts: what may stand for the effect. The others only show what else it
+        can look like.
     """
 
     cause: Cause
     values: tuple[float, ...]
     stress: FloatArray
+    usual: bool = True
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -59,8 +69,9 @@ def effect_signals(
 ) -> list[EffectSignal]:
     """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
 
-    In all records with one amplitude; a form that can sit in single records only: in each of them. Effects that the law
-    cannot follow are left out; see `CampaignModel.missing_notions`.
+    Beside them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of a
+    form are a grid and not a function. In all records with one amplitude; a form that can sit in single records only: in
+    each of them. Effects that the law cannot follow are left out; see `CampaignModel.missing_notions`.
 
     Parameters
     ----------
@@ -71,18 +82,18 @@ def effect_signals(
         Signals are worked out in parallel.
     """
     wanted = [
-        (Cause(effect, form, records), values)
+        (Cause(effect, form, records), values, usual)
         for effect in effects
         for form in _placed_forms(effect)
         if not model.missing_notions(Cause(effect, form))
         for records, views in _places(model, effect, form)
-        for values in _usual(form, views)
+        for values, usual in _sizes_and_shapes(form, views)
     ]
     still = {view.id: at_rest(model, view, parameters) for view in model.views}
 
-    def work(item: tuple[Cause, tuple[float, ...]]) -> EffectSignal:
-        cause, values = item
-        return EffectSignal(cause, values, signal(model, parameters, cause, values, still))
+    def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal:
+        cause, values, usual = item
+        return EffectSignal(cause, values, signal(model, parameters, cause, values, still), usual)
 
     if threads > 1:
         with ThreadPoolExecutor(threads) as pool:
@@ -167,7 +178,29 @@ def _places(
     return [((view.id,), (view,)) for view in model.views]
 
 
-def _usual(form: Form, views: tuple[RecordView, ...]) -> list[tuple[float, ...]]:
-    """Values of usual size at every start of the shapes; a threshold's own amplitudes."""
-    shapes = form.shapes_at(views)
-    return shapes if form.threshold else [(usual_size(form.amplitude), *each) for each in shapes]
+def _sizes_and_shapes(form: Form, views: tuple[RecordView, ...]) -> list[tuple[tuple[float, ...], bool]]:
+    """Values, and whether they are of usual size at a start; a threshold's own amplitudes."""
+    starts = form.shapes_at(views)
+    if form.threshold:
+        return [(values, True) for values in starts]
+    size = usual_size(form.amplitude)
+    found = [((size, *shapes), True) for shapes in starts]
+    if form.starts is not None:
+        return found
+    if form.needs_solve:
+        found += [((_SMALL * size, *shapes), False) for shapes in starts]
+    return found + [((size, *shapes), False) for shapes in _further_shapes(form) if shapes not in starts]
+
+
+def _further_shapes(form: Form) -> list[tuple[float, ...]]:
+    """A grid over what the priors of the shapes expect."""
+    steps = _FURTHER if len(form.parameters) < 3 else _FURTHER[1::2]
+    grid: list[tuple[float, ...]] = [()]
+    for shape in form.parameters[1:]:
+        if not np.isfinite(shape.scale):
+            return []
+        centre = shape.to_search(shape.centre)
+        values = [shape.from_search(centre + step * shape.scale) for step in steps]
+        inside = dict.fromkeys(min(max(value, shape.lower), shape.upper) for value in values)
+        grid = [(*point, value) for point in grid for value in inside]
+    return grid if form.parameters[1:] else []

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.gap.effect import Effect
     from probation.gap.effect_design import Bias
+    from probation.gap.effect_signals import EffectSignal
     from probation.gap.model import CampaignModel
     from probation.gap.noise_model import NoiseModel
 
@@ -196,8 +197,8 @@ def isolability(
 
     Every effect is taken at its usual size (one scale of its prior, first form, a middle one of its starts), with what
     it really adds at that size, not its derivative. The base parameters are refitted (linearly), so that only what
-    they cannot take up counts. A rival may take any of its forms and starts, at any amplitude within its bounds. The
-    stresses of the records are not looked at.
+    they cannot take up counts. A rival may take any of its forms, on a grid of its shapes, small or of usual size, at
+    any amplitude within its bounds. The stresses of the records are not looked at.
 
     Parameters
     ----------
@@ -223,7 +224,7 @@ def isolability(
     signals = effect_signals(design.model, parameters, effects, threads=threads)
     if not signals:
         raise InputError("effects: found none that the law can follow, expected at least one")
-    raw = design.whitened(np.stack([each.stress for each in signals], axis=1))
+    raw = design.whitened(np.array([each.stress for each in signals]).T)
     left, sizes = design.left_of(raw)
     rivalry = Rivalry.of(signals, left, sizes)
     cosine, probability = (
@@ -231,40 +232,64 @@ def isolability(
     )
     with ThreadPoolExecutor(threads) as pool:
         smallest = list(pool.map(lambda k: design.smallest_seen(signals[k], float(sizes[k])), rivalry.chosen))
-    found = []
-    for row, k in enumerate(rivalry.chosen):
-        rivals = {}
-        if sizes[k] >= DETECTED:
-            order = np.argsort(probability[row], kind="stable")
-            rivals = {
-                rivalry.names[at]: float(probability[row, at]) for at in order if probability[row, at] < TOLD_APART
-            }
-        full = float(np.linalg.norm(raw[:, k]))
-        cause = signals[k].cause
-        length = rivalry.length_to_name(row)
-        seen = smallest[row]
-        named = None if seen is None or length is None else seen * length / DETECTED
-        if named is not None and not cause.form.amplitude.lower <= named <= cause.form.amplitude.upper:
-            named = None
-        names = [parameter.name for parameter in cause.form.parameters]
-        found.append(
-            EffectIsolability(
-                name=cause.effect.name,
-                title=cause.effect.title,
-                form=cause.form.name,
-                records=cause.records,
-                values=dict(zip(names, signals[k].values, strict=True)),
-                signal=full,
-                detectability=float(sizes[k]),
-                seen_from=seen,
-                named_from=named,
-                absorbable=1.0 - (float(sizes[k]) / full) ** 2 if full > 0.0 else 0.0,
-                biases=design.biases(raw[:, k]),
-                rivals=rivals,
-                one_sided=signals[k].one_sided,
-            )
-        )
+    found = [
+        _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
+        for row, k in enumerate(rivalry.chosen)
+    ]
     left_out = tuple(
         (each.name, "the law does not know what it would change") for each in effects if each.name not in rivalry.names
     )
     return Isolability(tuple(view.id for view in model.views), tuple(found), cosine, probability, left_out)
+
+
+def _described(
+    design: Design,
+    rivalry: Rivalry,
+    usual: EffectSignal,
+    row: int,
+    raw: FloatArray,
+    probability: FloatArray,
+    smallest: tuple[float, FloatArray] | None,
+) -> EffectIsolability:
+    """One effect, of its usual signal (whitened: `raw`), its row of probabilities and the smallest signal seen."""
+    cause, size, full = usual.cause, float(rivalry.sizes[rivalry.chosen[row]]), float(np.linalg.norm(raw))
+    rivals = {}
+    if size >= DETECTED:
+        order = np.argsort(probability, kind="stable")
+        rivals = {rivalry.names[at]: float(probability[at]) for at in order if probability[at] < TOLD_APART}
+    names = [parameter.name for parameter in cause.form.parameters]
+    return EffectIsolability(
+        name=cause.effect.name,
+        title=cause.effect.title,
+        form=cause.form.name,
+        records=cause.records,
+        values=dict(zip(names, usual.values, strict=True)),
+        signal=full,
+        detectability=size,
+        seen_from=None if smallest is None else smallest[0],
+        named_from=None if smallest is None else _named_from(rivalry, usual, row, smallest, bool(rivals)),
+        absorbable=1.0 - (size / full) ** 2 if full > 0.0 else 0.0,
+        biases=design.biases(raw),
+        rivals=rivals,
+        one_sided=usual.one_sided,
+    )
+
+
+def _named_from(
+    rivalry: Rivalry, usual: EffectSignal, row: int, smallest: tuple[float, FloatArray], ambiguous: bool
+) -> float | None:
+    """Smallest amplitude that is told from every rival; None beyond the bounds.
+
+    An effect that is not named at its usual size is taken to look larger as it does there; one that is, to look as it
+    does where it is just seen, and to be named at its usual size at the latest.
+    """
+    amplitude, truth = smallest
+    typical = usual.values[0]
+    if ambiguous:
+        amplitude, truth = typical, rivalry.left[:, rivalry.chosen[row]]
+    end = usual.cause.form.amplitude.upper if amplitude > 0.0 else usual.cause.form.amplitude.lower
+    length = rivalry.length_to_name(row, truth, end / amplitude)
+    named = None if length is None else amplitude * max(length / float(np.linalg.norm(truth)), 1.0)
+    if not ambiguous and abs(amplitude) <= abs(typical):
+        return typical if named is None or abs(named) > abs(typical) else named
+    return None if named is None or abs(named) > abs(end) else named

@@ -11,12 +11,12 @@ from probation.errors import InputError
 from probation.gap.arma import Arma
 from probation.gap.model import CampaignModel
 from probation.gap.noise_model import NoiseModel
+from probation.gap.record_view import RecordView
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.gap.record_view import RecordView
 
 
 def as_predicted(model: CampaignModel, parameters: FloatArray) -> CampaignModel:
@@ -51,6 +51,58 @@ def white_noise(views: Sequence[RecordView], deviation: float | Sequence[float])
         if not 0.0 < size < np.inf:
             raise InputError(f"deviation: found {size} MPa, expected a positive number")
     return tuple(noise_like(view, Arma(innovation=size)) for view, size in zip(views, sizes, strict=True))
+
+
+def planned_view(
+    name: str, time: FloatArray, true_strain: FloatArray, jumps: Sequence[int], others: Sequence[RecordView]
+) -> RecordView:
+    """The view of a test that is yet to be done, after the others and with their reference rate; its stress is 0.
+
+    Parameters
+    ----------
+    name : str
+        Its id.
+    time, true_strain : ndarray, shape (n_samples,) [s], [-]
+    jumps : sequence of int
+        Samples at which the rate jumps.
+    others : sequence of RecordView
+        The records there are.
+    """
+    last = others[-1]
+    return RecordView(
+        id=name,
+        control="strain-rate",
+        role="identify",
+        time=time,
+        true_strain=true_strain,
+        recorded_strain=true_strain,
+        strain_rate=None,
+        jumps=tuple(jumps),
+        direction=np.sign(np.diff(true_strain)),
+        data=np.zeros(len(time)),
+        stride=1,
+        scheme=last.scheme,
+        temperature=None,
+        index=last.count,
+        count=last.count,
+        reference_rate=last.reference_rate,
+    )
+
+
+def planned_noise(view: RecordView, noises: Sequence[NoiseModel], others: Sequence[RecordView]) -> NoiseModel:
+    """The noise to expect in a planned test: that of the record whose level is the middle one, without its bursts.
+
+    Where it grows with the stretch it does so here; its correlation is taken over from sample to sample.
+    """
+    level = [float(np.median(noise.long_run)) for noise in noises]
+    at = int(np.argsort(level)[len(level) // 2])
+    usual = noises[at]
+    if usual.growth != "force":
+        return noise_like(view, usual.arma)
+    stretch, known = view.sampled(view.stretch), others[at].sampled(others[at].stretch)
+    size, normal = (float(np.sqrt(np.mean(each**2))) for each in (stretch, known))
+    arma = replace(usual.arma, innovation=usual.arma.innovation * size / normal)
+    return replace(noise_like(view, arma), profile=stretch / size, growth="force")
 
 
 def noise_like(view: RecordView, arma: Arma) -> NoiseModel:

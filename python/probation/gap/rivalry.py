@@ -32,10 +32,10 @@ class Rivalry:
         Whose signal each is, an index into `names`.
     chosen : tuple of int
         Which signal stands for each effect.
-    products : ndarray, shape (n_names, m)
-        Of the chosen signals with all, whitened and projected.
+    left : ndarray, shape (n_samples, m)
+        The signals, whitened and projected.
     sizes : ndarray, shape (m,)
-        Lengths.
+        Their lengths.
     lower, upper : ndarray, shape (m,)
         Bounds of the amplitudes as multiples of the signals' own.
     """
@@ -43,7 +43,7 @@ class Rivalry:
     names: tuple[str, ...]
     owner: NDArray[np.intp]
     chosen: tuple[int, ...]
-    products: FloatArray
+    left: FloatArray
     sizes: FloatArray
     lower: FloatArray
     upper: FloatArray
@@ -55,45 +55,41 @@ class Rivalry:
         owner = np.array([names.index(each.cause.effect.name) for each in signals])
         chosen = tuple(_representative(signals, sizes, np.flatnonzero(owner == row)) for row in range(len(names)))
         reach = np.array([each.reach for each in signals])
-        return cls(names, owner, chosen, left[:, chosen].T @ left, sizes, reach[:, 0], reach[:, 1])
+        return cls(names, owner, chosen, left, sizes, reach[:, 0], reach[:, 1])
 
-    def against(self, row: int, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:
-        """An effect at `factor` times its size, in both signs if it may have both, against every effect.
+    def against(self, row: int, truth: FloatArray | None = None, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:
+        """An effect that is there, in both signs if it may have both, against every effect.
+
+        Parameters
+        ----------
+        row : int
+            Which effect.
+        truth : ndarray, shape (n_samples,), optional
+            Its signal, whitened and projected; the one chosen if left out.
+        factor : float
+            By which that is multiplied.
 
         Returns
         -------
         cosine, probability : ndarray, each of shape (n_names,)
             Of the likest match; of finding the right one more likely than the worst rival signal, the signs' mean.
         """
-        k = self.chosen[row]
-        one_sided = self.sided[k]
-        length = factor * self.sizes[k]
-        cosines, chances = [], []
-        for sign in (1.0,) if one_sided else (1.0, -1.0):
-            cosine = best_match(length, sign * factor * self.products[row], self.sizes, self.lower, self.upper)
-            free, bound = (
-                probability_of_the_right_one(length, cosine, one_sided=bool(one_sided), rival_one_sided=rival)
-                for rival in (False, True)
-            )
-            cosines.append(cosine)
-            chances.append(np.where(self.sided, bound, free))
-        best = np.full(len(self.names), -1.0)
-        worst = np.ones(len(self.names))
-        np.maximum.at(best, self.owner, np.max(cosines, axis=0))
-        np.minimum.at(worst, self.owner, np.mean(chances, axis=0))
-        best[row] = worst[row] = 1.0
-        return best, worst
+        truth = self.left[:, self.chosen[row]] if truth is None else truth
+        return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), factor)
 
-    def length_to_name(self, row: int) -> float | None:
-        """sqrt(lambda) from which on an effect is told from every other; None beyond the bounds of its amplitude."""
-        k = self.chosen[row]
-        if self.sizes[k] == 0.0:
+    def length_to_name(self, row: int, truth: FloatArray, most: float) -> float | None:
+        """sqrt(lambda) from which on an effect that looks like `truth` is told from every other.
+
+        None if it would have to be more than `most` times as large.
+        """
+        length, products = float(np.linalg.norm(truth)), truth @ self.left
+        if length == 0.0:
             return None
 
         def named(factor: float) -> bool:
-            return bool(np.all(self.against(row, factor)[1] >= TOLD_APART))
+            return bool(np.all(self._weighed(row, products, length, factor)[1] >= TOLD_APART))
 
-        low, high = DETECTED / self.sizes[k], max(self.upper[k], DETECTED / self.sizes[k])
+        low, high = DETECTED / length, max(most, DETECTED / length)
         if not named(high):
             return None
         if named(low):
@@ -103,18 +99,33 @@ class Rivalry:
             low, high = (low, middle) if named(middle) else (middle, high)
             if high < 1.01 * low:
                 break
-        return float(high * self.sizes[k])
+        return high * length
 
-    @property
-    def sided(self) -> NDArray[np.bool_]:
-        """Which amplitudes can have one sign only, shape (m,)."""
-        return np.asarray((self.lower == 0.0) | (self.upper == 0.0))
+    def _weighed(self, row: int, products: FloatArray, length: float, factor: float) -> tuple[FloatArray, FloatArray]:
+        sided = (self.lower == 0.0) | (self.upper == 0.0)
+        one_sided = bool(sided[self.chosen[row]])
+        cosines, chances = [], []
+        for sign in (1.0,) if one_sided else (1.0, -1.0):
+            cosine = best_match(factor * length, sign * factor * products, self.sizes, self.lower, self.upper)
+            free, bound = (
+                probability_of_the_right_one(
+                    factor * length, cosine, one_sided=one_sided, rival_one_sided=rival_one_sided
+                )
+                for rival_one_sided in (False, True)
+            )
+            cosines.append(cosine)
+            chances.append(np.where(sided, bound, free))
+        best, worst = np.full(len(self.names), -1.0), np.ones(len(self.names))
+        np.maximum.at(best, self.owner, np.max(cosines, axis=0))
+        np.minimum.at(worst, self.owner, np.mean(chances, axis=0))
+        best[row] = worst[row] = 1.0
+        return best, worst
 
 
 def _representative(signals: Sequence[EffectSignal], sizes: FloatArray, columns: NDArray[np.intp]) -> int:
     """Of the first form: the record where it shows best, the start whose signal is of middle length."""
     form = signals[columns[0]].cause.form.name
-    first = [int(k) for k in columns if signals[k].cause.form.name == form]
+    first = [int(k) for k in columns if signals[k].cause.form.name == form and signals[k].usual]
     best = signals[max(first, key=lambda k: sizes[k])].cause.records
     there = sorted((k for k in first if signals[k].cause.records == best), key=lambda k: sizes[k])
     return there[len(there) // 2]
