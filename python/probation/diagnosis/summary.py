@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from textwrap import fill, wrap
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
 from probation.diagnosis.words import listed, percent, set_names
-from probation.report.table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from probation.diagnosis.result import Diagnosis
+    from probation.report.table import Table
 
 WIDTH = 100
 
@@ -90,19 +88,5 @@ def _sentence(text: str) -> str:
 
 
 def _shown(table: Table, rest: str) -> str:
-    rows: list[tuple[str, ...]] = []
-    for row in table.rows:
-        rows += _lines(row, table.headings)
-    text = Table(table.headings, tuple(rows), table.caption, table.left).text()
+    text = table.wrapped(_CELLS).text()
     return f"{text}\n  {rest}" if rest else text
-
-
-def _lines(row: Sequence[str], headings: Sequence[str]) -> list[tuple[str, ...]]:
-    """A row with long cells as several lines."""
-    cells = []
-    for cell, heading in zip(row, headings, strict=True):
-        width = _CELLS.get(heading)
-        lines = cell.split("\n")
-        cells.append([part for line in lines for part in (wrap(line, width) if width else [line]) or [""]])
-    deepest = max(len(cell) for cell in cells)
-    return [tuple(cell[at] if at < len(cell) else "" for cell in cells) for at in range(deepest)]
