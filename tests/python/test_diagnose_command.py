@@ -1,10 +1,10 @@
 """`probation diagnose`: its options, its answers, its complaints."""
 
 import json
+from importlib import import_module
 
 import pytest
 
-import probation.diagnosis
 from campaigns import made_up_diagnosis as made_up
 from probation import cli
 from probation.gap import effects
@@ -22,11 +22,11 @@ def asked(monkeypatch):
     calls = {}
 
     def diagnose(campaign, scheme, **options):
-        options["progress"](1, 2, "looking")
+        options["progress"](0.5)
         calls.update(options, campaign=campaign, scheme=scheme)
         return made_up.self_heating()
 
-    monkeypatch.setattr(probation.diagnosis, "diagnose", diagnose, raising=False)
+    monkeypatch.setattr(import_module("probation.diagnosis.diagnose"), "diagnose", diagnose)
     return calls
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
+from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
 from probation.diagnosis.words import listed, percent, set_names
 
 if TYPE_CHECKING:
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from probation.report.table import Table
 
 WIDTH = 100
+MOST_SIGNS = 4
 
 _CELLS = {"explanation": 24, "its parameters": 27, "checks": 27}
 """Letters in a line of those columns."""
@@ -33,9 +34,9 @@ def summary(found: Diagnosis) -> str:
     parts = [f"{found.campaign}: {found.headline}", _gap(found)]
     if found.located:
         parts.append(_shown(*where_table(found, MOST)))
-    parts += [_sentence(each.text) for each in found.signatures]
+    parts.append("\n".join(_sentence(line) for line in _signs(found)))
     parts.append(_shown(*which_table(found, MOST)))
-    if found.verdict != "no_gap":
+    if mended_by(found) and found.verdict != "no_gap":
         parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
     if found.next_test is not None:
         parts.append(fill(next_test_text(found), WIDTH))
@@ -77,6 +78,17 @@ def next_test_text(found: Diagnosis) -> str:
             f"{percent(test.probability_after)}."
         )
     return text
+
+
+def signs(found: Diagnosis) -> list[str]:
+    """What is sharp or drifts in the errors, one phrase each."""
+    return [each.text.strip().rstrip(".") for each in found.signatures]
+
+
+def _signs(found: Diagnosis) -> list[str]:
+    every = signs(found)
+    more = [f"… and {len(every) - MOST_SIGNS} more"] if len(every) > MOST_SIGNS else []
+    return [f"sign: {each}" for each in every[:MOST_SIGNS]] + more
 
 
 def _gap(found: Diagnosis) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.diagnosis.isolability_table import in_words, isolability_table
 from probation.diagnosis.result import UNKNOWN
-from probation.diagnosis.summary import gap_text, next_test_text
+from probation.diagnosis.summary import gap_text, next_test_text, signs
 from probation.diagnosis.tables import base_table, leading, mended_by, shrink_table, where_table, which_table
 from probation.diagnosis.words import closed, explanation_name, listed, name_of, percent, span_text
 from probation.gap.registry import effects as known_effects
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis
     from probation.report.page import Mood, Picture
 
+_PLACES = 4
+_EXPLANATIONS = 20
 _MOOD: dict[str, Mood] = {"no_gap": "good", "explained": "neutral", "unexplained": "bad"}
 
 
@@ -36,7 +38,7 @@ def write_diagnosis_page(found: Diagnosis, path: Path) -> Path:
 def diagnosis_page(found: Diagnosis) -> Page:
     """The page: the verdict, where, before and after, which, how far, the next test, what could be told, details."""
     sections = [_short(found), _where(found), _records(found), _which(found)]
-    if found.verdict != "no_gap":
+    if mended_by(found) and found.verdict != "no_gap":
         sections.append(_shrink(found))
     sections += [_next_test(found)] if found.next_test is not None else []
     sections += [_isolability(found)] if found.isolability is not None else []
@@ -76,6 +78,11 @@ def _capital(text: str) -> str:
 
 def _how_far(found: Diagnosis) -> str:
     shrink = found.shrink
+    if not mended_by(found):
+        ceiling = (
+            "" if shrink.ceiling is None else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
+        )
+        return f"no effect of the catalogue closes the gap{ceiling}."
     text = (
         f"with {mended_by(found)} the error of the fitted records falls from {shrink.identify.before_MPa:.3g} to "
         f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
@@ -109,18 +116,19 @@ def _where(found: Diagnosis) -> Section:
         more = [f"{len(found.acts) - _PLACES} more places"] if len(found.acts) > _PLACES else []
         name = explanation_name(found.best, found)
         parts.append(f"What {name} itself contributes is certain in {listed([*places, *more], 'and')}.")
-    parts += [each.text for each in found.signatures]
+    if found.signatures:
+        parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(found))}.")
     return Section("Where the simulation departs", tuple(parts))
 
 
-_PLACES = 4
-
-
 def _records(found: Diagnosis) -> Section:
+    mended = mended_by(found)
+    blue = f" and the law with {mended} (blue)" if mended else ""
+    tinted = " Tinted parts are the framed ones from above." if found.located else ""
     text = (
-        "Above: what was measured (dots), the base law alone (orange) and with the best explanation (blue). Below: "
-        "what each of them misses, as a multiple of the noise; a curve that stays in the grey band is as good as the "
-        "measurement allows. Tinted parts are the framed ones from above."
+        f"Above: what was measured (dots), the base law alone (orange){blue}. Below: what the law misses, as a "
+        "multiple of the noise; a curve that stays in the grey band is as good as the measurement allows, but for one "
+        f"sample in twenty.{tinted}"
     )
     pictures = tuple(picture(record_figure(found, name), _caption(found, name)) for name in found.curves)
     return Section("Record by record, before and after", (text, Gallery(pictures)))
@@ -146,10 +154,9 @@ def _which(found: Diagnosis) -> Section:
         "to, does it need the same strength in every record, and does it leave nothing but noise?"
     )
     caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
-    return Section(
-        "Which effect explains it",
-        (text, picture(probability_figure(found), caption), checks, which_table(found)[0]),
-    )
+    table, rest = which_table(found, _EXPLANATIONS)
+    parts = (text, picture(probability_figure(found), caption), checks, table)
+    return Section("Which effect explains it", (*parts, f"{rest}.") if rest else parts)
 
 
 def _shrink(found: Diagnosis) -> Section:
@@ -167,10 +174,10 @@ def _shrink(found: Diagnosis) -> Section:
         picture(closure_figure(found), "Error of each record before and after, on a logarithmic scale."),
         shrink_table(found)[0],
         fair,
-        f"Intervals of 90 %: {found.shrink.identify.how}.",
+        f"How the intervals of 90 % were made – {found.shrink.identify.how}.",
     ]
     if found.shrink.held_out is not None and found.shrink.held_out.how != found.shrink.identify.how:
-        parts.append(f"Those of held-out records: {found.shrink.held_out.how}.")
+        parts.append(f"Those of held-out records – {found.shrink.held_out.how}.")
     return Section("How far the gap shrinks", tuple(parts))
 
 
@@ -204,9 +211,7 @@ def _looked_for(found: Diagnosis) -> Section:
     if found.isolability is not None:
         sought |= set(found.isolability.names)
     rows = tuple(
-        (each.title, "the material" if each.kind == "material" else "the rig", each.physics.splitlines()[0])
-        for each in known_effects()
-        if each.name in sought
+        (each.title, each.kind, each.physics.splitlines()[0]) for each in known_effects() if each.name in sought
     )
     text = (
         "These effects were tried, alone and combined, each with several sets of starting values. Something that no "
