@@ -55,8 +55,8 @@ def html(name):
     found = {
         "heating": lambda: replace(made_up.self_heating(), isolability=could_tell_apart()),
         "twelve records": lambda: replace(made_up.self_heating(copies=2), isolability=could_tell_apart()),
-        "no gap": made_up.no_gap,
-        "unexplained": made_up.unexplained,
+        "no gap": lambda: made_up.with_two_records(made_up.no_gap()),
+        "unexplained": lambda: made_up.with_two_records(made_up.unexplained()),
     }[name]()
     return diagnosis_page(found).html()
 
