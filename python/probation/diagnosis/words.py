@@ -44,7 +44,7 @@ def explanation_name(each: Explanation, found: Diagnosis) -> str:
     if not each.records or fitted <= set(each.records):
         return name
     if len(each.records) == 1:
-        return f"{name}, in {short_ids(found.curves)[each.records[0]]} alone"
+        return f"{name}, in {short_ids(found.curves).get(each.records[0], each.records[0])} alone"
     return f"{name}, in {len(each.records)} of {len(fitted)} records"
 
 

@@ -68,7 +68,9 @@ def _draw(stress: Axes, errors: Axes, each: RecordCurves, found: Diagnosis) -> s
         curves.append(("with the explanation", each.explained, "model"))
     for name, model, shade in curves:
         stress.plot(*thinned(x, model, _POINTS), color=colour(shade), lw=1.0, label=name)
-        errors.plot(*thinned(x, (model - each.data) / each.noise, _POINTS), color=colour(shade), lw=0.7)
+        errors.plot(
+            *thinned(x, (model - each.data) / np.maximum(each.noise, 1e-300), _POINTS), color=colour(shade), lw=0.7
+        )
     for region in found.located:
         if region.record == each.id:
             inside = x[region.samples]
@@ -94,7 +96,7 @@ def probability_figure(found: Diagnosis) -> Figure:
     """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
     shown = _shown(found)
     with house_style():
-        figure = new_figure(5.6, 0.8 + 0.36 * len(shown))
+        figure = new_figure(5.3, 0.8 + 0.36 * len(shown))
         axes = figure.subplots()
         for at, each in enumerate(shown):
             inside = each.effects in found.answer_set
@@ -133,7 +135,7 @@ def closure_figure(found: Diagnosis) -> Figure:
     together = len(rows)
     rows += [(names.get(record, record), each) for record, each in shrink.records.items()]
     with house_style():
-        figure = new_figure(5.6, 1.1 + 0.34 * len(rows))
+        figure = new_figure(5.3, 1.1 + 0.34 * len(rows))
         axes = figure.subplots()
         for at, (_, each) in enumerate(rows):
             axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
@@ -162,7 +164,8 @@ def closure_figure(found: Diagnosis) -> Figure:
 
 def _plain_decades(axes: Axes, values: list[float]) -> None:
     """Round numbers on a logarithmic axis, also where it spans less than a decade."""
-    low, high = min(values), max(values)
+    drawn = [each for each in values if each > 0.0] or [1.0]
+    low, high = min(drawn), max(drawn)
     axes.set_xlim(low / 1.4, high * 1.4)
     steps = (1.0, 2.0, 5.0) if high / low < 50.0 else (1.0,)
     axes.xaxis.set_major_locator(LogLocator(subs=steps))

@@ -161,19 +161,18 @@ def _which(found: Diagnosis) -> Section:
 
 def _shrink(found: Diagnosis) -> Section:
     text = (
-        "Orange dots are the errors of the base law, blue ones those with the explanation; black ticks are the noise, "
-        "below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when nothing is "
+        "Orange dots are the errors of the base law, blue ones those with the explanation; upright ticks are the "
+        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when nothing is "
         "gained, and negative when it gets worse."
-    )
-    fair = (
-        "Held-out records are the fair judge: nothing was adjusted to them. “Any smooth correction” is what an "
-        "arbitrary smooth curve through the errors could close at best."
     )
     parts: list[str | Table | Picture] = [
         text,
         picture(closure_figure(found), "Error of each record before and after, on a logarithmic scale."),
         shrink_table(found)[0],
-        fair,
+        "Held-out records are the fair judge: nothing was adjusted to them."
+        if found.shrink.held_out is not None
+        else "No record was held out (--held-out ID), so that the explanation was fitted to all that it is judged by.",
+        "“Any smooth correction” is what an arbitrary smooth curve through the errors could close at best.",
         f"How the intervals of 90 % were made – {found.shrink.identify.how}.",
     ]
     if found.shrink.held_out is not None and found.shrink.held_out.how != found.shrink.identify.how:
