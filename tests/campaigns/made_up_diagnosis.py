@@ -28,7 +28,7 @@ from probation.gap.where import locate
 from probation.gap.whitening import Whitened
 
 NOISE = 0.04
-COUNT = 400
+COUNT = 240
 BASE = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
 LONG = "load-unload at 23 C, specimen 14 of batch HD-2020-B, left grip renewed"
 CORNERS = {
@@ -155,7 +155,7 @@ def self_heating(heating: float = 0.1, copies: int = 1) -> Diagnosis:
             for each in fitted
         ]
     )
-    where = locate(whitened, size=400)
+    where = locate(whitened, size=200)
     before = {each.id: each.base - each.data for each in curves}
     after = {each.id: (each.base if each.explained is None else each.explained) - each.data for each in curves}
     every = np.concatenate([before[name] for name in ids])
@@ -188,7 +188,7 @@ def self_heating(heating: float = 0.1, copies: int = 1) -> Diagnosis:
             BaseParameter("tau_max_s", 4.81, 0.02, "identifiable"),
             BaseParameter("hardening_modulus_MPa", 1.72, 0.01, "weakly_identifiable"),
         ),
-        gap=gap_test(whitened),
+        gap=gap_test(whitened, size=1000),
         rms_MPa=rms(every),
         noise_MPa=NOISE,
         located=where.located,
@@ -210,6 +210,17 @@ def self_heating(heating: float = 0.1, copies: int = 1) -> Diagnosis:
         warnings=("5 records: too few to bootstrap over records; the intervals come from simulated noise instead",),
         data_sha256="0" * 64,
         seed=0,
+    )
+
+
+def with_two_records(found: Diagnosis) -> Diagnosis:
+    """The same as if it held two records only: its page is drawn sooner."""
+    kept = list(found.curves)[:2]
+    return replace(
+        found,
+        curves={name: found.curves[name] for name in kept},
+        located=tuple(each for each in found.located if each.record in kept),
+        shrink=replace(found.shrink, records={name: found.shrink.records[name] for name in kept}),
     )
 
 
@@ -245,6 +256,8 @@ def unexplained() -> Diagnosis:
     unknown = Explanation(("unknown",), (), (), (), 0.9, (), Checks(None, None, 1e-6))
     both = Explanation(("damage", "unknown"), ("damage",), ("growing",), tuple(found.curves), 0.06)
     rest = [replace(each, probability=0.01, checks=None) for each in found.explanations if each.effects != ("unknown",)]
+    still = {name: replace(each, after_MPa=each.before_MPa, closure=0.0) for name, each in found.shrink.records.items()}
+    fitted = replace(found.shrink.identify, after_MPa=found.rms_MPa, closure=0.0, interval=(-0.01, 0.01))
     return replace(
         found,
         verdict="unexplained",
@@ -254,4 +267,5 @@ def unexplained() -> Diagnosis:
         curves={name: replace(each, explained=None) for name, each in found.curves.items()},
         acts=(),
         next_test=None,
+        shrink=replace(found.shrink, identify=fitted, held_out=None, records=still, regions=()),
     )

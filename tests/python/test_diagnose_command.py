@@ -1,10 +1,11 @@
 """`probation diagnose`: its options, its answers, its complaints."""
 
 import json
+from dataclasses import replace
+from importlib import import_module
 
 import pytest
 
-import probation.diagnosis
 from campaigns import made_up_diagnosis as made_up
 from probation import cli
 from probation.gap import effects
@@ -13,7 +14,9 @@ from probation.paper.twins import twin_campaign
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    return str(twin_campaign((1, 2, 3)).save(tmp_path_factory.mktemp("twins")))
+    campaign = twin_campaign((1, 2, 3))
+    free = replace(campaign, law=replace(campaign.law, fixed={}, companion=None))
+    return str(free.save(tmp_path_factory.mktemp("twins")))
 
 
 @pytest.fixture
@@ -22,11 +25,11 @@ def asked(monkeypatch):
     calls = {}
 
     def diagnose(campaign, scheme, **options):
-        options["progress"](1, 2, "looking")
+        options["progress"](0.5)
         calls.update(options, campaign=campaign, scheme=scheme)
-        return made_up.self_heating()
+        return made_up.with_two_records(made_up.self_heating())
 
-    monkeypatch.setattr(probation.diagnosis, "diagnose", diagnose, raising=False)
+    monkeypatch.setattr(import_module("probation.diagnosis.diagnose"), "diagnose", diagnose)
     return calls
 
 
@@ -109,3 +112,20 @@ def test_bad_arguments_are_told_in_one_line_with_status_2(arguments, told, capsy
 def test_a_record_that_is_not_there_cannot_be_held_out(folder, capsys):
     assert cli.main(["diagnose", folder, "--held-out", "experiment-4"]) == 2
     assert "--held-out: " in capsys.readouterr().err
+
+
+def test_what_the_tests_could_tell_apart_is_said_without_a_diagnosis(folder, asked, tmp_path, capsys):
+    """One ramp: a gain of the force only scales what E_u and G scale, too; an offset grows otherwise."""
+    page = tmp_path / "page.html"
+    held_out = ["--held-out", "experiment-2", "--held-out", "experiment-3"]
+    chosen = ["--isolability", "--effects", "force_gain,force_offset,damage"]
+    assert cli.main(["diagnose", folder, *held_out, *chosen, "--json", "-", "--report", str(page)]) == 0
+    shown = capsys.readouterr()
+    answer = json.loads(shown.out)
+    assert answer["schema"] == "probation.isolability/1"
+    status = {each["effect"]: each["status"] for each in answer["effects"]}
+    assert status["force_gain"] == "absorbed"
+    assert status["force_offset"] == "named"
+    assert "gain of the force" in shown.err
+    assert "hides in the base parameters" in page.read_text(encoding="utf-8")
+    assert asked == {}

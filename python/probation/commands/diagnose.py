@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
     campaign = with_held_out(campaign_from(options), options.held_out)
     if options.isolability:
         return _isolability(options, campaign, held, names)
-    from probation.diagnosis import diagnose  # noqa: PLC0415 - see the package
+    from probation.diagnosis.diagnose import diagnose  # noqa: PLC0415 - see the package
 
     with shown(f"diagnosis of {campaign.name}") as advance:
         answer = diagnose(
@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
             hold=held,
             seed=options.seed,
             threads=options.threads,
-            progress=advance,
+            progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer, options)
     deliver_report(answer, options)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.closure import Closure
     from probation.gap.gap_test import GapTest
+    from probation.gap.isolability import Isolability
     from probation.gap.where import Located, Where
 
 Verdict = Literal["no_gap", "explained", "unexplained"]
@@ -218,6 +219,8 @@ class Diagnosis:
         Fall-backs for want of data, records that stand out, ...
     data_sha256 : str
     seed : int
+    isolability : Isolability or None
+        Which effects these tests could tell apart, whatever they show.
     """
 
     campaign: str
@@ -241,6 +244,7 @@ class Diagnosis:
     warnings: tuple[str, ...]
     data_sha256: str
     seed: int
+    isolability: Isolability | None = None
 
     @property
     def best(self) -> Explanation:
@@ -293,6 +297,7 @@ class Diagnosis:
                 "probability_before": self.next_test.probability_before,
                 "probability_after": self.next_test.probability_after,
             },
+            "isolability": None if self.isolability is None else self.isolability.to_dict(),
             "warnings": list(self.warnings),
         }
 

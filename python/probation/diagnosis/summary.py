@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from textwrap import fill, wrap
+from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
+from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
 from probation.diagnosis.words import listed, percent, set_names
-from probation.report.table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from probation.diagnosis.result import Diagnosis
+    from probation.report.table import Table
 
 WIDTH = 100
+MOST_SIGNS = 4
 
 _CELLS = {"explanation": 24, "its parameters": 27, "checks": 27}
 """Letters in a line of those columns."""
@@ -35,9 +34,9 @@ def summary(found: Diagnosis) -> str:
     parts = [f"{found.campaign}: {found.headline}", _gap(found)]
     if found.located:
         parts.append(_shown(*where_table(found, MOST)))
-    parts += [_sentence(each.text) for each in found.signatures]
+    parts.append("\n".join(_sentence(line) for line in _signs(found)))
     parts.append(_shown(*which_table(found, MOST)))
-    if found.verdict != "no_gap":
+    if mended_by(found) and found.verdict != "no_gap":
         parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
     if found.next_test is not None:
         parts.append(fill(next_test_text(found), WIDTH))
@@ -81,6 +80,17 @@ def next_test_text(found: Diagnosis) -> str:
     return text
 
 
+def signs(found: Diagnosis) -> list[str]:
+    """What is sharp or drifts in the errors, one phrase each."""
+    return [each.text.strip().rstrip(".") for each in found.signatures]
+
+
+def _signs(found: Diagnosis) -> list[str]:
+    every = signs(found)
+    more = [f"… and {len(every) - MOST_SIGNS} more"] if len(every) > MOST_SIGNS else []
+    return [f"sign: {each}" for each in every[:MOST_SIGNS]] + more
+
+
 def _gap(found: Diagnosis) -> str:
     return _sentence(gap_text(found))
 
@@ -90,19 +100,5 @@ def _sentence(text: str) -> str:
 
 
 def _shown(table: Table, rest: str) -> str:
-    rows: list[tuple[str, ...]] = []
-    for row in table.rows:
-        rows += _lines(row, table.headings)
-    text = Table(table.headings, tuple(rows), table.caption, table.left).text()
+    text = table.wrapped(_CELLS).text()
     return f"{text}\n  {rest}" if rest else text
-
-
-def _lines(row: Sequence[str], headings: Sequence[str]) -> list[tuple[str, ...]]:
-    """A row with long cells as several lines."""
-    cells = []
-    for cell, heading in zip(row, headings, strict=True):
-        width = _CELLS.get(heading)
-        lines = cell.split("\n")
-        cells.append([part for line in lines for part in (wrap(line, width) if width else [line]) or [""]])
-    deepest = max(len(cell) for cell in cells)
-    return [tuple(cell[at] if at < len(cell) else "" for cell in cells) for at in range(deepest)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
@@ -134,9 +135,12 @@ def leading(found: Diagnosis) -> tuple[Explanation, ...]:
 
 
 def mended_by(found: Diagnosis) -> str:
-    """What the curves and errors called "after" are made with."""
-    known = [each for each in found.best.effects if each != UNKNOWN]
-    return explanation_name(found.best, found) if known == list(found.best.effects) else "the best of the catalogue"
+    """What the curves and errors called "after" are made with; empty where nothing of the catalogue helps."""
+    known = tuple(effect for effect in found.best.effects if effect != UNKNOWN)
+    titles = tuple(
+        title for effect, title in zip(found.best.effects, found.best.titles, strict=False) if effect in known
+    )
+    return explanation_name(replace(found.best, effects=known, titles=titles), found) if known else ""
 
 
 def _without(row: tuple[str, ...], left_out: set[int]) -> tuple[str, ...]:

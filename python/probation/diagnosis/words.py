@@ -44,7 +44,7 @@ def explanation_name(each: Explanation, found: Diagnosis) -> str:
     if not each.records or fitted <= set(each.records):
         return name
     if len(each.records) == 1:
-        return f"{name}, in {short_ids(found.curves)[each.records[0]]} alone"
+        return f"{name}, in {short_ids(found.curves).get(each.records[0], each.records[0])} alone"
     return f"{name}, in {len(each.records)} of {len(fitted)} records"
 
 
@@ -70,9 +70,18 @@ def listed(names: Sequence[str], last: str = "or") -> str:
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)
-    head, tail = (longest - 1) - longest // 2, longest // 2
-    short = [each if len(each) <= longest else f"{each[:head].rstrip()}…{each[-tail:].lstrip()}" for each in every]
+    short = [each if len(each) <= longest else _shortened(each, longest) for each in every]
     return {name: brief if short.count(brief) == 1 else name for name, brief in zip(every, short, strict=True)}
+
+
+def _shortened(text: str, longest: int) -> str:
+    """Its beginning and its end, cut between words where there are some."""
+    head, tail = text[: longest // 2 - 1], text[-(longest // 2) :]
+    front, _, _ = head.rpartition(" ")
+    _, _, back = tail.partition(" ")
+    head = front if len(front) > longest // 4 else head.rstrip()
+    tail = back if len(back) > longest // 4 else tail.lstrip()
+    return f"{head} … {tail}" if front and back else f"{head}…{tail}"
 
 
 def percent(part: float) -> str:
@@ -82,6 +91,11 @@ def percent(part: float) -> str:
     if 0.99 < part < 1.0:
         return "> 99 %"
     return f"{100.0 * part:.0f} %"
+
+
+def count_text(value: float) -> str:
+    """Standard deviations as one reads them: "9.3", "120"."""
+    return f"{value:.0f}" if value >= 10.0 or value < 0.05 else f"{value:.1f}"
 
 
 def p_text(value: float) -> str:
@@ -100,9 +114,9 @@ def closed_interval(each: Closure) -> str:
 
 
 def span_text(ends: tuple[float, float]) -> str:
-    """An interval to two digits of its length: "0.58 to 1.32"."""
+    """An interval with the digits that its length deserves: "0.58 to 1.32"."""
     length = abs(ends[1] - ends[0])
-    digits = max(1 - floor(log10(length)), 0) if length > 0.0 else 3
+    digits = max(1 - floor(log10(0.5 * length)), 0) if length > 0.0 else 3
     return " to ".join(f"{end:.{digits}f}" for end in ends).replace("-", "−")
 
 

@@ -31,6 +31,15 @@ class Picture:
 
     svg: str
     caption: str
+    width: float = 7.2
+    """Inches it was drawn in; text is shown in one size whatever the width."""
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """Pictures side by side, as many as there is room for."""
+
+    pictures: tuple[Picture, ...]
 
 
 @dataclass(frozen=True)
@@ -40,12 +49,12 @@ class Section:
     Attributes
     ----------
     title : str
-    parts : tuple of str, Table or Picture
+    parts : tuple of str, Table, Picture or Gallery
         A text is one paragraph.
     """
 
     title: str
-    parts: tuple[str | Table | Picture, ...]
+    parts: tuple[str | Table | Picture | Gallery, ...]
 
 
 @dataclass(frozen=True)
@@ -90,7 +99,7 @@ class Page:
 
 def picture(figure: Figure, caption: str) -> Picture:
     """Put a figure into a page; the caption, unique within the page, also tells what it shows."""
-    return Picture(figure_to_svg(figure, caption), caption)
+    return Picture(figure_to_svg(figure, caption), caption, figure.get_figwidth())
 
 
 @cache

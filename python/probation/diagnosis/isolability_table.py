@@ -1,0 +1,54 @@
+"""What a campaign's tests could say of each effect, as a table."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.words import count_text, listed, percent
+from probation.gap.telling_apart import DETECTED
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from probation.gap.isolability import EffectIsolability, Isolability
+
+HOW_TO_READ = (
+    "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "
+    f"after the base law has been refitted; {DETECTED:g} are needed. Hidden: the part of the signal that the "
+    "parameters of the base law, refitted, take up."
+)
+
+_STATUS = {
+    "named": "seen and named",
+    "ambiguous": "seen, but may be taken for another",
+    "too_small": "too small to be seen",
+    "absorbed": "hides in the base parameters",
+    "without_signal": "does nothing in these records",
+}
+_RIVALS = 2
+
+
+def in_words(text: str, found: Isolability) -> str:
+    """A sentence of the analysis with the titles of effects in place of their names."""
+    for each in found.effects:
+        text = re.sub(rf"\b{each.name}\b", each.title, text)
+    return text
+
+
+def isolability_table(found: Isolability) -> Table:
+    """Every effect: whether these tests would see it, and what it may be taken for; those that are named first."""
+    order = list(_STATUS)
+    rows = tuple(
+        (each.title, _answer(each, found), count_text(each.detectability), percent(each.absorbable))
+        for each in sorted(found.effects, key=lambda each: (order.index(each.status), -each.detectability))
+    )
+    return Table(("effect", "these tests", "seen", "hidden"), rows, "What these tests could say of each effect", left=2)
+
+
+def _answer(each: EffectIsolability, found: Isolability) -> str:
+    if each.status != "ambiguous":
+        return _STATUS[each.status]
+    titles = {other.name: other.title for other in found.effects}
+    rivals = [titles[name] for name in each.rivals]
+    more = [f"{len(rivals) - _RIVALS} more"] if len(rivals) > _RIVALS else []
+    return f"may be taken for {listed(rivals[:_RIVALS] + more)}"

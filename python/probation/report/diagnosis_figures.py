@@ -1,0 +1,173 @@
+"""A diagnosis in figures: records before and after, probabilities, closure."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from probation.diagnosis.tables import WORTH_A_ROW
+from probation.diagnosis.words import closed, explanation_name, percent, short_ids
+from probation.report.figures import house_style, new_figure, thinned
+from probation.report.style import colour
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.closure import Closure
+    from probation.diagnosis.result import Diagnosis, Explanation, RecordCurves
+
+_DOTS, _POINTS = 90, 240
+_BARS = 10
+_LINE = 30  # letters of a label in one line
+_PROBES = 40
+
+
+def diagnosis_figure(found: Diagnosis) -> Figure:
+    """Every record: stress with and without the best explanation; beside it what both miss, in units of the noise."""
+    names = short_ids(found.curves, 44)
+    with house_style():
+        figure = new_figure(7.6, 0.4 + 2.1 * len(found.curves))
+        panels = figure.subplots(len(found.curves), 2, squeeze=False, width_ratios=(1, 1))
+        for at, ((left, right), each) in enumerate(zip(panels, found.curves.values(), strict=True)):
+            label = _draw(left, right, each, found)
+            left.set_title(_title(each, names), fontsize=9)
+            left.set_xlabel(label)
+            right.set_xlabel(label)
+            if at == 0:
+                left.legend(loc="best", fontsize=7.5)
+    return figure
+
+
+def record_figure(found: Diagnosis, record_id: str) -> Figure:
+    """One record: stress with and without the best explanation, below it what both miss, in units of the noise."""
+    each = found.curves[record_id]
+    with house_style():
+        figure = new_figure(3.9, 3.7)
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.35, 1))
+        below.set_xlabel(_draw(above, below, each, found))
+        above.set_title(fill(_title(each, short_ids(found.curves, 44)), 46), fontsize=9)
+        above.legend(loc="best", fontsize=7.5)
+    return figure
+
+
+def _title(each: RecordCurves, names: dict[str, str]) -> str:
+    return names[each.id] if each.role == "identify" else f"{names[each.id]} – not fitted"
+
+
+def _draw(stress: Axes, errors: Axes, each: RecordCurves, found: Diagnosis) -> str:
+    """Both panels of a record; returns the label of their common axis."""
+    x, label = _axis(each)
+    stress.plot(*thinned(x, each.data, _DOTS), ".", ms=5, mew=0, color=colour("data"), label="measured")
+    curves = [("base law", each.base, "second")]
+    if each.explained is not None:
+        curves.append(("with the explanation", each.explained, "model"))
+    for name, model, shade in curves:
+        stress.plot(*thinned(x, model, _POINTS), color=colour(shade), lw=1.0, label=name)
+        errors.plot(
+            *thinned(x, (model - each.data) / np.maximum(each.noise, 1e-300), _POINTS), color=colour(shade), lw=0.7
+        )
+    for region in found.located:
+        if region.record == each.id:
+            inside = x[region.samples]
+            for axes in (stress, errors):
+                axes.axvspan(float(inside.min()), float(inside.max()), color=colour("second"), alpha=0.1, lw=0)
+    errors.axhspan(-2.0, 2.0, color=colour("data"), alpha=0.25, lw=0)
+    errors.axhline(0.0, color=colour("muted"), lw=0.6)
+    stress.set_ylabel("true stress [MPa]")
+    errors.set_ylabel("error / noise [–]")
+    return label
+
+
+def _axis(each: RecordCurves) -> tuple[FloatArray, str]:
+    """Strain where it grows all along, time otherwise."""
+    probes = each.true_strain[np.linspace(0, len(each.time) - 1, _PROBES).astype(int)]
+    steps = np.diff(probes)
+    if steps.min() > 0.1 * steps.mean() > 0.0:
+        return each.true_strain, "true strain [–]"
+    return each.time, "time [s]"
+
+
+def probability_figure(found: Diagnosis) -> Figure:
+    """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
+    shown = _shown(found)
+    with house_style():
+        figure = new_figure(5.3, 0.8 + 0.36 * len(shown))
+        axes = figure.subplots()
+        for at, each in enumerate(shown):
+            inside = each.effects in found.answer_set
+            size = 100.0 * each.probability
+            axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
+            axes.text(
+                size + 1.0, at, f"{percent(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5
+            )
+        names = [fill(explanation_name(each, found), _LINE) for each in shown]
+        axes.set_yticks(range(len(shown)), names)
+        axes.set(xlim=(0.0, 112.0), ylim=(len(shown) - 0.4, -0.6), xlabel="probability [%]")
+        axes.set_xticks(range(0, 101, 20))
+        axes.set_ylabel("explanation")
+        axes.grid(axis="y", visible=False)
+        axes.tick_params(axis="y", length=0)
+    return figure
+
+
+def _shown(found: Diagnosis) -> list[Explanation]:
+    """The probable ones, the answer set, and always "none" and "unknown"."""
+    always = [
+        each for each in found.explanations if each.effects in found.answer_set or each.effects in ((), ("unknown",))
+    ]
+    room = _BARS - len(always)
+    probable = [each for each in found.explanations if each not in always and each.probability >= WORTH_A_ROW]
+    kept = [*always, *probable[: max(room, 0)]]
+    return [each for each in found.explanations if each in kept]
+
+
+def closure_figure(found: Diagnosis) -> Figure:
+    """Error of every record before and after the best explanation, against the noise, on a logarithmic scale."""
+    shrink, names = found.shrink, short_ids(found.curves)
+    rows: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
+    if shrink.held_out is not None:
+        rows.append(("all held-out records", shrink.held_out))
+    together = len(rows)
+    rows += [(names.get(record, record), each) for record, each in shrink.records.items()]
+    with house_style():
+        figure = new_figure(5.3, 1.1 + 0.34 * len(rows))
+        axes = figure.subplots()
+        for at, (_, each) in enumerate(rows):
+            axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
+        for label, shade, marker, values in (
+            ("noise", "ink", "|", [each.noise_MPa for _, each in rows]),
+            ("before", "second", "o", [each.before_MPa for _, each in rows]),
+            ("after", "model", "o", [each.after_MPa for _, each in rows]),
+        ):
+            size = 13 if marker == "|" else 5.5
+            axes.plot(values, range(len(rows)), marker, color=colour(shade), ms=size, mew=1.2, label=label)
+        axes.set_xscale("log")
+        _plain_decades(axes, [v for _, e in rows for v in (e.before_MPa, e.after_MPa, e.noise_MPa)])
+        for at, (_, each) in enumerate(rows):
+            axes.annotate(
+                closed(each), (1.01, at), xycoords=("axes fraction", "data"), va="center", fontsize=8.5, clip_on=False
+            )
+        axes.axhline(together - 0.5, color=colour("muted"), lw=0.6)
+        axes.set_yticks(range(len(rows)), [fill(name, 20) for name, _ in rows])
+        axes.set(ylim=(len(rows) - 0.4, -0.6), xlabel="rms error [MPa]", ylabel="records")
+        axes.set_title("gap closed", loc="right", fontsize=8.5, fontweight="normal")
+        axes.grid(axis="y", visible=False)
+        axes.tick_params(axis="y", length=0)
+        axes.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, handletextpad=0.2)
+    return figure
+
+
+def _plain_decades(axes: Axes, values: list[float]) -> None:
+    """Round numbers on a logarithmic axis, also where it spans less than a decade."""
+    drawn = [each for each in values if each > 0.0] or [1.0]
+    low, high = min(drawn), max(drawn)
+    axes.set_xlim(low / 1.4, high * 1.4)
+    steps = (1.0, 2.0, 5.0) if high / low < 50.0 else (1.0,)
+    axes.xaxis.set_major_locator(LogLocator(subs=steps))
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())

@@ -1,0 +1,245 @@
+"""A diagnosis as a page, for readers who know their tests and no statistics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.isolability_table import in_words, isolability_table
+from probation.diagnosis.result import UNKNOWN
+from probation.diagnosis.summary import gap_text, next_test_text, signs
+from probation.diagnosis.tables import base_table, leading, mended_by, shrink_table, where_table, which_table
+from probation.diagnosis.words import closed, explanation_name, listed, name_of, percent, span_text
+from probation.gap.registry import effects as known_effects
+from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
+from probation.report.isolability_figure import isolability_figure
+from probation.report.isolability_page import HOW_TO_READ_THE_MAP
+from probation.report.page import Gallery, Page, Section, picture
+from probation.report.provenance import provenance
+from probation.report.residual_map import residual_map
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from probation.diagnosis.result import Diagnosis
+    from probation.report.page import Mood, Picture
+
+_PLACES = 4
+_EXPLANATIONS = 20
+_MOOD: dict[str, Mood] = {"no_gap": "good", "explained": "neutral", "unexplained": "bad"}
+
+
+def write_diagnosis_page(found: Diagnosis, path: Path) -> Path:
+    """Write the page and return its path."""
+    diagnosis_page(found).write(path)
+    return path
+
+
+def diagnosis_page(found: Diagnosis) -> Page:
+    """The page: the verdict, where, before and after, which, how far, the next test, what could be told, details."""
+    sections = [_short(found), _where(found), _records(found), _which(found)]
+    if mended_by(found) and found.verdict != "no_gap":
+        sections.append(_shrink(found))
+    sections += [_next_test(found)] if found.next_test is not None else []
+    sections += [_isolability(found)] if found.isolability is not None else []
+    return Page(
+        title=f"Diagnosis of {found.campaign}: what does the simulation leave out?",
+        verdict=found.headline,
+        mood=_MOOD[found.verdict],
+        lead=gap_text(found),
+        sections=(*sections, _looked_for(found), _details(found)),
+        provenance=provenance(found.data_sha256, found.seed),
+    )
+
+
+def _short(found: Diagnosis) -> Section:
+    where = "In no part of any record can a gap be told from noise"
+    if found.located:
+        worst = found.located[0]
+        where = (
+            f"{percent(worst.share)} of the gap sits in {worst.record}, at {span_text(worst.time_s)} s and true "
+            f"strains of {span_text(worst.true_strain)}"
+        )
+    best = leading(found)
+    which = listed([f"{explanation_name(each, found)} ({percent(each.probability)})" for each in best])
+    apart = "; the data cannot tell these apart" if len(best) > 1 else ""
+    rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
+    if found.verdict != "no_gap":
+        rows.append(("How far", _capital(_how_far(found))))
+    if found.next_test is not None:
+        rows.append(("Next test", found.next_test.what))
+    rows += [("Mind" if at == 0 else "", f"{each.rstrip('.')}.") for at, each in enumerate(found.warnings)]
+    return Section("In short", (Table(("", "what was found"), tuple(rows), left=2),))
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _how_far(found: Diagnosis) -> str:
+    shrink = found.shrink
+    if not mended_by(found):
+        ceiling = (
+            "" if shrink.ceiling is None else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
+        )
+        return f"no effect of the catalogue closes the gap{ceiling}."
+    text = (
+        f"with {mended_by(found)} the error of the fitted records falls from {shrink.identify.before_MPa:.3g} to "
+        f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
+    )
+    if shrink.held_out is None:
+        return f"{text}. No record was held out, so that nothing here was foretold."
+    return (
+        f"{text}. Records that were held out are foretold to {shrink.held_out.after_MPa:.3g} MPa rms instead of "
+        f"{shrink.held_out.before_MPa:.3g} MPa (gap closed: {closed(shrink.held_out)})."
+    )
+
+
+def _where(found: Diagnosis) -> Section:
+    mended = any(each.explained is not None for each in found.curves.values())
+    thin = " The thin strip below each shows what is left with the best explanation." if mended else ""
+    caption = f"Error of the base law along every record, from its start to its end.{thin}"
+    parts: list[str | Table | Picture] = [
+        "Each strip is one record; blue means that the simulated stress is too low, orange that it is too high, pale "
+        "that it agrees within the noise. Frames mark the parts where chance cannot be the reason, with their share of "
+        "the whole squared gap.",
+        picture(residual_map(found), caption),
+    ]
+    if found.located:
+        parts.append(where_table(found)[0])
+        parts.append(
+            "A fit spreads a gap over places where there was none, because it bends its parameters to make up for it: "
+            "a frame shows where the error is, not always where its cause acts."
+        )
+    if found.acts:
+        places = [f"{each.record} at {span_text(each.time_s)} s" for each in found.acts[:_PLACES]]
+        more = [f"{len(found.acts) - _PLACES} more places"] if len(found.acts) > _PLACES else []
+        name = explanation_name(found.best, found)
+        parts.append(f"What {name} itself contributes is certain in {listed([*places, *more], 'and')}.")
+    if found.signatures:
+        parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(found))}.")
+    return Section("Where the simulation departs", tuple(parts))
+
+
+def _records(found: Diagnosis) -> Section:
+    mended = mended_by(found)
+    blue = f" and the law with {mended} (blue)" if mended else ""
+    tinted = " Tinted parts are the framed ones from above." if found.located else ""
+    text = (
+        f"Above: what was measured (dots), the base law alone (orange){blue}. Below: what the law misses, as a "
+        "multiple of the noise; a curve that stays in the grey band is as good as the measurement allows, but for one "
+        f"sample in twenty.{tinted}"
+    )
+    pictures = tuple(picture(record_figure(found, name), _caption(found, name)) for name in found.curves)
+    return Section("Record by record, before and after", (text, Gallery(pictures)))
+
+
+def _caption(found: Diagnosis, record: str) -> str:
+    each = found.shrink.records.get(record)
+    if each is None or found.curves[record].explained is None:
+        return f"{record}: measured, and the base law."
+    return (
+        f"{record}: error {each.before_MPa:.2g} MPa rms before, {each.after_MPa:.2g} after; noise {each.noise_MPa:.2g}."
+    )
+
+
+def _which(found: Diagnosis) -> Section:
+    text = (
+        "Each bar is the probability that this explanation is the right one, given the data and what is physically "
+        "plausible; all together make 100 %. Starred bars are those that the data cannot tell from the best: treat "
+        "them as one answer with several names."
+    )
+    checks = (
+        "Besides its probability an explanation has to pass checks: does it foretell records that it was not fitted "
+        "to, does it need the same strength in every record, and does it leave nothing but noise?"
+    )
+    caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
+    table, rest = which_table(found, _EXPLANATIONS)
+    parts = (text, picture(probability_figure(found), caption), checks, table)
+    return Section("Which effect explains it", (*parts, f"{rest}.") if rest else parts)
+
+
+def _shrink(found: Diagnosis) -> Section:
+    text = (
+        "Orange dots are the errors of the base law, blue ones those with the explanation; upright ticks are the "
+        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when nothing is "
+        "gained, and negative when it gets worse."
+    )
+    parts: list[str | Table | Picture] = [
+        text,
+        picture(closure_figure(found), "Error of each record before and after, on a logarithmic scale."),
+        shrink_table(found)[0],
+        "Held-out records are the fair judge: nothing was adjusted to them."
+        if found.shrink.held_out is not None
+        else "No record was held out (--held-out ID), so that the explanation was fitted to all that it is judged by.",
+        "“Any smooth correction” is what an arbitrary smooth curve through the errors could close at best.",
+        f"How the intervals of 90 % were made – {found.shrink.identify.how}.",
+    ]
+    if found.shrink.held_out is not None and found.shrink.held_out.how != found.shrink.identify.how:
+        parts.append(f"Those of held-out records – {found.shrink.held_out.how}.")
+    return Section("How far the gap shrinks", tuple(parts))
+
+
+def _next_test(found: Diagnosis) -> Section:
+    text = next_test_text(found).removeprefix("Next test: ")
+    how = (
+        "It was picked among tests that can be run on an ordinary machine by asking for each how differently the "
+        "explanations that are still open would answer. The chance is a forecast, made with the noise of your own "
+        "records."
+    )
+    return Section("The next test", (text, how))
+
+
+def _isolability(found: Diagnosis) -> Section:
+    assert found.isolability is not None
+    return Section(
+        "What these tests can tell apart",
+        (
+            f"Whatever the records show: {in_words(found.isolability.headline, found.isolability)}",
+            HOW_TO_READ_THE_MAP,
+            picture(isolability_figure(found.isolability), "Which effects could be taken for which others."),
+            isolability_table(found.isolability),
+        ),
+    )
+
+
+def _looked_for(found: Diagnosis) -> Section:
+    sought = {name for each in found.explanations for name in each.effects} | {
+        name.removeprefix("effect ").partition("[")[0] for name in found.gap.p_values if name.startswith("effect ")
+    }
+    if found.isolability is not None:
+        sought |= set(found.isolability.names)
+    rows = tuple(
+        (each.title, each.kind, each.physics.splitlines()[0]) for each in known_effects() if each.name in sought
+    )
+    text = (
+        "These effects were tried, alone and combined, each with several sets of starting values. Something that no "
+        "entry can imitate shows as “an effect outside the catalogue”; something that an entry imitates well is called "
+        "by that entry's name, which no statistics can prevent."
+    )
+    return Section("What was looked for", (text, Table(("effect", "sits in", "what it is"), rows, left=3)))
+
+
+def _details(found: Diagnosis) -> Section:
+    gap = found.gap
+    levels = ", ".join(
+        f"{value:.2g} {when}"
+        for value, when in (
+            (gap.p_value, "as estimated"),
+            (gap.p_value_low_noise, "with 0.8 times the noise"),
+            (gap.p_value_high_noise, "with 1.25 times the noise"),
+        )
+    )
+    records = [each.id for each in found.curves.values()]
+    held_out = [each.id for each in found.curves.values() if each.role != "identify"]
+    forms = [
+        f"{name_of((effect,))}: {form}" for effect, form in zip(found.best.effects, found.best.forms, strict=False)
+    ]
+    lines = [
+        f"Base law: {found.law}. Scheme {found.scheme}.",
+        f"Records: {', '.join(records)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
+        f"p-value of “there is nothing but noise”: {levels}; a gap is declared below {gap.level:g}.",
+    ]
+    if forms and found.best.effects != (UNKNOWN,):
+        lines.append(f"Functional form of the best explanation: {'; '.join(forms)}.")
+    return Section("Details", (base_table(found), *lines))

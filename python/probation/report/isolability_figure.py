@@ -1,0 +1,106 @@
+"""Which effects these tests could tell apart: a map of effects against their rivals."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+from matplotlib.patches import Rectangle
+
+from probation.diagnosis.words import count_text
+from probation.gap.telling_apart import DETECTED
+from probation.report.figures import house_style, new_figure
+from probation.report.style import colour
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+    from probation.gap.isolability import Isolability
+
+LEVELS = (0.95, 0.8, 0.6)
+"""Chances of naming the right one of two below which a cell darkens; 0.5 is a toss of a coin."""
+
+_ALPHAS = (0.15, 0.35, 0.6)  # no darker: numbers stand in the cells, on a dark page too
+_ROOM = 25
+_LINE = 38
+_LETTER = 1.25  # width of one in the legend, whose whole width is 100
+
+
+def isolability_figure(found: Isolability) -> Figure:
+    """How probably the effect of a row, which is there, would be named rather than the one of a column."""
+    titles = [each.title for each in found.effects]
+    return chance_map(titles, found.probability, [each.detectability for each in found.effects])
+
+
+def chance_map(titles: list[str], probability: FloatArray, detectability: list[float]) -> Figure:
+    """The map.
+
+    Parameters
+    ----------
+    titles : list of str, length n
+    probability : ndarray, shape (n, n)
+        Of naming the row's effect, which is there, rather than the column's.
+    detectability : list of float, length n
+        Length of each effect's signal in standard deviations.
+    """
+    count = len(titles)
+    with house_style():
+        size = 0.19 if count > _ROOM else 0.215
+        figure = new_figure(7.2, 1.6 + size * count + 0.9)
+        legend, axes = figure.subplots(2, 1, height_ratios=(0.25, size * count + 1.6))
+        for row in range(count):
+            seen = detectability[row] >= DETECTED
+            if not seen:
+                axes.add_patch(
+                    Rectangle((-0.5, row - 0.5), count, 1.0, facecolor=colour("data"), alpha=0.3, lw=0, zorder=1)
+                )
+            for column in range(count):
+                if row == column:
+                    axes.plot(column, row, ".", ms=3, color=colour("muted"))
+                elif seen and (alpha := _alpha(float(probability[row, column]))):
+                    _cell(axes, column, row, alpha, float(probability[row, column]))
+            axes.text(count - 0.2, row, count_text(detectability[row]), va="center", fontsize=7.5)
+        axes.text(count - 0.2, -0.75, "signal / noise [–]", va="bottom", fontsize=7.5, rotation=90)
+        axes.set_xticks(range(count), titles, rotation=90, fontsize=7.5)
+        axes.xaxis.tick_top()
+        axes.xaxis.set_label_position("top")
+        axes.set_yticks(range(count), [fill(title, _LINE) for title in titles], fontsize=7.5)
+        axes.set(xlim=(-0.5, count - 0.5), ylim=(count - 0.5, -0.5))
+        axes.set(xlabel="… might it be taken for this one?", ylabel="if this effect is there …")
+        axes.tick_params(length=0)
+        axes.spines[["left", "bottom"]].set_visible(False)
+        _legend(legend)
+    return figure
+
+
+def _alpha(chance: float) -> float:
+    """How dark a cell is: 0 where the right one is named in 95 of 100 cases."""
+    return next((alpha for level, alpha in zip(LEVELS[::-1], _ALPHAS[::-1], strict=True) if chance < level), 0.0)
+
+
+def _cell(axes: Axes, column: float, row: float, alpha: float, chance: float) -> None:
+    axes.add_patch(
+        Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, facecolor=colour("second"), alpha=alpha, lw=0, zorder=2)
+    )
+    axes.text(column, row, f"{100.0 * chance:.0f}", ha="center", va="center", fontsize=6.5, zorder=3)
+
+
+def _legend(axes: Axes) -> None:
+    entries = [
+        ("told apart", "second", 0.0),
+        ("80 to 95 % right", "second", _ALPHAS[0]),
+        ("60 to 80 %", "second", _ALPHAS[1]),
+        ("little better than a coin", "second", _ALPHAS[2]),
+        ("not seen at all", "data", 0.3),
+    ]
+    axes.set(xlim=(0.0, 100.0), ylim=(0.0, 1.0))
+    place = 0.0
+    for label, shade, alpha in entries:
+        box = Rectangle((place, 0.2), 2.0, 0.6, facecolor=colour(shade), alpha=alpha or None, lw=0, fill=alpha > 0.0)
+        axes.add_patch(box)
+        axes.add_patch(Rectangle((place, 0.2), 2.0, 0.6, fill=False, edgecolor=colour("muted"), lw=0.5))
+        axes.text(place + 2.6, 0.5, label, va="center", fontsize=8)
+        place += 5.0 + _LETTER * len(label)
+    axes.set_axis_off()

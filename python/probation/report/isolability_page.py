@@ -1,0 +1,41 @@
+"""What a campaign's tests could tell apart, as a page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
+from probation.report.isolability_figure import isolability_figure
+from probation.report.page import Page, Section, picture
+from probation.report.provenance import provenance
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from probation.diagnosis.isolability import CampaignIsolability
+
+HOW_TO_READ_THE_MAP = (
+    "Suppose that the effect of a row is really there, at its usual size: an orange cell says that these tests might "
+    "take it for the effect of that column, and its number is the chance [%] that the right one of the two is named. "
+    "No colour means told apart; a grey row means that these tests would not see the effect at all."
+)
+
+
+def write_isolability_page(answer: CampaignIsolability, path: Path) -> Path:
+    """Write the page and return its path."""
+    found = answer.found
+    Page(
+        title=f"What the tests of {answer.campaign} could tell apart",
+        verdict=in_words(found.headline, found),
+        lead="Asked of the strain histories, the noise and the base law alone; what the records show plays no part.",
+        sections=(
+            Section(
+                "Which effect could be taken for which",
+                (HOW_TO_READ_THE_MAP, picture(isolability_figure(found), "Chance of naming the right one of two [%].")),
+            ),
+            Section("Effect by effect", (isolability_table(found), HOW_TO_READ)),
+            Section("In words", tuple(in_words(each.sentence, found) for each in found.effects)),
+        ),
+        provenance=provenance(answer.data_sha256),
+    ).write(path)
+    return path
