@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from probation.excitation import Excitation
     from probation.gap.protocol import GapLaw
     from probation.gap.record_view import RecordView
+    from probation.identify import Fit
     from probation.law import Scheme
     from probation.records import Campaign, Record
 
@@ -94,17 +95,41 @@ def base_fit(campaign: Campaign, scheme: Scheme = "be2", hold: Mapping[str, floa
         found = given(campaign, scheme)
     else:
         found = fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection")
-    excitations = {name: each.excitation for name, each in found.records.items()}
-    excitations |= {record.id: excite(record) for record in campaign.records if record.id not in excitations}
-    samples = {record.id: _at_samples(excitations[record.id], record) for record in campaign.records}
+    samples = _excitations(campaign, found)
     views = views_of(campaign, excitations=samples, scheme=scheme, substeps=found.substeps)
     free = [name for name in found.law.parameter_names if name in found.names]
     law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in free])
     return fit_views(law, views, campaign.records, samples)
 
 
-def _at_samples(excitation: Excitation, record: Record) -> Excitation:
-    return excitation if len(excitation.time) == len(record.time) else excite(record)
+def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
+    """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
+
+    What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
+    control, which it did. The strain does not tell; the stress does, of all smoothed records together.
+    """
+    chosen = {record.id: excite(record) for record in campaign.records}
+    raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
+    smooth_square = raw_square = 0.0
+    for record in campaign.identify:
+        if record.id in raw:
+            smooth_square += _misfit(found, chosen[record.id], record)
+            raw_square += _misfit(found, raw[record.id], record)
+    return chosen | raw if raw_square < smooth_square else chosen
+
+
+def _misfit(found: Fit, excitation: Excitation, record: Record) -> float:
+    """Sum of squares of the fit residual [MPa^2]."""
+    fine = excitation.refined(found.substeps)
+    stress = found.law.stress(
+        fine.time,
+        fine.true_strain,
+        scheme=found.scheme,
+        strain_rate=fine.strain_rate,
+        jumps=fine.time[list(fine.jumps)] if fine.jumps else None,
+        direction=fine.direction,
+    )
+    return float(np.sum((stress[:: found.substeps] - record.true_stress) ** 2))
 
 
 def fit_views(

@@ -16,13 +16,16 @@ from probation.diagnosis.evidence import Discrepancy
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
+from probation.diagnosis.next import next_test_of
 from probation.diagnosis.probabilities import answer_set, weigh
 from probation.diagnosis.remaining import remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
+from probation.diagnosis.sharp_gap import with_sharp
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
 from probation.gap.gap_test import GapTester
+from probation.gap.isolability import isolability
 from probation.gap.registry import effects as catalogue
 from probation.gap.screen import screen
 from probation.gap.where import locate
@@ -45,6 +48,7 @@ def diagnose(
     hold: Mapping[str, float] | None = None,
     seed: int = 0,
     threads: int | None = None,
+    design: bool = True,
     progress: Callable[[float], None] | None = None,
 ) -> Diagnosis:
     """Diagnose the gap between the campaign's base law and its records.
@@ -61,6 +65,8 @@ def diagnose(
         Of the bootstraps.
     threads : int, optional
         By default as many as there are processors, at most 4.
+    design : bool
+        Whether to say, too, what these tests could tell apart at all, and which test to do next.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -84,17 +90,18 @@ def diagnose(
     base = base_fit(campaign, scheme, hold)
     told(0.1)
     at = base.parameters
-    columns = WhitenedColumns.of(
-        screen(base.model, at, considered, residual=base.model.residual(at), threads=workers),
-        base.whitener,
-        len(base.whitened),
-    )
+    screened = screen(base.model, at, considered, threads=workers)
+    columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
     told(0.2)
-    gap = GapTester(base.whitened, columns.by_effect(), seed=seed)()
+    gap = with_sharp(GapTester(base.whitened, columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
     told(0.35)
     discrepancy = Discrepancy.of(base.whitened)
     if gap.rejected:
+        # Starts that are read off the residual come in here: in the gap test they would find what chance put there.
+        sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
+        screened += screen(base.model, at, sharp, residual=base.model.residual(at), threads=workers)
+        columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
         found = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.45 * part)).run(columns)
     else:
         found = linear_hypotheses(base, columns, discrepancy)
@@ -115,7 +122,12 @@ def diagnose(
     chosen = answer_set(weighed)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
     shrink, curves = shrink_of(base, best.hypothesis, campaign, where.located, seed=seed)
+    told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
+    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if design else None
+    apart = None
+    if design:
+        apart = isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers)
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
@@ -134,11 +146,12 @@ def diagnose(
         explanations=explanations,
         answer_set=chosen,
         shrink=shrink,
-        next_test=None,
+        next_test=following,
         curves=curves,
         warnings=_warnings(base, gap.robust),
         data_sha256=campaign.data_hash,
         seed=seed,
+        isolability=apart,
     )
 
 

@@ -36,8 +36,11 @@ FORM_WEIGHTS = (0.3, 0.2, 0.2, 0.15, 0.1, 0.05)
 SIZES = tuple((10.0 ** np.arange(0.5, 9.0, 0.25)).tolist())
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 
-SOFTNESS = 2.0
-"""The spectrum of a smooth discrepancy falls with the order of its waves to this power."""
+SOFTNESS = (2.0, 1.0)
+"""The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each."""
+
+ROUGHEST = 24
+"""Half periods per record up to which a discrepancy is looked for."""
 
 DEPENDENT = 1e-4
 """Part of a wave that smoother ones leave, below which it adds nothing."""
@@ -69,13 +72,13 @@ class Discrepancy:
         """Of the identify records."""
         columns, spectrum, places, at = [], [], [], 0
         for record, noise in zip(whitened.records, whitened.noises, strict=True):
-            basis = smooth_basis(record.time, record.jumps)
+            basis = smooth_basis(record.time, record.jumps, ROUGHEST)
             left, upper = np.linalg.qr(noise.whiten(basis.columns / np.linalg.norm(basis.columns, axis=0)))
             size = np.abs(np.diag(upper))
             kept = size > DEPENDENT * float(size.max())
-            share = (1.0 + basis.order[kept]) ** -SOFTNESS
+            falls = [(1.0 + basis.order[kept]) ** -power for power in SOFTNESS]
             columns.append(left[:, kept])
-            spectrum.append(share / share.sum())
+            spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places))

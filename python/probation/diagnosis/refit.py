@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from probation.gap.model import CampaignModel
 
 MOST_STEPS = 15
-SETTLED = 1e-3
-"""A step that would lower the objective by less than this ends a search: a thousandth of what noise does to it."""
+SETTLED = 0.02
+"""A step that would lower the objective by less than this ends a search: little beside what noise does to it."""
 
 LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e9
 

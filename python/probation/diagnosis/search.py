@@ -31,6 +31,9 @@ HEAT_STEPS = 4
 IN_THE_RUNNING, SLACK = 6.0, 30.0
 """A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
 
+BEHIND, FRACTION = 30.0, 0.02
+"""A cause is raced if its linearised gain is within so much of the best one's, or this part of it."""
+
 STARTS = 3
 """Starts per form and place that a cause in the running is given."""
 
@@ -39,6 +42,9 @@ PLACES = 2
 
 FORWARD, ADDITIONS = 3, 6
 """How many of the best explanations are added to, and how many additions each is given."""
+
+WORTH = 10.0
+"""Linearised gain from which on an addition is refitted."""
 
 MOST_EFFECTS = 3
 EXPLAINED = 3.0
@@ -81,12 +87,15 @@ class Search:
         size = 1
         while size < MOST_EFFECTS:
             leading = self.ranked(size)
-            if not leading or not self._something_left(self.ranked()[0]):
+            if not leading:
                 break
-            for each in leading[: FORWARD if size == 1 else 1]:
+            left = self._something_left(self.ranked()[0])
+            for each in leading[: FORWARD if left and size == 1 else 1]:
                 self._additions(each)
-            if size == 1:
+            if size == 1 and left:
                 self._swaps()
+            if not self.ranked(size + 1) or self.ranked()[0].effects in {each.effects for each in leading}:
+                break
             size += 1
             self._told(0.6 + 0.2 * (size - 1))
         return self.found
@@ -107,7 +116,7 @@ class Search:
 
     def _singles(self, columns: WhitenedColumns) -> None:
         candidates = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
-        first = _first_of_each(candidates)
+        first = _promising(_first_of_each(candidates))
         raced = self._refitted([], first, HEAT_STEPS)
         left = np.array([each.chi_square for each in raced])
         best, count = float(left.min(initial=np.inf)), len(self.base.whitened)
@@ -116,7 +125,7 @@ class Search:
         limit = best + (IN_THE_RUNNING - 1.0) * gap + SLACK
         running = [each for each, own in zip(raced, left, strict=True) if own <= limit]
         out = [each for each, own in zip(raced, left, strict=True) if own > limit]
-        self.found += [self._judged(each) for each in out]
+        self.found += [self._judged(each, unknown=False) for each in out]
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         more = [each for each in _others(candidates, first, STARTS - 1) if cause_key(each.cause) in keys]
@@ -137,7 +146,7 @@ class Search:
         ]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
         ranked = white.candidates(leading.refit.residual, span_of(leading.refit.jacobian))
-        chosen = _first_of_each_effect(ranked, ADDITIONS)
+        chosen = _first_of_each_effect([each for each in ranked if each.gain > WORTH], ADDITIONS)
         self.found += [self._judged(each) for each in self._refitted([leading], chosen, None)]
 
     def _swaps(self) -> None:
@@ -182,8 +191,8 @@ class Search:
             found = [work(item) for item in items]
         return [each for each in found if each is not None]
 
-    def _judged(self, found: Refit) -> Hypothesis:
-        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy))
+    def _judged(self, found: Refit, *, unknown: bool = True) -> Hypothesis:
+        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy, unknown=unknown))
 
     def _told(self, part: float) -> None:
         if self.progress:
@@ -206,6 +215,16 @@ def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
         seen.add(key)
         found.append(each)
     return found
+
+
+def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Those whose linearised gain is not hopelessly below the best one's.
+
+    Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
+    """
+    best = max((each.gain for each in candidates), default=0.0)
+    least = max(min(best - BEHIND, FRACTION * best), 0.0)
+    return [each for each in candidates if each.gain >= least and each.gain > 0.0]
 
 
 def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: int) -> list[Candidate]:

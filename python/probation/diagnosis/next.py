@@ -1,0 +1,72 @@
+"""The experiment that would best settle what a diagnosis leaves open, gap-method section 9."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.result import UNKNOWN, NextTest
+from probation.gap.next_test import next_test
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.probabilities import Weighed
+
+MOST = 4
+"""Explanations that a test is planned for, the most probable ones."""
+
+FORMS = 2
+"""Forms and places of an explanation that are foretold, the best ones ..."""
+
+FORMS_WITHIN = 4.0
+"""... if their log evidence is within this of the best one's."""
+
+
+def next_test_of(
+    base: BaseFit,
+    weighed: Sequence[Weighed],
+    answer_set: Sequence[tuple[str, ...]],
+    hypotheses: Sequence[Hypothesis],
+    *,
+    threads: int,
+    seed: int,
+) -> NextTest | None:
+    """What to do next; None where one explanation, or none that could be foretold, is left.
+
+    Parameters
+    ----------
+    base : BaseFit
+    weighed : sequence of Weighed
+        All explanations.
+    answer_set : sequence of tuple of str
+    hypotheses : sequence of Hypothesis
+        All forms and places that were refitted.
+    threads, seed : int
+    """
+    open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][:MOST]
+    if len(open_still) < 2:
+        return None
+    entries = []
+    for each in open_still:
+        best = each.hypothesis.evidence.log_evidence
+        close = [
+            other
+            for other in hypotheses
+            if other.effects == each.effects and other.evidence.log_evidence > best - FORMS_WITHIN
+        ]
+        close = sorted(close, key=lambda other: -other.evidence.log_evidence)[:FORMS]
+        weight = np.exp([other.evidence.log_evidence - best for other in close])
+        entries += [
+            (other.refit.model, other.refit.parameters, float(each.probability * part), each.effects)
+            for other, part in zip(close, weight / weight.sum(), strict=True)
+            if part > 0.01
+        ]
+    found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed)
+    if found is None:
+        return None
+    separates = tuple(tuple(effects) for effects in found.separates)
+    return NextTest(found.what, separates, found.probability_before, found.probability_after)

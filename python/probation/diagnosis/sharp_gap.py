@@ -1,0 +1,47 @@
+"""The gap test with what is sharp in frequency or in time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from probation.gap.sharp import find_lines, find_steps
+
+if TYPE_CHECKING:
+    from probation.gap.gap_test import GapTest
+    from probation.gap.whitening import Whitened
+
+SHARP_SHARE = 0.1
+"""Part of the level that is spent on lines, and on steps."""
+
+
+def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
+    """The test's p-value with lines of one frequency and steps at one instant in the family.
+
+    A test along smooth curves and known effects sees a wave of any frequency, or a slip at any instant, only as far as
+    they resemble the few that were put into it.
+
+    Parameters
+    ----------
+    gap : GapTest
+        Along smooth curves and effects.
+    whitened : Whitened
+    """
+    lines, steps = find_lines(whitened), find_steps(whitened, size=500)
+    sharp = {
+        "lines": min((line.p_value for line in lines), default=1.0),
+        "steps": min((step.p_value for step in steps), default=1.0),
+    }
+    least = min(sharp.values()) / SHARP_SHARE
+    share = 1.0 - 2.0 * SHARP_SHARE
+
+    def family(p_value: float) -> float:
+        return min(p_value / share, least, 1.0)
+
+    return replace(
+        gap,
+        p_value=family(gap.p_value),
+        p_value_low_noise=family(gap.p_value_low_noise),
+        p_value_high_noise=family(gap.p_value_high_noise),
+        p_values={**gap.p_values, **sharp},
+    )
