@@ -6,6 +6,7 @@ from math import floor, log10
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
+from probation.gap.gap_test import LEVEL
 from probation.report.estimate import plus_minus
 
 if TYPE_CHECKING:
@@ -20,8 +21,8 @@ OUTSIDE = "an effect outside the catalogue"
 LONGEST_ID = 30
 """Letters of a record's id that tables and figures show."""
 
-SEEN = 0.01
-"""p-value below which a check is said to fail."""
+SAME = 0.01
+"""p-value below which an amplitude is said to differ from record to record."""
 
 _SMALLEST_P = 1e-4  # draws of the noise tell no less
 _UNIT_WORDS = {"°C": "degC", "%": "percent"}
@@ -158,10 +159,10 @@ def checks_text(each: Explanation) -> list[str]:
         return []
     found = [*_prediction(checks)]
     if checks.amplitude_p_value is not None:
-        same = checks.amplitude_p_value >= SEEN
+        same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
     if each.effects not in ((), (UNKNOWN,)):
-        found.append("nothing but noise is left" if checks.remaining_p_value >= SEEN else "a gap is left beside it")
+        found.append("nothing but noise is left" if checks.remaining_p_value >= LEVEL else "a gap is left beside it")
     return [*found, *checks.notes]
 
 

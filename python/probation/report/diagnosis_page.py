@@ -162,8 +162,8 @@ def _which(found: Diagnosis) -> Section:
 def _shrink(found: Diagnosis) -> Section:
     text = (
         "Orange dots are the errors of the base law, blue ones those with the explanation; upright ticks are the "
-        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when nothing is "
-        "gained, and negative when it gets worse."
+        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when "
+        "nothing is gained, and negative when it gets worse."
     )
     parts: list[str | Table | Picture] = [
         text,
