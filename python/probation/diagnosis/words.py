@@ -133,15 +133,18 @@ def _closed(part: float, digits: int = 0) -> str:
 
 def parameter_text(each: CauseParameter) -> str:
     """Such as "heating 0.48 ± 0.02 °C/MPa": the unit goes from the name to behind the value."""
-    suffix = _suffix(each.unit)
-    words = (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
     value = f"{each.value:.4g}" if each.se is None else plus_minus(each.value, each.se)
     notes = []
     if each.bound:
         notes.append(f"at its {each.bound} bound")
     elif each.se is None:
         notes.append("not determined")
-    return " ".join([words, value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+    return " ".join([_words(each), value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+
+
+def _words(each: CauseParameter) -> str:
+    suffix = _suffix(each.unit)
+    return (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
 
 
 def _suffix(unit: str) -> str:
@@ -163,7 +166,13 @@ def checks_text(each: Explanation) -> list[str]:
         found.append("one strength suits all records" if same else "each record wants another strength")
     if each.effects not in ((), (UNKNOWN,)):
         found.append("nothing but noise is left" if checks.remaining_p_value >= LEVEL else "a gap is left beside it")
-    return [*found, *checks.notes]
+    return [*found, *(_without_names(note, each) for note in checks.notes)]
+
+
+def _without_names(note: str, each: Explanation) -> str:
+    for parameter in sorted(each.parameters, key=lambda parameter: -len(parameter.name)):
+        note = note.replace(parameter.name, _words(parameter))
+    return note
 
 
 def _prediction(checks: Checks) -> list[str]:
