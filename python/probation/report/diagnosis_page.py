@@ -114,8 +114,7 @@ def _where(found: Diagnosis) -> Section:
     if found.acts:
         places = [f"{each.record} at {span_text(each.time_s)} s" for each in found.acts[:_PLACES]]
         more = [f"{len(found.acts) - _PLACES} more places"] if len(found.acts) > _PLACES else []
-        name = explanation_name(found.best, found)
-        parts.append(f"What {name} itself contributes is certain in {listed([*places, *more], 'and')}.")
+        parts.append(f"What {mended_by(found)} itself contributes is certain in {listed([*places, *more], 'and')}.")
     if found.signatures:
         parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(found))}.")
     return Section("Where the simulation departs", tuple(parts))
