@@ -128,6 +128,14 @@ def test_checks_say_what_speaks_for_and_what_against():
     assert said(None, None, 1e-4, effects=("unknown",)) == []
 
 
+def test_notes_call_parameters_by_words():
+    parameter = CauseParameter("self_heating", "cooling_rate_per_s", "1/s", (), 1.0, None, "upper")
+    note = "cooling_rate_per_s ended at its upper bound"
+    checks = Checks(None, None, 0.3, (note,))
+    said = checks_text(Explanation(("self_heating",), ("self-heating",), ("f",), (), 0.5, (parameter,), checks))
+    assert said[-1] == "cooling rate ended at its upper bound"
+
+
 def test_probabilities_and_shares_are_whole_percents_that_never_lie_about_certainty():
     probabilities = (0.0, 0.004, 0.02, 0.912, 0.996, 1.0)
     assert [percent(each) for each in probabilities] == ["0 %", "< 1 %", "2 %", "91 %", "> 99 %", "100 %"]

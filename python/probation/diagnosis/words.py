@@ -6,6 +6,7 @@ from math import floor, log10
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
+from probation.gap.gap_test import LEVEL
 from probation.report.estimate import plus_minus
 
 if TYPE_CHECKING:
@@ -20,8 +21,8 @@ OUTSIDE = "an effect outside the catalogue"
 LONGEST_ID = 30
 """Letters of a record's id that tables and figures show."""
 
-SEEN = 0.01
-"""p-value below which a check is said to fail."""
+SAME = 0.01
+"""p-value below which an amplitude is said to differ from record to record."""
 
 _SMALLEST_P = 1e-4  # draws of the noise tell no less
 _UNIT_WORDS = {"°C": "degC", "%": "percent"}
@@ -132,15 +133,18 @@ def _closed(part: float, digits: int = 0) -> str:
 
 def parameter_text(each: CauseParameter) -> str:
     """Such as "heating 0.48 ± 0.02 °C/MPa": the unit goes from the name to behind the value."""
-    suffix = _suffix(each.unit)
-    words = (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
     value = f"{each.value:.4g}" if each.se is None else plus_minus(each.value, each.se)
     notes = []
     if each.bound:
         notes.append(f"at its {each.bound} bound")
     elif each.se is None:
         notes.append("not determined")
-    return " ".join([words, value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+    return " ".join([_words(each), value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+
+
+def _words(each: CauseParameter) -> str:
+    suffix = _suffix(each.unit)
+    return (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
 
 
 def _suffix(unit: str) -> str:
@@ -158,11 +162,17 @@ def checks_text(each: Explanation) -> list[str]:
         return []
     found = [*_prediction(checks)]
     if checks.amplitude_p_value is not None:
-        same = checks.amplitude_p_value >= SEEN
+        same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
     if each.effects not in ((), (UNKNOWN,)):
-        found.append("nothing but noise is left" if checks.remaining_p_value >= SEEN else "a gap is left beside it")
-    return [*found, *checks.notes]
+        found.append("nothing but noise is left" if checks.remaining_p_value >= LEVEL else "a gap is left beside it")
+    return [*found, *(_without_names(note, each) for note in checks.notes)]
+
+
+def _without_names(note: str, each: Explanation) -> str:
+    for parameter in sorted(each.parameters, key=lambda parameter: -len(parameter.name)):
+        note = note.replace(parameter.name, _words(parameter))
+    return note
 
 
 def _prediction(checks: Checks) -> list[str]:

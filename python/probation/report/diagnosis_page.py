@@ -114,8 +114,7 @@ def _where(found: Diagnosis) -> Section:
     if found.acts:
         places = [f"{each.record} at {span_text(each.time_s)} s" for each in found.acts[:_PLACES]]
         more = [f"{len(found.acts) - _PLACES} more places"] if len(found.acts) > _PLACES else []
-        name = explanation_name(found.best, found)
-        parts.append(f"What {name} itself contributes is certain in {listed([*places, *more], 'and')}.")
+        parts.append(f"What {mended_by(found)} itself contributes is certain in {listed([*places, *more], 'and')}.")
     if found.signatures:
         parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(found))}.")
     return Section("Where the simulation departs", tuple(parts))
@@ -162,8 +161,8 @@ def _which(found: Diagnosis) -> Section:
 def _shrink(found: Diagnosis) -> Section:
     text = (
         "Orange dots are the errors of the base law, blue ones those with the explanation; upright ticks are the "
-        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when nothing is "
-        "gained, and negative when it gets worse."
+        "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when "
+        "nothing is gained, and negative when it gets worse."
     )
     parts: list[str | Table | Picture] = [
         text,
