@@ -293,3 +293,30 @@ def test_refits_of_simulated_data_are_right_as_often_as_foretold():
     expected = probability_of_the_right_one(3.0, found.cosine[0, 1])
     assert wins / draws == pytest.approx(expected, abs=3.0 * np.sqrt(0.25 / draws))
     assert 0.6 < expected < 0.97
+
+
+def test_a_rival_is_tried_at_shapes_between_its_starts():
+    """The rival's wave may have any frequency; its only start is far from the truth, its prior's grid is not."""
+    parameter = EffectParameter("size_MPa", "MPa", -100.0, 100.0, 1.0, "made up")
+    cycles = EffectParameter("cycles", "", 1.0, 1e3, 1.0, "any", centre=20.0, log=True, starts=(3.0,))
+    form = Form(
+        "any",
+        (parameter, cycles),
+        recorded_stress=lambda view, v, stress: stress + v[0] * wave(v[1])(view.elapsed / view.duration),
+        placements=("all",),
+    )
+    tunable = Effect("tunable", "tunable", "Made up.", "none", "here", "rig", (form,))
+    found = analysed([made_up("a", wave(20)), tunable])
+    assert found.angle[0, 1] == pytest.approx(0.0, abs=1e-3)
+    assert found.angle[1, 0] == pytest.approx(90.0, abs=10.0)
+    assert found.effects[1].values["cycles"] == 3.0
+
+
+def test_an_effect_that_cannot_be_solved_or_is_there_already_is_left_out_with_the_reason():
+    model = elastic_model(ramp("one", 0.001)).with_causes([gap.cause("force_offset")])
+    effects = [made_up("a", wave(20)), gap.effect("force_offset"), fragile(1e-9, ConvergenceError("made up"))]
+    found = isolability(model, model.start, white_noise(model.views, NOISE), effects)
+    assert found.names == ("a",)
+    assert [name for name, _ in found.left_out] == ["force_offset", "fragile"]
+    assert found.left_out[0][1] == "it is in the model already"
+    assert "found no solution of the law with size_MPa = 1" in found.left_out[1][1]

@@ -359,3 +359,32 @@ def test_the_engine_s_rate_dependent_law_is_planned_for_too():
     assert found is not None
     assert 0.5 <= found.probability_after <= 1.0
     assert found.ranking[0].test is found.test
+
+
+def elastic_choice(sigma, shapes):
+    """Two made-up effects of 1 MPa on an elastic bar, equally probable, and no effect at all with a tenth."""
+    model = elastic_bar(ramp("one", 0.01, 0.1))
+    explanations = [(model, model.start, 0.1, ())]
+    for name, shape in zip("ab", shapes, strict=True):
+        extended = model.with_causes([gap.cause(made_up(name, shape))])
+        explanations.append((extended, extended.parameters(model.start, (1.0,)), 0.45, (name,)))
+    return next_test(model, explanations, noises=white_noise(model.views, sigma))
+
+
+def test_effects_that_look_the_same_everywhere_are_not_helped_and_the_sentence_says_so():
+    found = elastic_choice(1e3, (np.ones_like, np.ones_like))
+    assert found.probability_before == pytest.approx(0.45)
+    assert found.probability_after == pytest.approx(0.45, abs=0.01)
+    assert found.what.startswith("None of the tests considered helps to tell")
+
+
+def test_no_effect_can_be_one_of_the_answers():
+    found = elastic_choice(0.01, (np.ones_like, lambda fraction: fraction**3))
+    assert found.separates == [[], ["a"], ["b"]]
+    assert "it tells no effect, a and b apart; the answer is then right with more than 99 %" in found.what
+
+
+def test_a_weak_test_is_not_said_to_tell_apart():
+    found = elastic_choice(10.0, (np.ones_like, lambda fraction: -np.ones_like(fraction)))
+    assert 0.47 < found.probability_after < 0.9
+    assert "it helps most between a and b" in found.what

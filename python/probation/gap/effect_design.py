@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.errors import InputError
 from probation.gap.effect_signals import signal
 from probation.gap.record_residual import RecordResidual
 from probation.gap.telling_apart import DETECTED
@@ -106,8 +107,15 @@ class Design:
     def smallest_seen(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
         """Least amplitude that is seen, at the shapes of the usual signal of length `size`; and what is left of it.
 
-        By the slope from zero and, where that fails (an effect with a threshold), by halving; None beyond the bounds.
+        By the slope from zero and, where that fails (an effect with a threshold), by halving; None beyond the bounds,
+        or beyond what the law can be solved with.
         """
+        try:
+            return self._search(usual, size)
+        except InputError:
+            return None
+
+    def _search(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
         end = usual.cause.form.amplitude.upper if usual.values[0] > 0.0 else usual.cause.form.amplitude.lower
         unseen, amplitude = 0.0, usual.values[0]
         if size < DETECTED:

@@ -66,12 +66,12 @@ class EffectSignal:
 
 def effect_signals(
     model: CampaignModel, parameters: FloatArray, effects: Iterable[Effect], *, threads: int = 1
-) -> list[EffectSignal]:
+) -> tuple[list[EffectSignal], dict[str, str]]:
     """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
 
-    Beside them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of a
-    form are a grid and not a function. In all records with one amplitude; a form that can sit in single records only: in
-    each of them. Effects that the law cannot follow are left out; see `CampaignModel.missing_notions`.
+    Beside them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of
+    a form are a grid and not a function. In all records with one amplitude; a form that can sit in single records
+    only: in each of them.
 
     Parameters
     ----------
@@ -80,10 +80,21 @@ def effect_signals(
     effects : iterable of Effect
     threads : int
         Signals are worked out in parallel.
+
+    Returns
+    -------
+    signals : list of EffectSignal
+        In the order of the effects.
+    left_out : dict of str to str
+        Names of effects without any signal, and why: the law does not know what they change, cannot be solved with
+        them, or they are in the model already.
     """
+    effects = tuple(effects)
+    present = {each.effect.name for each in model.causes}
     wanted = [
         (Cause(effect, form, records), values, usual)
         for effect in effects
+        if effect.name not in present
         for form in _placed_forms(effect)
         if not model.missing_notions(Cause(effect, form))
         for records, views in _places(model, effect, form)
@@ -91,14 +102,29 @@ def effect_signals(
     ]
     still = {view.id: at_rest(model, view, parameters) for view in model.views}
 
-    def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal:
+    def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal | str:
         cause, values, usual = item
-        return EffectSignal(cause, values, signal(model, parameters, cause, values, still), usual)
+        try:
+            return EffectSignal(cause, values, signal(model, parameters, cause, values, still), usual)
+        except InputError as unsolved:
+            return str(unsolved)
 
     if threads > 1:
         with ThreadPoolExecutor(threads) as pool:
-            return list(pool.map(work, wanted))
-    return [work(item) for item in wanted]
+            worked = list(pool.map(work, wanted))
+    else:
+        worked = [work(item) for item in wanted]
+    signals = [each for each in worked if isinstance(each, EffectSignal)]
+    shown = {each.cause.effect.name for each in signals if each.usual}
+    left_out = {}
+    for effect in effects:
+        if effect.name not in shown:
+            failed = (each for item, each in zip(wanted, worked, strict=True) if item[0].effect == effect)
+            known = (
+                "it is in the model already" if effect.name in present else "the law does not know what it would change"
+            )
+            left_out[effect.name] = next((each for each in failed if isinstance(each, str)), known)
+    return [each for each in signals if each.cause.effect.name in shown], left_out
 
 
 def at_rest(model: CampaignModel, view: RecordView, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:

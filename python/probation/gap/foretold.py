@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import solve_triangular
-from scipy.special import logsumexp
+from scipy.special import entr
 
 from probation.gap.model import CampaignModel
 from probation.gap.planned_record import planned_noise, planned_view
@@ -132,9 +132,9 @@ def foretold(
     noises : sequence of NoiseModel
         Of the records there are.
     """
-    view = planned_view(test.name, test.time, test.true_strain, test.jumps, model.views)
+    view = _view(test, model)
     noise = planned_noise(view, noises, model.views)
-    view = view.with_data(model.law.stress(view, base))
+    view = view.with_data(view.sampled(model.law.stress(view, base)))
     found = []
     for owner, each in enumerate(explanations):
         confined = [cause for cause in each.model.causes if _may_come_back(cause)]
@@ -143,6 +143,14 @@ def foretold(
             stress, slopes = _on(view, each, back, test)
             found.append(Foretelling(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))
     return found
+
+
+def _view(test: PlannedTest, model: CampaignModel) -> RecordView:
+    """A repeat is driven as its record was, smoothing and all."""
+    for view in model.views:
+        if view.id == test.repeats:
+            return replace(view, id=test.name, index=view.count)
+    return planned_view(test.name, test.time, test.true_strain, test.jumps, model.views)
 
 
 def _may_come_back(cause: Cause) -> bool:
@@ -203,30 +211,28 @@ def outcome(ways: Sequence[Foretelling], prior: FloatArray, group: Sequence[int]
     seed : int
     """
     owners = np.array([way.owner for way in ways])
-    weights = np.array([way.weight for way in ways])
-    means, roots = _reduced(ways)
-    noise = np.random.default_rng(seed).standard_normal((draws, means.shape[1]))
-    log_prior = np.log(np.maximum(prior[owners] * weights, 1e-300))
+    before = prior[owners] * np.array([way.weight for way in ways])
     groups = np.asarray(group)[owners]
-    members = [groups == each for each in range(max(group) + 1)]
-    total = np.array([logsumexp(log_prior[each]) for each in members])
-    probability, information = 0.0, -float(np.sum(np.exp(total) * total)) / np.log(2.0)
-    wins = np.zeros((len(members), len(members)))
-    for way, (mean, root) in enumerate(zip(means, roots, strict=True)):
+    member = np.eye(max(group) + 1)[groups]
+    total = before @ member
+    means, roots = _reduced(ways)
+    inverses = [solve_triangular(root, np.eye(len(root)), lower=True) for root in roots]
+    noise = np.random.default_rng(seed).standard_normal((draws, means.shape[1]))
+    probability, information = 0.0, float(entr(total).sum())
+    wins = np.zeros((len(total), len(total)))
+    for share, own, mean, root in zip(before, groups, means, roots, strict=True):
         results = mean + noise @ root.T
-        densities = np.stack([_log_density(results, m, r) for m, r in zip(means, roots, strict=True)], axis=1)
-        joint = np.stack([logsumexp((densities + log_prior)[:, each], axis=1) for each in members], axis=1)
-        posterior = np.exp(joint - logsumexp(joint, axis=1)[:, None])
-        share = float(np.exp(log_prior[way]))
+        logs = [_log_density(results, m, inverse) for m, inverse in zip(means, inverses, strict=True)]
+        densities = np.stack(logs, axis=1)
+        joint = (np.exp(densities - densities.max(axis=1, keepdims=True)) * before) @ member
+        posterior = joint / joint.sum(axis=1, keepdims=True)
         probability += share * float(np.mean(posterior.max(axis=1)))
-        entropy = -np.sum(posterior * np.log2(np.maximum(posterior, 1e-300)), axis=1)
-        information -= share * float(np.mean(entropy))
-        alone = joint - total
-        own = groups[way]
+        information -= share * float(np.mean(entr(posterior).sum(axis=1)))
+        alone = joint / total
         ahead = np.mean((alone[:, [own]] > alone) + 0.5 * (alone[:, [own]] == alone), axis=0)
-        wins[own] += share / np.exp(total[own]) * ahead
+        wins[own] += share / total[own] * ahead
     np.fill_diagonal(wins, 1.0)
-    return Outcome(min(probability, 1.0), max(information, 0.0), wins)
+    return Outcome(min(probability, 1.0), max(information, 0.0) / np.log(2.0), wins)
 
 
 def _reduced(ways: Sequence[Foretelling]) -> tuple[FloatArray, list[FloatArray]]:
@@ -243,9 +249,10 @@ def _reduced(ways: Sequence[Foretelling]) -> tuple[FloatArray, list[FloatArray]]
     return means, roots
 
 
-def _log_density(results: FloatArray, mean: FloatArray, root: FloatArray) -> FloatArray:
-    whitened = solve_triangular(root, (results - mean).T, lower=True)
-    return np.asarray(-0.5 * np.sum(whitened**2, axis=0) - np.sum(np.log(np.diag(root))), dtype=np.float64)
+def _log_density(results: FloatArray, mean: FloatArray, inverse: FloatArray) -> FloatArray:
+    """Of every result (n_draws, m), but for a constant; `inverse` is that of the covariance's Cholesky factor."""
+    whitened = (results - mean) @ inverse.T
+    return np.asarray(-0.5 * np.sum(whitened**2, axis=1) + np.sum(np.log(np.diag(inverse))), dtype=np.float64)
 
 
 def _prior_precision(scale: float, log: bool, value: float) -> float:

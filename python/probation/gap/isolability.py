@@ -214,14 +214,12 @@ def isolability(
     Raises
     ------
     InputError
-        For another number of noises than records, no effect that the law can follow, or one that it cannot be solved
-        with.
+        For another number of noises than records, or no effect that the law can follow.
     """
     if len(noises) != len(model.views):
         raise InputError(f"noises: found {len(noises)}, expected one for each of {len(model.views)} records")
-    effects = tuple(effects)
     design = Design.of(as_predicted(model, parameters), parameters, noises)
-    signals = effect_signals(design.model, parameters, effects, threads=threads)
+    signals, left_out = effect_signals(design.model, parameters, effects, threads=threads)
     if not signals:
         raise InputError("effects: found none that the law can follow, expected at least one")
     raw = design.whitened(np.array([each.stress for each in signals]).T)
@@ -236,10 +234,9 @@ def isolability(
         _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
         for row, k in enumerate(rivalry.chosen)
     ]
-    left_out = tuple(
-        (each.name, "the law does not know what it would change") for each in effects if each.name not in rivalry.names
+    return Isolability(
+        tuple(view.id for view in model.views), tuple(found), cosine, probability, tuple(left_out.items())
     )
-    return Isolability(tuple(view.id for view in model.views), tuple(found), cosine, probability, left_out)
 
 
 def _described(

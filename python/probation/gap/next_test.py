@@ -177,31 +177,30 @@ def next_test(
     worked.sort(key=lambda each: -each[0].worth)
     ranking = tuple(ranked for ranked, _ in worked)
     chosen, pairwise = worked[0]
-    separated = _separated(pairwise)
+    separated, surely = _separated(pairwise)
     before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
     separates = [list(answers[at]) for at in separated]
-    what = _sentence(chosen, separates, before)
+    what = _sentence(chosen, separates, surely, before)
     return NextTest(what, separates, before, chosen.probability_after, chosen.test, ranking)
 
 
-def _separated(pairwise: FloatArray) -> list[int]:
-    """Answers that are surely told from another; if there are none, the two that are told apart best."""
-    both = np.minimum(pairwise, pairwise.T) - np.eye(len(pairwise))
+def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
+    """Answers that are surely told from another, and True; if there are none, the two told apart best, and False."""
+    both = np.minimum(pairwise, pairwise.T)
+    np.fill_diagonal(both, -1.0)
     surely = np.flatnonzero((both >= SEPARATED).any(axis=1)).tolist()
-    return surely or sorted(int(at) for at in np.unravel_index(int(np.argmax(both)), both.shape))
+    best = sorted(int(at) for at in np.unravel_index(int(np.argmax(both)), both.shape))
+    return (surely, True) if surely else (best, False)
 
 
-def _sentence(chosen: RankedTest, separates: Sequence[Sequence[str]], before: float) -> str:
+def _sentence(chosen: RankedTest, separates: Sequence[Sequence[str]], surely: bool, before: float) -> str:
     names = [" with ".join(effects) if effects else "no effect" for effects in separates]
     told = f"{', '.join(names[:-1])} and {names[-1]}"
-    after = chosen.probability_after
+    what, after = chosen.test.what, chosen.probability_after
     if after < before + HELPS:
-        return (
-            f"None of the tests considered would help to tell {told} apart; least in vain: "
-            f"{chosen.test.what[0].lower()}{chosen.test.what[1:]}."
-        )
-    chance = f"the answer is then right with {_percent(after)}, now with {_percent(before)}"
-    return f"{chosen.test.what}: it tells {told} apart; {chance}."
+        return f"None of the tests considered helps to tell {told} apart; least in vain: {what[0].lower()}{what[1:]}."
+    does = f"it tells {told} apart" if surely else f"it helps most between {told}"
+    return f"{what}: {does}; the answer is then right with {_percent(after)}, now with {_percent(before)}."
 
 
 def _percent(probability: float) -> str:

@@ -124,8 +124,9 @@ class Rivalry:
 
 def _representative(signals: Sequence[EffectSignal], sizes: FloatArray, columns: NDArray[np.intp]) -> int:
     """Of the first form: the record where it shows best, the start whose signal is of middle length."""
-    form = signals[columns[0]].cause.form.name
-    first = [int(k) for k in columns if signals[k].cause.form.name == form and signals[k].usual]
+    usual = [int(k) for k in columns if signals[k].usual]
+    form = signals[usual[0]].cause.form.name
+    first = [k for k in usual if signals[k].cause.form.name == form]
     best = signals[max(first, key=lambda k: sizes[k])].cause.records
     there = sorted((k for k in first if signals[k].cause.records == best), key=lambda k: sizes[k])
     return there[len(there) // 2]
