@@ -43,6 +43,9 @@ PLACES = 2
 FORWARD, ADDITIONS = 3, 6
 """How many of the best explanations are added to, and how many additions each is given."""
 
+LEADING = 6
+"""Hypotheses beside which an unknown effect is looked for."""
+
 WORTH = 10.0
 """Linearised gain from which on an addition is refitted."""
 
@@ -73,7 +76,7 @@ class Search:
     found: list[Hypothesis] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.found.append(self._judged(self.base.refit))
+        self.found.append(self._judged(self.base.refit, unknown=True))
 
     @property
     def none(self) -> Hypothesis:
@@ -83,6 +86,7 @@ class Search:
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
         self._singles(columns)
+        self._look_beside_the_leading()
         self._told(0.6)
         size = 1
         while size < MOST_EFFECTS:
@@ -94,6 +98,7 @@ class Search:
                 self._additions(each)
             if size == 1 and left:
                 self._swaps()
+            self._look_beside_the_leading()
             if not self.ranked(size + 1) or self.ranked()[0].effects in {each.effects for each in leading}:
                 break
             size += 1
@@ -125,7 +130,7 @@ class Search:
         limit = best + (IN_THE_RUNNING - 1.0) * gap + SLACK
         running = [each for each, own in zip(raced, left, strict=True) if own <= limit]
         out = [each for each, own in zip(raced, left, strict=True) if own > limit]
-        self.found += [self._judged(each, unknown=False) for each in out]
+        self.found += [self._judged(each) for each in out]
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         more = [each for each in _others(candidates, first, STARTS - 1) if cause_key(each.cause) in keys]
@@ -191,8 +196,18 @@ class Search:
             found = [work(item) for item in items]
         return [each for each in found if each is not None]
 
-    def _judged(self, found: Refit, *, unknown: bool = True) -> Hypothesis:
+    def _judged(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
         return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy, unknown=unknown))
+
+    def _look_beside_the_leading(self) -> None:
+        """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
+        leading = {id(each) for each in self.ranked()[:LEADING]}
+        self.found = [
+            self._judged(each.refit, unknown=True)
+            if id(each) in leading and not np.isfinite(each.evidence.log_evidence_unknown)
+            else each
+            for each in self.found
+        ]
 
     def _told(self, part: float) -> None:
         if self.progress:
