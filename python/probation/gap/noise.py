@@ -13,6 +13,7 @@ from scipy.ndimage import uniform_filter1d
 from scipy.special import chdtrc
 
 from probation.gap.arma import Arma, ArmaFit, Periodogram, fit_arma, matched_level
+from probation.gap.local_size import local_size
 from probation.gap.noise_model import Growth, NoiseModel
 from probation.gap.quantisation import quantisation_noise, quantisation_step
 from probation.gap.smooth_basis import WAVES, smooth_basis, waves
@@ -59,14 +60,8 @@ LOW_BAND = 60
 QUIET = 80
 """Quiet samples that suffice for an estimate of their own."""
 
-BURST = 4.0
-"""Autocorrelation of the noise's size, in standard errors, from which on it comes in bursts."""
-
 COARSE = 1.2
 """Readings whose step is this many standard deviations of the noise say nothing of how it grows."""
-
-WINDOW = 31
-"""Samples over which the size of bursting noise is followed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,29 +270,10 @@ def _growth(record: RecordResidual, residual: FloatArray, coarse: bool) -> tuple
         if slope > 0.5 and slope > 3.0 * error:
             growth, profile = "force", np.exp(record.true_strain)
     profile = profile / np.sqrt(np.mean(profile**2))
-    scaled = np.abs(left) / profile
-    scaled = np.minimum(scaled, 5.0 * float(np.mean(scaled)))
-    thin = uniform_filter1d(np.abs(np.diff(left, append=left[-1])) / profile, 3)[::6]
-    if len(thin) > 12 and _clusters(thin) > BURST:
-        mean = uniform_filter1d(scaled, WINDOW, mode="reflect")
-        mean = np.maximum(mean, 0.1 * float(np.median(mean)))
-        logs = np.log(mean / np.mean(mean))
-        chance = 1.5 * 0.57 / WINDOW
-        keep = max(1.0 - chance / max(float(np.var(logs)), 1e-12), 0.0)
-        profile = profile * np.exp(keep * logs)
-        growth = "local"
+    local = local_size(left / profile)
+    if local is not None:
+        profile, growth = profile * local, "local"
     return growth, profile / np.sqrt(np.mean(profile**2))
-
-
-def _clusters(size: FloatArray) -> float:
-    """Autocorrelation of a size over its first four lags, in standard errors."""
-    logs = np.log(np.maximum(size, 1e-3 * float(np.mean(size)) + 1e-300))
-    logs = logs - logs.mean()
-    variance = float(logs @ logs)
-    if variance == 0.0:
-        return 0.0
-    lags = [float(logs[lag:] @ logs[:-lag]) / variance for lag in range(1, 5)]
-    return float(np.sum(lags) * np.sqrt(len(size)) / 2.0)
 
 
 @dataclass(frozen=True)
