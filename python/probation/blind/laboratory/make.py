@@ -89,7 +89,7 @@ def _attempt(random: Generator, stratum: str) -> tuple[_Run, list[Planted], list
     wishes = _wishes(random, stratum)
     design = draw_design(
         random,
-        needs_unloading=any(wish.cause.needs_unloading for wish in wishes),
+        needs_unloading=any(wish.cause.needs_unloading for wish in wishes) or random.uniform() < 0.3,
         needs_reach=any(wish.cause.name == "finite_extensibility" for wish in wishes),
     )
     run = _Run(random, design)
@@ -99,9 +99,7 @@ def _attempt(random: Generator, stratum: str) -> tuple[_Run, list[Planted], list
         if found is None:
             return None
         planted.append(found)
-    run.bank.add(
-        random, [*KNOWN, *OUTSIDE], extra=[(each.acting.cause, each.acting.shape, each.record) for each in planted]
-    )
+    run.bank.add(random, [*KNOWN, *OUTSIDE])
     mimics = ""
     if stratum == "outside" and left_by_others(run.bank.signals, planted[0].column, ())[0] < _OUTSIDE_LEFT:
         return None
@@ -111,6 +109,8 @@ def _attempt(random: Generator, stratum: str) -> tuple[_Run, list[Planted], list
             return None
         wish, found, mimics = pretence
         wishes, planted = [wish], [found]
+    else:
+        run.bank.add(random, [], extra=[(each.acting.cause, each.acting.shape, each.record) for each in planted])
     recorded = record_all(random, run.bench, design.noise, run.noises, run.bank, planted)
     if recorded.sampling_detectability > SAMPLING_LIMIT:
         return None

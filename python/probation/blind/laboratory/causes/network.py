@@ -95,6 +95,6 @@ def _stages(random: Generator, setting: Setting) -> Shape:
 CAUSES = (
     Cause("finite_extensibility", 0.02, lambda r, s: {}, change=_three_chains, draws=1, most=_short_of_locking),
     Cause("finite_extensibility", 0.008, lambda r, s: {}, change=_warner, draws=1, most=_short_of_locking),
-    Cause("rate_dependent_hardening", 0.05, _memory, change=_remembered, signed=True),
-    Cause("delayed_hardening", 0.3, _stages, change=_delayed, draws=5),
+    Cause("rate_dependent_hardening", 0.05, _memory, change=_remembered, signed=True, draws=2),
+    Cause("delayed_hardening", 0.3, _stages, change=_delayed, draws=4),
 )

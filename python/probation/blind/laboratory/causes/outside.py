@@ -127,7 +127,7 @@ CAUSES = (
         needs_unloading=True,
         draws=2,
     ),
-    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True),
+    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True, draws=2),
     Cause("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, outside=True, placements=("all", "one")),
     Cause("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, outside=True, draws=2),
     Cause(
@@ -159,5 +159,5 @@ CAUSES = (
         change=_crystals,
         outside=True,
     ),
-    Cause("blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True),
+    Cause("blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True, draws=2),
 )

@@ -61,5 +61,5 @@ CAUSES = (
         placements=("all", "one"),
         draws=1,
     ),
-    Cause("grip_slip", 0.005, _instant, strain=_slip, placements=("one",), localised=True, draws=8),
+    Cause("grip_slip", 0.005, _instant, strain=_slip, placements=("one",), localised=True, draws=5),
 )
