@@ -17,7 +17,7 @@ FORGOTTEN = 22.0
 
 
 def decaying_sum(exponent: FloatArray, push: FloatArray) -> FloatArray:
-    """Solve s_0 = 0, s_(m+1) = e^(-z_m) s_m + b_m; `exponent` z and `push` b have the shape (n - 1,), the answer (n,)."""
+    """Solve s_0 = 0, s_(m+1) = e^(-z_m) s_m + b_m, shape (n,), from `exponent` z and `push` b, shape (n - 1,)."""
     steps = len(push)
     blocks = -(-steps // BLOCK)
     z, b = np.zeros(blocks * BLOCK), np.zeros(blocks * BLOCK)

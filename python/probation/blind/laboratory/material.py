@@ -32,7 +32,7 @@ SOFTENING = 0.1
 """Fall of ln tau_max per degree at the reference temperature [1/K]: 75 kJ/mol."""
 _TAYLOR_QUINNEY = 0.9
 _ITERATIONS = 100
-_SETTLED_MPA = 1e-6
+_SETTLED_MPA = 1e-5
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,14 @@ class BaseLaw:
 
     def shifted(self, which: int, relative: float) -> BaseLaw:
         """The law with one parameter (0 to 2) larger by a relative amount."""
-        values = [self.unrelaxed_modulus, self.longest_time, self.hardening_modulus]
-        values[which] *= 1.0 + relative
-        return BaseLaw(*values, companion=self.companion)
+        factor = [1.0, 1.0, 1.0]
+        factor[which] += relative
+        return BaseLaw(
+            self.unrelaxed_modulus * factor[0],
+            self.longest_time * factor[1],
+            self.hardening_modulus * factor[2],
+            self.companion,
+        )
 
 
 @dataclass(frozen=True)
@@ -156,7 +161,9 @@ def integrate(specimens: Sequence[Specimen]) -> list[FloatArray]:
             if float(np.max(np.abs(change))) > _SETTLED_MPA:
                 still.append(k)
         moving = still
-    worst = max(float(np.max(np.abs(new - stress[k]))) for k, new in zip(moving, found, strict=False)) if moving else 0.0
+    worst = (
+        max(float(np.max(np.abs(new - stress[k]))) for k, new in zip(moving, found, strict=False)) if moving else 0.0
+    )
     if worst > 1e-2:
         raise RuntimeError(f"feedback of the stress: not settled after {_ITERATIONS} passes ({worst:.1e} MPa)")
     return stress
@@ -174,13 +181,13 @@ class _Fed:
             gain = specimen.activation.log_gain(stress)
             slope = (specimen.activation.log_gain(1.001 * stress) - gain) / 0.001
             self.log_time = self.log_time - 0.5 * (gain[1:] + gain[:-1])
-            self.damping = self.damping / (1.0 + 0.5 * slope)
+            viscous = np.abs(stress - specimen.relaxed) / np.maximum(np.abs(stress), 1e-9)
+            self.damping = 1.0 / (1.0 + slope * np.minimum(viscous, 1.0))
         if specimen.heating is not None:
             warm = specimen.heating.rise(specimen, stress)
             softened = SOFTENING * warm / (1.0 + warm / REFERENCE_TEMPERATURE)
             self.log_time = self.log_time - 0.5 * (softened[1:] + softened[:-1])
             self.relaxed = self.relaxed * np.maximum(1.0 - specimen.heating.hardening_loss * warm, 0.1)
-            self.damping = self.damping / (1.0 + 0.3 * softened)
 
 
 def _solved(specimens: Sequence[Specimen], fed: Sequence[_Fed]) -> list[FloatArray]:
@@ -214,7 +221,9 @@ def _overstress(reduced: FloatArray, drive: FloatArray, weight: FloatArray, star
         grown = np.exp(np.cumsum(np.minimum(z, FORGOTTEN), axis=0))
         pushed *= grown
         states = (u[:, fast:] + np.cumsum(pushed, axis=0)) / grown
-        over[first + 1 : first + 1 + len(z)] = np.einsum("tvm,vm->tv", states, weight[:, fast:]) + flow * steady[:, fast]
+        over[first + 1 : first + 1 + len(z)] = (
+            np.einsum("tvm,vm->tv", states, weight[:, fast:]) + flow * steady[:, fast]
+        )
         u[:, :fast] = flow[-1][:, None] * TIME_RATIO[:fast]
         u[:, fast:] = states[-1]
     return over

@@ -119,7 +119,9 @@ def draw_record_noise(
     variance = (own * spread) ** 2
     variance[1:] += (noise.memory * spread[:-1]) ** 2
     next_one = own[:-1] * noise.memory * spread[:-1] ** 2 * profile[:-1] * profile[1:]
-    covariance = np.diag(profile**2 * (variance + noise.quantum**2 / 12.0)) + np.diag(next_one, 1) + np.diag(next_one, -1)
+    covariance = (
+        np.diag(profile**2 * (variance + noise.quantum**2 / 12.0)) + np.diag(next_one, 1) + np.diag(next_one, -1)
+    )
     drift = np.zeros(n)
     if noise.drift > 0.0:
         lag = np.abs(time[:, None] - time) / (time[-1] - time[0])
@@ -137,7 +139,7 @@ def draw_record_noise(
 
 
 def _smeared(white: FloatArray, memory: float) -> FloatArray:
-    answer = white * np.sqrt(1.0 - memory**2)
+    answer: FloatArray = white * np.sqrt(1.0 - memory**2)
     answer[0] = white[0]
     answer[1:] += memory * white[:-1]
     return answer
@@ -152,7 +154,7 @@ def _pink(random: Generator, time: FloatArray) -> FloatArray:
     for m in range(len(fade)):
         state = fade[m] * state + kick[m]
         answer.append(state.sum())
-    return np.array(answer) / np.sqrt(len(_OCTAVES))
+    return np.asarray(np.array(answer) / np.sqrt(len(_OCTAVES)))
 
 
 def strain_response(law: BaseLaw, time: FloatArray, strain: FloatArray) -> FloatArray:

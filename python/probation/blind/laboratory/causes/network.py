@@ -31,7 +31,7 @@ def _three_chains(trial: Trial, amplitude: float, shape: Shape) -> None:
     stretch = np.exp(trial.strain)
 
     def pull(axis: FloatArray) -> FloatArray:
-        return root / 3.0 * axis * _inverse_langevin(np.minimum(axis / root, _NEARLY_LOCKED))
+        return np.asarray(root / 3.0 * axis * _inverse_langevin(np.minimum(axis / root, _NEARLY_LOCKED)))
 
     across = 1.0 / np.sqrt(stretch)
     small = np.array([1.0 + 1e-4])

@@ -159,5 +159,7 @@ CAUSES = (
         change=_crystals,
         outside=True,
     ),
-    Cause("blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True, draws=2),
+    Cause(
+        "blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True, draws=2
+    ),
 )
