@@ -174,15 +174,15 @@ def test_every_name_of_the_contract_can_be_withheld():
 
 @pytest.fixture(scope="module")
 def campaigns():
-    return [laboratory.make(5, index) for index in range(4)]
+    return [laboratory.make(1, index) for index in (18, 22, 23, 48)]
 
 
 def test_a_campaign_is_the_same_for_the_same_seed_and_another_for_another(campaigns):
-    again = laboratory.make(5, 2)
-    assert again.truth.to_json() == campaigns[2].truth.to_json()
-    for one, other in zip(again.records, campaigns[2].records, strict=True):
+    again = laboratory.make(1, 22)
+    assert again.truth.to_json() == campaigns[1].truth.to_json()
+    for one, other in zip(again.records, campaigns[1].records, strict=True):
         assert np.array_equal(one.true_stress, other.true_stress)
-    other_split = laboratory.make(5, 2, split="calibrate")
+    other_split = laboratory.make(1, 22, split="calibrate")
     assert other_split.truth.base != again.truth.base
 
 
