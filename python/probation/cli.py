@@ -11,7 +11,19 @@ import warnings
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
-from probation.commands import certify, companion, coverage, crosscheck, demo, excitation, fit, paper, preview, simulate
+from probation.commands import (
+    blind,
+    certify,
+    companion,
+    coverage,
+    crosscheck,
+    demo,
+    excitation,
+    fit,
+    paper,
+    preview,
+    simulate,
+)
 from probation.errors import ConvergenceError, InputError
 from probation.histories.named import nearest
 from probation.report.provenance import running
@@ -19,7 +31,7 @@ from probation.report.provenance import running
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (demo, preview, excitation, fit, companion, certify, crosscheck, simulate, coverage, paper)
+COMMANDS = (demo, preview, excitation, fit, companion, certify, crosscheck, simulate, coverage, paper, blind)
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
 
 _DESCRIPTION = """\

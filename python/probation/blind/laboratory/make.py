@@ -69,9 +69,7 @@ def make(seed: int, index: int, split: str = "develop") -> SealedCampaign:
         found = _attempt(random, stratum)
         if found is not None:
             return _sealed(split, seed, index, stratum, found)
-    raise RuntimeError(
-        f"{campaign_name(split, seed, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs"
-    )
+    raise RuntimeError(f"{campaign_name(split, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs")
 
 
 class _Run:
@@ -187,7 +185,11 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
         noise_level={name: noise.level for name, noise in zip(bench.ids, run.noises, strict=True)},
         noise={name: float(value) for name, value in asdict(run.design.noise).items()},
         records={
-            name: {"history": test.schedule.kind, "role": "held-out" if out else "identify"}
+            name: {
+                "history": test.schedule.kind,
+                "role": "held-out" if out else "identify",
+                "duration_s": float(test.time[-1]),
+            }
             for name, test, out in zip(bench.ids, bench.tests, bench.held_out, strict=True)
         },
         sampling_detectability=outcome.undisturbed.sampling_detectability,

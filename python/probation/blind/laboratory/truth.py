@@ -96,7 +96,7 @@ class Truth:
     noise : dict
         Its make.
     records : dict
-        Kind and role of every record's history.
+        Kind, role and duration of every record's history.
     sampling_detectability : float
         What sampling and filtering alone make of the base law's stress.
     drift_detectability : float
@@ -119,7 +119,7 @@ class Truth:
     base: dict[str, float]
     noise_level: dict[str, float]
     noise: dict[str, float]
-    records: dict[str, dict[str, str]]
+    records: dict[str, dict[str, str | float]]
     sampling_detectability: float
     drift_detectability: float
     oracle: dict[str, object]
@@ -128,7 +128,7 @@ class Truth:
     @property
     def name(self) -> str:
         """Of the campaign."""
-        return campaign_name(self.split, self.seed, self.index)
+        return campaign_name(self.split, self.index)
 
     def to_json(self) -> str:
         """As JSON text, in full precision."""
@@ -136,6 +136,6 @@ class Truth:
         return json.dumps({"schema": SCHEMA, "name": self.name, **content}, allow_nan=False, indent=1) + "\n"
 
 
-def campaign_name(split: str, seed: int, index: int) -> str:
-    """Such as "develop-7-0012"; it says nothing of the truth."""
-    return f"{split}-{seed}-{index:04d}"
+def campaign_name(split: str, index: int) -> str:
+    """Such as "develop-0012"; it says nothing of the truth, nor of the seed that would give it away."""
+    return f"{split}-{index:04d}"
