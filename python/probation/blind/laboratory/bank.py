@@ -134,6 +134,10 @@ class Bank:
         """Without what the base law's parameters can follow."""
         return np.asarray(column - self._tangent @ (self._tangent.T @ column))
 
+    def samples(self, column: FloatArray) -> dict[int, FloatArray]:
+        """Samples [MPa] that have a projected, whitened column, by record."""
+        return {k: self._noises[k].factor @ column[rows] for k, rows in self._rows.items()}
+
     def setting(self, records: Sequence[int]) -> Setting:
         """What a shape may go by, for a cause in these records."""
         bench = self.bench

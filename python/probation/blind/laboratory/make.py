@@ -126,6 +126,8 @@ def _attempt(random: Generator, stratum: str) -> _Outcome | None:
     else:
         run.bank.signals += [_signal_of(run.bank, each) for each in planted]
     recorded = record_all(run.bench, design.noise, run.noises, run.bank, planted, undisturbed)
+    if abs(recorded.drift_detectability) >= 1.0:
+        return None
     target = max((wish.target for wish in wishes), default=0.0)
     return _Outcome(run, planted, target, mimics, undisturbed, recorded)
 

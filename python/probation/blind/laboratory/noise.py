@@ -72,7 +72,7 @@ def draw_noise(random: Generator, largest_stress: float, gentle: bool) -> Noise:
         quantum=float(level * random.choice([0.0, random.uniform(0.2, 1.2)])),
         strain=0.0 if quiet else float(10.0 ** random.uniform(-6.0, -4.3)),
         strain_quantum=0.0,
-        filter_samples=float(random.choice([0.0, 0.0, random.uniform(0.3, 1.0)])),
+        filter_samples=float(random.choice([0.0, 0.0, random.uniform(0.2, 0.6)])),
     )
 
 

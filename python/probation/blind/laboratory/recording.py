@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from probation.blind.laboratory.trial import Acting
 
 _DRIFT_LIMIT = 0.95
+_PASSES = 5000
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def record_all(
     undisturbed: Undisturbed,
 ) -> Recorded:
     """Run every test on the fine grid and record it."""
-    share, drift = _drift_share(bank, noises)
+    drifts, drift_left = _harmless_drifts(bank, noises)
     strains, stresses, added_rms = [], [], []
     clean, residual = {}, {}
     for k, each in enumerate(noises):
@@ -66,7 +67,7 @@ def record_all(
         truth = _channels(bench, k, causes, noise)[0] if causes else plain
         added_rms.append(float(np.sqrt(np.mean((truth - plain) ** 2))))
         strain = _converted(seen + each.strain, noise.strain_quantum)
-        stress = _converted(truth + each.rough + share * each.drift, noise.quantum)
+        stress = _converted(truth + each.rough + drifts[k], noise.quantum)
         strains.append(_as_written(strain))
         stresses.append(_as_written(stress))
         if k in bench.identified:
@@ -78,7 +79,7 @@ def record_all(
         clean=bank.column(clean),
         observed=bank.column(residual),
         added_rms=added_rms,
-        drift_detectability=drift,
+        drift_detectability=drift_left,
     )
 
 
@@ -101,12 +102,28 @@ def run_undisturbed(bench: Bench, noise: Noise, bank: Bank) -> Undisturbed:
     return Undisturbed(list(stress), list(strain), float(np.linalg.norm(bank.column(added))))
 
 
-def _drift_share(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[float, float]:
-    """By how much the drift is turned down so that it looks like no effect, and how much it does then."""
-    column = bank.column({k: noises[k].drift for k in bank.bench.identified})
-    most = max(abs(float(each.column @ column)) / each.norm for each in bank.signals if not each.cause.outside)
-    share = min(1.0, _DRIFT_LIMIT / max(most, 1e-12))
-    return share, share * most
+def _harmless_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[FloatArray], float]:
+    """The drifts without what would look like an effect, and the largest projection on an effect that is left.
+
+    The direction that is most alike is taken down to what is allowed, and again until all are.
+    """
+    drifts = [each.drift.copy() for each in noises]
+    if not any(np.any(each) for each in drifts):
+        return drifts, 0.0
+    directions = np.stack([each.column / each.norm for each in bank.signals if not each.cause.outside], axis=1)
+    alike = directions.T @ bank.column({k: drifts[k] for k in bank.bench.identified})
+    cosines = directions.T @ directions
+    taken = np.zeros_like(alike)
+    for _ in range(_PASSES):
+        worst = int(np.argmax(np.abs(alike)))
+        if abs(alike[worst]) <= _DRIFT_LIMIT:
+            break
+        excess = alike[worst] - np.sign(alike[worst]) * 0.8 * _DRIFT_LIMIT
+        taken[worst] += excess
+        alike -= excess * cosines[:, worst]
+    for k, samples in bank.samples(directions @ taken).items():
+        drifts[k] -= samples
+    return drifts, float(np.max(np.abs(alike)))
 
 
 def _channels(bench: Bench, k: int, causes: Sequence[Acting], noise: Noise) -> tuple[FloatArray, FloatArray]:
