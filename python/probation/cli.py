@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
 from probation.commands import (
+    blind,
     certify,
     companion,
     coverage,
@@ -31,7 +32,7 @@ from probation.report.provenance import running
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, coverage, paper)
+COMMANDS = (demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, coverage, paper, blind)
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
 
 _DESCRIPTION = """\

@@ -106,9 +106,7 @@ class Bank:
         self.bench, self._noises = bench, noises
         sizes = [len(bench.tests[k].time) for k in bench.identified]
         ends = np.cumsum(sizes)
-        self._rows = {
-            k: slice(end - size, end) for k, size, end in zip(bench.identified, sizes, ends, strict=True)
-        }
+        self._rows = {k: slice(end - size, end) for k, size, end in zip(bench.identified, sizes, ends, strict=True)}
         self.size = int(ends[-1])
         self.base: dict[int, FloatArray] = {}
         tangent = np.zeros((self.size, 3))
@@ -136,6 +134,10 @@ class Bank:
         """Without what the base law's parameters can follow."""
         return np.asarray(column - self._tangent @ (self._tangent.T @ column))
 
+    def samples(self, column: FloatArray) -> dict[int, FloatArray]:
+        """Samples [MPa] that have a projected, whitened column, by record."""
+        return {k: self._noises[k].factor @ column[rows] for k, rows in self._rows.items()}
+
     def setting(self, records: Sequence[int]) -> Setting:
         """What a shape may go by, for a cause in these records."""
         bench = self.bench
@@ -157,8 +159,8 @@ class Bank:
             unloads=any(test.schedule.unloads for test in tests),
         )
 
-    def add(self, random: Generator, causes: Sequence[Cause], extra: Sequence[tuple[Cause, Shape, int | None]] = ()) -> None:
-        """Add signals of causes, in shapes that are drawn, and of some given shapes (in one record, or in all)."""
+    def add(self, random: Generator, causes: Sequence[Cause]) -> None:
+        """Add signals of causes, in shapes that are drawn."""
         everywhere: list[tuple[Cause, Shape]] = []
         single: list[tuple[Cause, Shape, int]] = []
         bench = self.bench
@@ -171,8 +173,6 @@ class Bank:
             else:
                 for k in bench.identified:
                     single += [(cause, cause.draw(random, self.setting([k])), k) for _ in range(cause.draws)]
-        everywhere += [(cause, shape) for cause, shape, record in extra if record is None]
-        single += [(cause, shape, record) for cause, shape, record in extra if record is not None]
         blocks: dict[int, list[FloatArray]] = {}
         for k in bench.identified:
             here = [*everywhere, *((cause, shape) for cause, shape, record in single if record == k)]
@@ -211,9 +211,7 @@ class Bank:
     def added(self, k: int, causes: Sequence[Sequence[Acting]]) -> list[FloatArray]:
         """What sets of causes add to the recorded stress of a record, on the samples' grid."""
         solving = [j for j, each in enumerate(causes) if any(acting.cause.solves for acting in each)]
-        stress = dict(
-            zip(solving, recorded_stress([(self.bench.trial(k), causes[j]) for j in solving]), strict=True)
-        )
+        stress = dict(zip(solving, recorded_stress([(self.bench.trial(k), causes[j]) for j in solving]), strict=True))
         plain = self.bench.trial(k)
         answers = []
         for j, each in enumerate(causes):

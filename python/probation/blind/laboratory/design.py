@@ -63,10 +63,8 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) 
     count = int(random.integers(3, 9))
     schedules = draw_schedules(random, count, slowest, fastest, end, modulus, needs_unloading, with_companion)
     controller = draw_controller(random)
-    samples = int(random.integers(350, 800))
-    tests = tuple(
-        drive(random, each, max(int(samples * random.uniform(0.85, 1.2)), 300), controller) for each in schedules
-    )
+    samples = int(random.integers(280, 560))
+    tests = tuple(drive(random, each, int(samples * random.uniform(0.85, 1.2)), controller) for each in schedules)
     held_out = [False] * count
     if count >= 4 and random.uniform() < _HELD_OUT_PART * 1.2:
         held_out[int(random.integers(count))] = True

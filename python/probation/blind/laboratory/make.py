@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 from zlib import crc32
 
 import numpy as np
 
-from probation.blind.laboratory.bank import Bank
+from probation.blind.laboratory.bank import Bank, Signal
 from probation.blind.laboratory.campaign import SealedCampaign, WrittenRecord
 from probation.blind.laboratory.causes import KNOWN, OUTSIDE
 from probation.blind.laboratory.design import Design, draw_design
 from probation.blind.laboratory.noise import draw_record_noise
-from probation.blind.laboratory.oracle import UNKNOWN, consult, explanation
+from probation.blind.laboratory.oracle import consult, explanation
 from probation.blind.laboratory.placing import (
     Planted,
     Wish,
@@ -22,7 +22,7 @@ from probation.blind.laboratory.placing import (
     left_by_others,
     plant,
 )
-from probation.blind.laboratory.recording import record_all
+from probation.blind.laboratory.recording import record_all, run_undisturbed
 from probation.blind.laboratory.truth import Truth, campaign_name
 from probation.blind.laboratory.withheld import describe
 from probation.errors import InputError
@@ -30,8 +30,7 @@ from probation.errors import InputError
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from probation.blind.laboratory.bank import Signal
-    from probation.blind.laboratory.recording import Recorded
+    from probation.blind.laboratory.recording import Recorded, Undisturbed
 
 SPLITS = ("develop", "calibrate", "test")
 STRATA = ("none", "single", "pair", "outside", "mimic")
@@ -69,8 +68,8 @@ def make(seed: int, index: int, split: str = "develop") -> SealedCampaign:
     for _ in range(_ATTEMPTS):
         found = _attempt(random, stratum)
         if found is not None:
-            return _sealed(split, seed, index, stratum, *found)
-    raise RuntimeError(f"{campaign_name(split, seed, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs")
+            return _sealed(split, seed, index, stratum, found)
+    raise RuntimeError(f"{campaign_name(split, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs")
 
 
 class _Run:
@@ -85,23 +84,36 @@ class _Run:
         self.bank = Bank(self.bench, self.noises)
 
 
-def _attempt(random: Generator, stratum: str) -> tuple[_Run, list[Planted], list[Wish], str, Recorded] | None:
+@dataclass(frozen=True)
+class _Outcome:
+    """A campaign that may be sealed."""
+
+    run: _Run
+    planted: list[Planted]
+    target: float
+    mimics: str
+    undisturbed: Undisturbed
+    recorded: Recorded
+
+
+def _attempt(random: Generator, stratum: str) -> _Outcome | None:
     wishes = _wishes(random, stratum)
     design = draw_design(
         random,
-        needs_unloading=any(wish.cause.needs_unloading for wish in wishes),
+        needs_unloading=any(wish.cause.needs_unloading for wish in wishes) or random.uniform() < 0.3,
         needs_reach=any(wish.cause.name == "finite_extensibility" for wish in wishes),
     )
     run = _Run(random, design)
+    undisturbed = run_undisturbed(run.bench, design.noise, run.bank)
+    if undisturbed.sampling_detectability > SAMPLING_LIMIT:
+        return None
     planted: list[Planted] = []
     for wish in wishes:
         found = plant(random, run.bank, wish)
         if found is None:
             return None
         planted.append(found)
-    run.bank.add(
-        random, [*KNOWN, *OUTSIDE], extra=[(each.acting.cause, each.acting.shape, each.record) for each in planted]
-    )
+    run.bank.add(random, [*KNOWN, *OUTSIDE])
     mimics = ""
     if stratum == "outside" and left_by_others(run.bank.signals, planted[0].column, ())[0] < _OUTSIDE_LEFT:
         return None
@@ -111,10 +123,13 @@ def _attempt(random: Generator, stratum: str) -> tuple[_Run, list[Planted], list
             return None
         wish, found, mimics = pretence
         wishes, planted = [wish], [found]
-    recorded = record_all(random, run.bench, design.noise, run.noises, run.bank, planted)
-    if recorded.sampling_detectability > SAMPLING_LIMIT:
+    else:
+        run.bank.signals += [_signal_of(run.bank, each) for each in planted]
+    recorded = record_all(run.bench, design.noise, run.noises, run.bank, planted, undisturbed)
+    if abs(recorded.drift_detectability) >= 1.0:
         return None
-    return run, planted, wishes, mimics, recorded
+    target = max((wish.target for wish in wishes), default=0.0)
+    return _Outcome(run, planted, target, mimics, undisturbed, recorded)
 
 
 def _wishes(random: Generator, stratum: str) -> list[Wish]:
@@ -148,12 +163,10 @@ def _pretence(random: Generator, run: _Run) -> tuple[Wish, Planted, str] | None:
     return (wish, found, name) if left < 2.0 else None
 
 
-def _sealed(
-    split: str, seed: int, index: int, stratum: str,
-    run: _Run, planted: list[Planted], wishes: list[Wish], mimics: str, recorded: Recorded,
-) -> SealedCampaign:
+def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) -> SealedCampaign:
+    run, planted, recorded = outcome.run, outcome.planted, outcome.recorded
     bench, bank = run.bench, run.bank
-    acting = [_signal_of(bank.signals, each) for each in planted]
+    acting = [_signal_of(bank, each) for each in planted]
     oracle = consult(run.random, bank.signals, recorded.clean, recorded.observed, acting)
     third = "tau_max_s" if bench.law.companion is None else "alpha"
     truth = Truth(
@@ -161,9 +174,9 @@ def _sealed(
         seed=seed,
         index=index,
         stratum=stratum,
-        target=max((wish.target for wish in wishes), default=0.0),
+        target=outcome.target,
         causes=tuple(describe(bank, each) for each in planted),
-        mimics=mimics,
+        mimics=outcome.mimics,
         explanation=explanation(acting),
         detectability=float(np.linalg.norm(recorded.clean)),
         base={
@@ -171,13 +184,17 @@ def _sealed(
             third: bench.law.longest_time,
             "hardening_modulus_MPa": bench.law.hardening_modulus,
         },
-        noise_MPa={name: noise.level for name, noise in zip(bench.ids, run.noises, strict=True)},
+        noise_level={name: noise.level for name, noise in zip(bench.ids, run.noises, strict=True)},
         noise={name: float(value) for name, value in asdict(run.design.noise).items()},
         records={
-            name: {"history": test.schedule.kind, "role": "held-out" if out else "identify"}
+            name: {
+                "history": test.schedule.kind,
+                "role": "held-out" if out else "identify",
+                "duration_s": float(test.time[-1]),
+            }
             for name, test, out in zip(bench.ids, bench.tests, bench.held_out, strict=True)
         },
-        sampling_detectability=recorded.sampling_detectability,
+        sampling_detectability=outcome.undisturbed.sampling_detectability,
         drift_detectability=recorded.drift_detectability,
         oracle={
             "posterior": oracle.posterior,
@@ -185,7 +202,7 @@ def _sealed(
             "resolvable": oracle.resolvable,
             "answer_set": [list(names) for names in oracle.answer_set],
         },
-        added_MPa={name: value for name, value in zip(bench.ids, recorded.added_rms, strict=True)},
+        added_stress=dict(zip(bench.ids, recorded.added_rms, strict=True)),
     )
     declared = run.design.noise.strain > 0.0 and run.random.uniform() < 0.5
     noise = {"strain": float(f"{run.design.noise.strain:.2g}")} if declared else {}
@@ -206,10 +223,9 @@ def _sealed(
     return SealedCampaign(truth.name, records, bench.law.companion, truth)
 
 
-def _signal_of(signals: list[Signal], planted: Planted) -> Signal:
-    """The bank's signal of a planted cause."""
-    for each in signals:
-        same = each.cause is planted.acting.cause and each.shape == planted.acting.shape
-        if same and each.everywhere == (planted.record is None) and planted.record in (None, *each.records):
-            return each
-    raise RuntimeError(f"{UNKNOWN}: {planted.acting.cause.name} is missing in the bank")
+def _signal_of(bank: Bank, planted: Planted) -> Signal:
+    """The signal of one usual amplitude of a planted cause, by what it adds at its own."""
+    acting = planted.acting
+    records = tuple(bank.bench.identified) if planted.record is None else (planted.record,)
+    column = planted.column * (acting.cause.scale / acting.amplitude)
+    return Signal(acting.cause, acting.shape, records, planted.record is None, column)

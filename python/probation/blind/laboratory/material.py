@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from probation.blind.laboratory.filters import BLOCK, FORGOTTEN, decaying_sum
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -29,6 +31,8 @@ REFERENCE_TEMPERATURE = 300.0  # K, of the Arrhenius law
 SOFTENING = 0.1
 """Fall of ln tau_max per degree at the reference temperature [1/K]: 75 kJ/mol."""
 _TAYLOR_QUINNEY = 0.9
+_ITERATIONS = 100
+_SETTLED_MPA = 1e-5
 
 
 @dataclass(frozen=True)
@@ -53,9 +57,14 @@ class BaseLaw:
 
     def shifted(self, which: int, relative: float) -> BaseLaw:
         """The law with one parameter (0 to 2) larger by a relative amount."""
-        values = [self.unrelaxed_modulus, self.longest_time, self.hardening_modulus]
-        values[which] *= 1.0 + relative
-        return BaseLaw(*values, companion=self.companion)
+        factor = [1.0, 1.0, 1.0]
+        factor[which] += relative
+        return BaseLaw(
+            self.unrelaxed_modulus * factor[0],
+            self.longest_time * factor[1],
+            self.hardening_modulus * factor[2],
+            self.companion,
+        )
 
 
 @dataclass(frozen=True)
@@ -67,6 +76,12 @@ class Activation:
     share: float = 0.0
     share_stress: float = 10.0
 
+    def log_gain(self, stress: FloatArray) -> FloatArray:
+        """Ln of the gain of the rate of flow."""
+        smooth = self.gain * (np.sqrt(1.0 + (stress / self.stress) ** 2) - 1.0)
+        units = np.cosh(np.minimum(np.abs(stress) / self.share_stress, 30.0)) - 1.0
+        return np.asarray(smooth + np.log1p(self.share * units))
+
 
 @dataclass(frozen=True)
 class Heating:
@@ -76,6 +91,17 @@ class Heating:
     rate: tuple[float, ...]  # 1/s
     weight: tuple[float, ...]
     hardening_loss: float  # 1/K
+
+    def rise(self, specimen: Specimen, stress: FloatArray) -> FloatArray:
+        """Mean temperature over that of the room, from the work that is not stored elastically; shape (n,) [K]."""
+        mean = 0.5 * (stress[1:] + stress[:-1])
+        work = mean * (np.diff(specimen.strain) - np.diff(stress) / specimen.modulus)
+        source = self.degrees_per_work * _TAYLOR_QUINNEY * np.maximum(work, 0.0)
+        warm = np.zeros(len(stress))
+        for rate, weight in zip(self.rate, self.weight, strict=True):
+            z = rate * np.diff(specimen.time)
+            warm += weight * decaying_sum(z, source * -np.expm1(-z) / z)
+        return warm
 
 
 @dataclass
@@ -114,124 +140,90 @@ class Specimen:
 
 
 def integrate(specimens: Sequence[Specimen]) -> list[FloatArray]:
-    """True stress (n,) [MPa] of each; all on one time grid."""
-    plain = [k for k, each in enumerate(specimens) if each.activation is None and each.heating is None]
-    fed = [k for k in range(len(specimens)) if k not in set(plain)]
-    stress: list[FloatArray] = [np.empty(0)] * len(specimens)
-    for members, method in ((plain, _open_loop), (fed, _closed_loop)):
-        if members:
-            found = method([specimens[k] for k in members])
-            for row, k in enumerate(members):
-                stress[k] = found[row] + specimens[k].extra
+    """True stress (n,) [MPa] of each; all on one time grid.
+
+    Where relaxation times or network follow the stress, the whole record is solved again and again with what the last
+    stress says, damped where the stress answers strongly, until nothing changes.
+    """
+    if not specimens:
+        return []
+    stress = _solved(specimens, [_Fed(each, None) for each in specimens])
+    moving = [k for k, each in enumerate(specimens) if each.activation is not None or each.heating is not None]
+    for _ in range(_ITERATIONS):
+        if not moving:
+            return stress
+        fed = [_Fed(specimens[k], stress[k]) for k in moving]
+        found = _solved([specimens[k] for k in moving], fed)
+        still = []
+        for k, each, new in zip(moving, fed, found, strict=True):
+            change = (new - stress[k]) * each.damping
+            stress[k] = stress[k] + change
+            if float(np.max(np.abs(change))) > _SETTLED_MPA:
+                still.append(k)
+        moving = still
+    worst = (
+        max(float(np.max(np.abs(new - stress[k]))) for k, new in zip(moving, found, strict=False)) if moving else 0.0
+    )
+    if worst > 1e-2:
+        raise RuntimeError(f"feedback of the stress: not settled after {_ITERATIONS} passes ({worst:.1e} MPa)")
     return stress
 
 
-def _open_loop(specimens: list[Specimen]) -> FloatArray:
-    """Relaxation times known beforehand."""
+class _Fed:
+    """What a stress makes of a specimen's relaxation times and network."""
+
+    def __init__(self, specimen: Specimen, stress: FloatArray | None) -> None:
+        self.log_time, self.relaxed = specimen.log_time, specimen.relaxed
+        self.damping: FloatArray = np.ones(len(specimen.time))
+        if stress is None:
+            return
+        if specimen.activation is not None:
+            gain = specimen.activation.log_gain(stress)
+            slope = (specimen.activation.log_gain(1.001 * stress) - gain) / 0.001
+            self.log_time = self.log_time - 0.5 * (gain[1:] + gain[:-1])
+            viscous = np.abs(stress - specimen.relaxed) / np.maximum(np.abs(stress), 1e-9)
+            self.damping = 1.0 / (1.0 + slope * np.minimum(viscous, 1.0))
+        if specimen.heating is not None:
+            warm = specimen.heating.rise(specimen, stress)
+            softened = SOFTENING * warm / (1.0 + warm / REFERENCE_TEMPERATURE)
+            self.log_time = self.log_time - 0.5 * (softened[1:] + softened[:-1])
+            self.relaxed = self.relaxed * np.maximum(1.0 - specimen.heating.hardening_loss * warm, 0.1)
+
+
+def _solved(specimens: Sequence[Specimen], fed: Sequence[_Fed]) -> list[FloatArray]:
+    """The law with relaxation times and network known along the whole record."""
     step = np.diff(specimens[0].time)
-    relaxed = np.stack([each.relaxed for each in specimens])
-    drive = np.stack([each.modulus * np.diff(each.strain) for each in specimens]) - np.diff(relaxed)
-    frequency = np.exp(-np.stack([each.log_time for each in specimens])) * step
+    relaxed = np.stack([each.relaxed for each in fed])
+    modulus = np.stack([each.modulus for each in specimens])
+    drive = (modulus * np.diff(np.stack([each.strain for each in specimens])) - np.diff(relaxed)).T
+    reduced = (np.exp(-np.stack([each.log_time for each in fed])) * step).T
     weight = np.stack([each.weight for each in specimens])
-    u = np.stack([each.overstress for each in specimens])
-    over = np.empty_like(relaxed)
-    over[:, 0] = np.einsum("vm,vm->v", u, weight)
-    block = max(1, 400_000 // u.size)
-    for first in range(0, len(step), block):
-        some = slice(first, first + block)
-        z = frequency[:, some].T[:, :, None] / TIME_RATIO
-        gain = -np.expm1(-z)
-        fade = 1.0 - gain
-        gain /= z
-        gain *= drive[:, some].T[:, :, None]
-        for m in range(len(z)):
-            u = fade[m] * u + gain[m]
-            over[:, first + m + 1] = np.einsum("vm,vm->v", u, weight)
-    return over + relaxed
+    over = _overstress(reduced, drive, weight, np.stack([each.overstress for each in specimens]))
+    return list(over.T + relaxed + np.stack([each.extra for each in specimens]))
 
 
-def _closed_loop(specimens: list[Specimen]) -> FloatArray:
-    """Relaxation times and network follow stress and heat: every step is foretold, then taken with the mean."""
-    count, n = len(specimens), len(specimens[0].time)
-    step = np.diff(specimens[0].time)
-    strain_step = np.stack([np.diff(each.strain) for each in specimens])
-    elastic = np.stack([each.modulus for each in specimens])
-    base = np.stack([each.log_time for each in specimens])
-    network = np.stack([each.relaxed for each in specimens])
-    extra = np.stack([each.extra for each in specimens])
-    weight = np.stack([each.weight for each in specimens])
-    activate = _Activations([each.activation or Activation() for each in specimens])
-    heat = _Slabs([each.heating for each in specimens])
-    u = np.stack([each.overstress for each in specimens])
-    relaxed = network[:, 0].copy()
-    stress = np.empty((count, n))
-    stress[:, 0] = np.einsum("vm,vm->v", u, weight) + relaxed
-    speed = activate(stress[:, 0] + extra[:, 0])
-    for m in range(n - 1):
-        now, then = stress[:, m] + extra[:, m], speed
-        for _ in range(2):
-            mean_speed = 0.5 * (speed + then) + heat.softening()
-            z = (step[m] * np.exp(mean_speed - base[:, m]))[:, None] / TIME_RATIO
-            gain = -np.expm1(-z)
-            wanted = network[:, m + 1] * heat.hardening()
-            drive = elastic[:, m] * strain_step[:, m] - (wanted - relaxed)
-            moved = (1.0 - gain) * u + gain / z * drive[:, None]
-            new = np.einsum("vm,vm->v", moved, weight) + wanted
-            total = new + extra[:, m + 1]
-            then = activate(total)
-            power = 0.5 * (total + now) * (strain_step[:, m] - (total - now) / elastic[:, m])
-            heat.foretell(np.maximum(power, 0.0) * _TAYLOR_QUINNEY, step[m])
-        heat.keep()
-        u, relaxed, speed = moved, wanted, then
-        stress[:, m + 1] = new
-    return stress
+def _overstress(reduced: FloatArray, drive: FloatArray, weight: FloatArray, start: FloatArray) -> FloatArray:
+    """Sum of p_j u_j, shape (n, variants), from steps over tau_max and E_u De - DX, both (n - 1, variants).
 
-
-class _Activations:
-    """Ln of the gain of flow at a stress, for all variants."""
-
-    def __init__(self, laws: list[Activation]) -> None:
-        self._gain = np.array([each.gain for each in laws])
-        self._stress = np.array([each.stress for each in laws])
-        self._share = np.array([each.share for each in laws])
-        self._share_stress = np.array([each.share_stress for each in laws])
-
-    def __call__(self, stress: FloatArray) -> FloatArray:
-        smooth = self._gain * (np.sqrt(1.0 + (stress / self._stress) ** 2) - 1.0)
-        units = np.cosh(np.minimum(np.abs(stress) / self._share_stress, 30.0)) - 1.0
-        return np.asarray(smooth + np.log1p(self._share * units))
-
-
-class _Slabs:
-    """Mean temperatures over the ambient one, for all variants."""
-
-    def __init__(self, slabs: list[Heating | None]) -> None:
-        modes = max((len(each.rate) for each in slabs if each), default=1)
-        none = Heating(0.0, (1.0,) * modes, (0.0,) * modes, 0.0)
-        found = [each or none for each in slabs]
-        self._rate = np.array([each.rate for each in found])
-        self._source = np.array([np.multiply(each.weight, each.degrees_per_work) for each in found])
-        self._loss = np.array([each.hardening_loss for each in found])
-        self._modes = np.zeros_like(self._rate)
-        self._next = self._modes
-
-    def _middle(self) -> FloatArray:
-        return 0.5 * (self._modes.sum(axis=1) + self._next.sum(axis=1))
-
-    def softening(self) -> FloatArray:
-        """Fall of ln tau_max by warmth, in the middle of the step."""
-        warm = self._middle()
-        return np.asarray(SOFTENING * warm / (1.0 + warm / REFERENCE_TEMPERATURE))
-
-    def hardening(self) -> FloatArray:
-        """Factor of the network at the end of the step."""
-        return np.maximum(1.0 - self._loss * self._next.sum(axis=1), 0.1)
-
-    def foretell(self, work: FloatArray, step: float) -> None:
-        """The end of the step, given the work done in it [MPa]."""
-        z = self._rate * step
-        self._next = np.exp(-z) * self._modes + self._source * work[:, None] * -np.expm1(-z) / z
-
-    def keep(self) -> None:
-        """Take the step."""
-        self._modes = self._next
+    A block of steps at once: u_m = e^(-C_m) (u_0 + sum b_i e^(C_i)), C_m = z_1 + ... + z_m. Modes that forget within
+    every step of a block are summed in closed form.
+    """
+    u = start.copy()
+    over = np.empty((len(reduced) + 1, len(u)))
+    over[0] = np.sum(u * weight, axis=1)
+    steady = np.concatenate([np.zeros((len(u), 1)), np.cumsum(weight * TIME_RATIO, axis=1)], axis=1)
+    for first in range(0, len(reduced), BLOCK):
+        some = slice(first, first + BLOCK)
+        flow = drive[some] / reduced[some]
+        fast = int(np.searchsorted(TIME_RATIO, reduced[some].min() / FORGOTTEN))
+        z = reduced[some][:, :, None] / TIME_RATIO[fast:]
+        pushed = flow[:, :, None] * TIME_RATIO[fast:] * (1.0 - np.exp(-z))  # z > 1e-6: ten digits
+        grown = np.exp(np.cumsum(np.minimum(z, FORGOTTEN), axis=0))
+        pushed *= grown
+        states = (u[:, fast:] + np.cumsum(pushed, axis=0)) / grown
+        over[first + 1 : first + 1 + len(z)] = (
+            np.einsum("tvm,vm->tv", states, weight[:, fast:]) + flow * steady[:, fast]
+        )
+        u[:, :fast] = flow[-1][:, None] * TIME_RATIO[:fast]
+        u[:, fast:] = states[-1]
+    return over

@@ -72,7 +72,7 @@ def draw_noise(random: Generator, largest_stress: float, gentle: bool) -> Noise:
         quantum=float(level * random.choice([0.0, random.uniform(0.2, 1.2)])),
         strain=0.0 if quiet else float(10.0 ** random.uniform(-6.0, -4.3)),
         strain_quantum=0.0,
-        filter_samples=float(random.choice([0.0, 0.0, random.uniform(0.3, 1.0)])),
+        filter_samples=float(random.choice([0.0, 0.0, random.uniform(0.2, 0.6)])),
     )
 
 
@@ -113,10 +113,15 @@ def draw_record_noise(
             bursts[first : first + length] = noise.burst
     white = noise.stress * bursts * random.standard_normal(n)
     rough = profile * _smeared(white, noise.memory)
-    mixing = np.eye(n) * np.sqrt(1.0 - noise.memory**2) + np.eye(n, k=-1) * noise.memory
-    mixing[0, 0] = 1.0
-    coloured = (profile[:, None] * mixing) * (noise.stress * bursts)
-    covariance = coloured @ coloured.T + np.eye(n) * (profile * noise.quantum) ** 2 / 12.0
+    spread = noise.stress * bursts
+    own = np.full(n, np.sqrt(1.0 - noise.memory**2))
+    own[0] = 1.0
+    variance = (own * spread) ** 2
+    variance[1:] += (noise.memory * spread[:-1]) ** 2
+    next_one = own[:-1] * noise.memory * spread[:-1] ** 2 * profile[:-1] * profile[1:]
+    covariance = (
+        np.diag(profile**2 * (variance + noise.quantum**2 / 12.0)) + np.diag(next_one, 1) + np.diag(next_one, -1)
+    )
     drift = np.zeros(n)
     if noise.drift > 0.0:
         lag = np.abs(time[:, None] - time) / (time[-1] - time[0])
@@ -124,17 +129,17 @@ def draw_record_noise(
         covariance += slow * (noise.drift * noise.stress) ** 2 * np.outer(profile, profile)
         drift = profile * noise.drift * noise.stress * _pink(random, time)
     seen = np.zeros(n)
-    spread = float(np.hypot(noise.strain, noise.strain_quantum / np.sqrt(12.0)))
-    if spread > 0.0:
+    wrong = float(np.hypot(noise.strain, noise.strain_quantum / np.sqrt(12.0)))
+    if wrong > 0.0:
         seen = noise.strain * random.standard_normal(n)
         seen[0] = 0.0
-        carried = strain_response(law, time, strain) * spread
+        carried = strain_response(law, time, strain) * wrong
         covariance += carried @ carried.T
     return RecordNoise(rough, drift, seen, cholesky(covariance, lower=True))
 
 
 def _smeared(white: FloatArray, memory: float) -> FloatArray:
-    answer = white * np.sqrt(1.0 - memory**2)
+    answer: FloatArray = white * np.sqrt(1.0 - memory**2)
     answer[0] = white[0]
     answer[1:] += memory * white[:-1]
     return answer
@@ -149,7 +154,7 @@ def _pink(random: Generator, time: FloatArray) -> FloatArray:
     for m in range(len(fade)):
         state = fade[m] * state + kick[m]
         answer.append(state.sum())
-    return np.array(answer) / np.sqrt(len(_OCTAVES))
+    return np.asarray(np.array(answer) / np.sqrt(len(_OCTAVES)))
 
 
 def strain_response(law: BaseLaw, time: FloatArray, strain: FloatArray) -> FloatArray:

@@ -76,7 +76,9 @@ def draw_names(random: Generator, count: int) -> list[str]:
     return [NAMES[k] for k in random.permutation(len(NAMES))[:count]]
 
 
-def plant(random: Generator, bank: Bank, wish: Wish, shape: Shape | None = None, record: int | None = None) -> Planted | None:
+def plant(
+    random: Generator, bank: Bank, wish: Wish, shape: Shape | None = None, record: int | None = None
+) -> Planted | None:
     """Find the amplitude at which a cause has the detectability wished for, or the largest plausible one.
 
     None where even that cannot be detected, or where there is nothing for it to act on.
@@ -127,7 +129,8 @@ def likeness(signals: Sequence[Signal], planted: Planted) -> dict[str, float]:
 def left_by_others(signals: Sequence[Signal], column: FloatArray, but: Sequence[str]) -> tuple[float, float, str]:
     """Norm of a signal that is left by the nearest placed cause of the catalogue, and by the nearest pair of them.
 
-    A placed cause takes all that its shapes can make together. The names `but` are left out.
+    A placed cause takes what its shapes can make together, of amplitudes up to some three usual ones (normal): the
+    rest is sqrt(d^T (I + S S^T)^-1 d). The names `but` are left out.
 
     Returns
     -------
@@ -137,7 +140,7 @@ def left_by_others(signals: Sequence[Signal], column: FloatArray, but: Sequence[
     placed: dict[tuple[str, tuple[int, ...]], list[FloatArray]] = {}
     for each in signals:
         if not each.cause.outside and each.cause.name not in but:
-            placed.setdefault(each.where, []).append(each.column / each.norm)
+            placed.setdefault(each.where, []).append(3.0 * each.column)
     spans = {where: np.stack(columns, axis=1) for where, columns in placed.items()}
     alone = sorted((_left([span], column), where) for where, span in spans.items())
     nearest = [where for _, where in alone[:_NEAREST]]
@@ -147,6 +150,6 @@ def left_by_others(signals: Sequence[Signal], column: FloatArray, but: Sequence[
 
 def _left(spans: list[FloatArray], column: FloatArray) -> float:
     together = np.concatenate(spans, axis=1)
-    gram = together.T @ together
-    part = np.linalg.lstsq(gram, together.T @ column, rcond=1e-8)[0]
-    return float(np.linalg.norm(column - together @ part))
+    both = together.T @ column
+    taken = both @ np.linalg.solve(np.eye(len(both)) + together.T @ together, both)
+    return float(np.sqrt(max(float(column @ column - taken), 0.0)))

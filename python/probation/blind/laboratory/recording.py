@@ -14,8 +14,6 @@ from probation.blind.laboratory.trial import Trial, recorded_stress
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.random import Generator
-
     from probation.blind.laboratory.bank import Bank, Bench
     from probation.blind.laboratory.material import FloatArray
     from probation.blind.laboratory.noise import Noise, RecordNoise
@@ -23,6 +21,7 @@ if TYPE_CHECKING:
     from probation.blind.laboratory.trial import Acting
 
 _DRIFT_LIMIT = 0.95
+_PASSES = 5000
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Recorded:
         The same of the recorded stress less the base law along the recorded strain.
     added_rms : list of float [MPa]
         What the causes add to each record.
-    sampling_detectability, drift_detectability : float
+    drift_detectability : float
         See `Truth`.
     """
 
@@ -47,28 +46,32 @@ class Recorded:
     clean: FloatArray
     observed: FloatArray
     added_rms: list[float]
-    sampling_detectability: float
     drift_detectability: float
 
 
 def record_all(
-    random: Generator, bench: Bench, noise: Noise, noises: Sequence[RecordNoise], bank: Bank, planted: Sequence[Planted]
+    bench: Bench,
+    noise: Noise,
+    noises: Sequence[RecordNoise],
+    bank: Bank,
+    planted: Sequence[Planted],
+    undisturbed: Undisturbed,
 ) -> Recorded:
     """Run every test on the fine grid and record it."""
-    share, drift = _drift_share(bank, noises)
+    drifts, drift_left = _harmless_drifts(bank, noises)
     strains, stresses, added_rms = [], [], []
-    clean, residual, sampling = {}, {}, {}
+    clean, residual = {}, {}
     for k, each in enumerate(noises):
         causes = [one.acting for one in planted if one.record is None or one.record == k]
-        truth, plain, seen = _channels(bench, k, causes, noise)
+        plain, seen = undisturbed.stress[k], undisturbed.strain[k]
+        truth = _channels(bench, k, causes, noise)[0] if causes else plain
         added_rms.append(float(np.sqrt(np.mean((truth - plain) ** 2))))
         strain = _converted(seen + each.strain, noise.strain_quantum)
-        stress = _converted(truth + each.rough + share * each.drift, noise.quantum)
+        stress = _converted(truth + each.rough + drifts[k], noise.quantum)
         strains.append(_as_written(strain))
         stresses.append(_as_written(stress))
         if k in bench.identified:
             clean[k] = truth - plain
-            sampling[k] = plain - _base_stress(bench, k, seen)
             residual[k] = stresses[k] - _base_stress(bench, k, strains[k])
     return Recorded(
         strain=strains,
@@ -76,29 +79,62 @@ def record_all(
         clean=bank.column(clean),
         observed=bank.column(residual),
         added_rms=added_rms,
-        sampling_detectability=float(np.linalg.norm(bank.column(sampling))),
-        drift_detectability=drift,
+        drift_detectability=drift_left,
     )
 
 
-def _drift_share(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[float, float]:
-    """By how much the drift is turned down so that it looks like no effect, and how much it does then."""
-    column = bank.column({k: noises[k].drift for k in bank.bench.identified})
-    most = max((abs(float(each.column @ column)) / each.norm for each in bank.signals if not each.cause.outside))
-    share = min(1.0, _DRIFT_LIMIT / max(most, 1e-12))
-    return share, share * most
+@dataclass(frozen=True)
+class Undisturbed:
+    """The same without causes and noise: stress and strain of every record, on the samples.
+
+    `sampling_detectability` is what sampling and filtering alone make of the base law's stress.
+    """
+
+    stress: list[FloatArray]
+    strain: list[FloatArray]
+    sampling_detectability: float
 
 
-def _channels(
-    bench: Bench, k: int, causes: Sequence[Acting], noise: Noise
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Stress with the causes, stress without, strain; on the samples."""
-    trials = [(bench.trial(k, fine=True), causes), (bench.trial(k, fine=True), ())]
+def run_undisturbed(bench: Bench, noise: Noise, bank: Bank) -> Undisturbed:
+    """Run every test on the fine grid with nothing acting."""
+    stress, strain = zip(*(_channels(bench, k, (), noise) for k in range(len(bench.tests))), strict=True)
+    added = {k: stress[k] - _base_stress(bench, k, strain[k]) for k in bench.identified}
+    return Undisturbed(list(stress), list(strain), float(np.linalg.norm(bank.column(added))))
+
+
+def _harmless_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[FloatArray], float]:
+    """The drifts without what would look like an effect, and the largest projection on an effect that is left.
+
+    The direction that is most alike is taken down to what is allowed, and again until all are.
+    """
+    drifts = [each.drift.copy() for each in noises]
+    if not any(np.any(each) for each in drifts):
+        return drifts, 0.0
+    directions = np.stack([each.column / each.norm for each in bank.signals if not each.cause.outside], axis=1)
+    alike = directions.T @ bank.column({k: drifts[k] for k in bank.bench.identified})
+    cosines = directions.T @ directions
+    taken = np.zeros_like(alike)
+    for _ in range(_PASSES):
+        worst = int(np.argmax(np.abs(alike)))
+        if abs(alike[worst]) <= _DRIFT_LIMIT:
+            break
+        excess = alike[worst] - np.sign(alike[worst]) * 0.8 * _DRIFT_LIMIT
+        taken[worst] += excess
+        alike -= excess * cosines[:, worst]
+    for k, samples in bank.samples(directions @ taken).items():
+        drifts[k] -= samples
+    return drifts, float(np.max(np.abs(alike)))
+
+
+def _channels(bench: Bench, k: int, causes: Sequence[Acting], noise: Noise) -> tuple[FloatArray, FloatArray]:
+    """Recorded stress and strain on the samples, before noise."""
     test = bench.tests[k]
-    channels = [*recorded_stress(trials), test.fine_strain]
+    stress = recorded_stress([(bench.trial(k, fine=True), causes)])[0]
     time_constant = noise.filter_samples * float(np.min(np.diff(test.time)))
-    truth, plain, strain = (low_pass(test.fine_time, each, time_constant)[::REFINEMENT] for each in channels)
-    return truth, plain, strain
+    stress, strain = (
+        low_pass(test.fine_time, each, time_constant)[::REFINEMENT] for each in (stress, test.fine_strain)
+    )
+    return stress, strain
 
 
 def _base_stress(bench: Bench, k: int, strain: FloatArray) -> FloatArray:

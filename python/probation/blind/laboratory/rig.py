@@ -58,37 +58,42 @@ class Controller:
     disturbance : float [-]
         Standard deviation of the strain that the loop does not hold.
     logged : float
-        How many times denser samples are just after an event; 1 for an even clock.
+        How many times denser samples are just after an event, where the logger follows events.
+    logs_ramps : bool
+        Whether it does so in histories without other events than the start, too; else these have an even clock.
     """
 
     response_samples: float
     damping: float
     disturbance: float
     logged: float
+    logs_ramps: bool
 
 
 def draw_controller(random: Generator) -> Controller:
     """A servo-hydraulic or screw-driven machine's."""
     return Controller(
-        response_samples=random.uniform(2.0, 5.0),
+        response_samples=random.uniform(4.0, 8.0),
         damping=random.uniform(0.6, 1.0),
         disturbance=10.0 ** random.uniform(-5.5, -4.3),
-        logged=float(random.choice([1.0, 1.0, random.uniform(3.0, 6.0)])),
+        logged=random.uniform(3.0, 6.0),
+        logs_ramps=bool(random.uniform() < 0.3),
     )
 
 
 def drive(random: Generator, schedule: Schedule, samples: int, controller: Controller) -> Driven:
     """Run a schedule on the machine."""
+    logged = controller.logged if controller.logs_ramps or len(schedule.events) > 1 else 1.0
     step = schedule.duration / (_MASTER * samples)
     master = np.arange(_MASTER * samples + 1) * step
     asked = np.interp(master, schedule.time, schedule.strain)
-    spacing = schedule.duration / samples / controller.logged**0.7
+    spacing = schedule.duration / samples / logged**0.7
     period = controller.response_samples * spacing
     followed = _closed_loop(asked, step / period, controller.damping)
     shaken = _closed_loop(random.standard_normal(len(master)), step / (1.5 * period), 0.8)
     scale = controller.disturbance / (np.std(shaken) + 1e-30)
     followed = followed + scale * (shaken - shaken[0]) * (1.0 - np.exp(-master / (3.0 * period)))
-    time = _instants(schedule, samples, controller.logged)
+    time = _instants(schedule, samples, logged)
     fine = np.concatenate(
         [(time[:-1, None] + np.diff(time)[:, None] * np.arange(REFINEMENT) / REFINEMENT).ravel(), time[-1:]]
     )

@@ -6,6 +6,7 @@ import json
 from dataclasses import asdict, dataclass, field
 
 SCHEMA = "probation.blind.truth/1"
+_OUTSIDE_NAMES = {"noise_level": "noise_MPa", "added_stress": "added_MPa"}
 
 
 @dataclass(frozen=True)
@@ -90,20 +91,20 @@ class Truth:
         Of all causes together.
     base : dict
         Parameters of the base law, as the contract names them.
-    noise_MPa : dict
-        Root mean square of the noise of every record.
+    noise_level : dict
+        Root mean square of the noise of every record [MPa].
     noise : dict
         Its make.
     records : dict
-        Kind and role of every record's history.
+        Kind, role and duration of every record's history.
     sampling_detectability : float
         What sampling and filtering alone make of the base law's stress.
     drift_detectability : float
         Largest projection of the noise's drift on a signal of the catalogue.
     oracle : dict
         Posterior, part of repeats in which it is right, answer set, whether the truth is resolvable.
-    added_MPa : dict
-        Root mean square of what the causes add to every record.
+    added_stress : dict
+        Root mean square of what the causes add to every record [MPa].
     """
 
     split: str
@@ -116,24 +117,25 @@ class Truth:
     explanation: tuple[str, ...]
     detectability: float
     base: dict[str, float]
-    noise_MPa: dict[str, float]
+    noise_level: dict[str, float]
     noise: dict[str, float]
-    records: dict[str, dict[str, str]]
+    records: dict[str, dict[str, str | float]]
     sampling_detectability: float
     drift_detectability: float
     oracle: dict[str, object]
-    added_MPa: dict[str, float] = field(default_factory=dict)
+    added_stress: dict[str, float] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         """Of the campaign."""
-        return campaign_name(self.split, self.seed, self.index)
+        return campaign_name(self.split, self.index)
 
     def to_json(self) -> str:
         """As JSON text, in full precision."""
-        return json.dumps({"schema": SCHEMA, "name": self.name, **asdict(self)}, allow_nan=False, indent=1) + "\n"
+        content = {_OUTSIDE_NAMES.get(name, name): value for name, value in asdict(self).items()}
+        return json.dumps({"schema": SCHEMA, "name": self.name, **content}, allow_nan=False, indent=1) + "\n"
 
 
-def campaign_name(split: str, seed: int, index: int) -> str:
-    """Such as "develop-7-0012"; it says nothing of the truth."""
-    return f"{split}-{seed}-{index:04d}"
+def campaign_name(split: str, index: int) -> str:
+    """Such as "develop-0012"; it says nothing of the truth, nor of the seed that would give it away."""
+    return f"{split}-{index:04d}"

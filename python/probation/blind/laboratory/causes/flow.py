@@ -36,7 +36,7 @@ def _carreau(trial: Trial, amplitude: float, shape: Shape) -> None:
 
 
 def _tobolsky(trial: Trial, amplitude: float, shape: Shape) -> None:
-    """ln of the gain: a (sqrt(1 + (s / s_1)^2) - 1) over its value at 20 MPa."""
+    """Ln of the gain: a (sqrt(1 + (s / s_1)^2) - 1) over its value at 20 MPa."""
     at_20 = np.sqrt(1.0 + (20.0 / shape["stress_MPa"]) ** 2) - 1.0
     trial.activation = Activation(gain=amplitude / at_20, stress=shape["stress_MPa"])
 
@@ -113,13 +113,15 @@ def _ageing(random: Generator, setting: Setting) -> Shape:
 
 
 CAUSES = (
-    Cause("rate_dependent_relaxation", 0.5, _width, change=_bounded, signed=True),
-    Cause("rate_dependent_relaxation", 0.5, _critical, change=_carreau, signed=True),
+    Cause("rate_dependent_relaxation", 0.5, _width, change=_bounded, signed=True, draws=2),
+    Cause("rate_dependent_relaxation", 0.5, _critical, change=_carreau, signed=True, draws=2),
     Cause("stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(4.0, 20.0)}, change=_tobolsky, draws=2),
-    Cause("stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(10.0, 30.0)}, change=_ree_eyring, draws=2),
-    Cause("self_heating", 0.3, _plate, change=_slab, draws=4),
-    Cause("structural_softening", 0.5, _ageing, change=_rejuvenation, draws=4),
-    Cause("structural_softening", 0.3, _ageing, change=_stiff_rejuvenation, draws=4),
+    Cause(
+        "stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(10.0, 30.0)}, change=_ree_eyring, draws=2
+    ),
+    Cause("self_heating", 0.3, _plate, change=_slab),
+    Cause("structural_softening", 0.5, _ageing, change=_rejuvenation),
+    Cause("structural_softening", 0.3, _ageing, change=_stiff_rejuvenation),
     Cause(
         "temperature_drift",
         2.0,

@@ -19,20 +19,20 @@ if TYPE_CHECKING:
 def _offset(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:
     """A zero that is off, and settles by a small part."""
     settling = np.expm1(-trial.elapsed / trial.elapsed[-1] / shape["settling_over_record"])
-    return stress + amplitude * (1.0 + shape["settling"] * settling) * np.exp(trial.nominal)
+    return np.asarray(stress + amplitude * (1.0 + shape["settling"] * settling) * np.exp(trial.nominal))
 
 
 def _drift(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:
     """Electronics that warm up with one time constant, the same drift by the end of a record."""
     time = shape["time_over_record"] * trial.elapsed[-1]
     way = np.expm1(-trial.elapsed / time) / np.expm1(-trial.elapsed[-1] / time)
-    return stress + amplitude * way * np.exp(trial.nominal)
+    return np.asarray(stress + amplitude * way * np.exp(trial.nominal))
 
 
 def _gain(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:
     """A factor, and a little curvature of the cell's characteristic."""
     force = stress * np.exp(-trial.nominal)
-    return stress * (1.0 + amplitude * (1.0 + shape["curvature"] * force / np.max(np.abs(force))))
+    return np.asarray(stress * (1.0 + amplitude * (1.0 + shape["curvature"] * force / np.max(np.abs(force)))))
 
 
 def _slow_force(trial: Trial, amplitude: float, shape: Shape, stress: FloatArray) -> FloatArray:

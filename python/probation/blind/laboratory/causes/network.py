@@ -31,7 +31,7 @@ def _three_chains(trial: Trial, amplitude: float, shape: Shape) -> None:
     stretch = np.exp(trial.strain)
 
     def pull(axis: FloatArray) -> FloatArray:
-        return root / 3.0 * axis * _inverse_langevin(np.minimum(axis / root, _NEARLY_LOCKED))
+        return np.asarray(root / 3.0 * axis * _inverse_langevin(np.minimum(axis / root, _NEARLY_LOCKED)))
 
     across = 1.0 / np.sqrt(stretch)
     small = np.array([1.0 + 1e-4])
@@ -95,6 +95,6 @@ def _stages(random: Generator, setting: Setting) -> Shape:
 CAUSES = (
     Cause("finite_extensibility", 0.02, lambda r, s: {}, change=_three_chains, draws=1, most=_short_of_locking),
     Cause("finite_extensibility", 0.008, lambda r, s: {}, change=_warner, draws=1, most=_short_of_locking),
-    Cause("rate_dependent_hardening", 0.05, _memory, change=_remembered, signed=True),
-    Cause("delayed_hardening", 0.3, _stages, change=_delayed, draws=5),
+    Cause("rate_dependent_hardening", 0.05, _memory, change=_remembered, signed=True, draws=2),
+    Cause("delayed_hardening", 0.3, _stages, change=_delayed, draws=4),
 )

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from probation.blind.laboratory.trial import Setting, Shape, Trial
 
 
+_TURN = 1e-3
+
+
 def _mullins(trial: Trial, amplitude: float, shape: Shape) -> None:
     """The network is softer below the largest strain so far, and whole again beyond it."""
     below = (trial.largest - trial.strain) / shape["strain"]
@@ -29,16 +32,21 @@ def _yield_band(trial: Trial, amplitude: float, shape: Shape) -> None:
 
 def _bauschinger(trial: Trial, amplitude: float, shape: Shape) -> None:
     """After a reversal the times are shorter, until the strain has moved on by some hundredths."""
-    direction = np.sign(trial.rate)
-    since, fresh = 0.0, np.zeros(len(direction))
-    steps = np.abs(np.diff(trial.strain))
-    reversed_once = False
-    for m in range(1, len(direction)):
-        if direction[m] * direction[m - 1] < 0.0 and steps[m] > 0.2 * np.median(steps):
-            since, reversed_once = 0.0, True
-        since += steps[m]
-        fresh[m] = np.exp(-since / shape["strain"]) if reversed_once else 0.0
-    trial.log_factor -= amplitude * fresh
+    turned = _since_reversal(trial.strain)
+    trial.log_factor -= amplitude * on_steps(np.exp(-turned / shape["strain"]))
+
+
+def _since_reversal(strain: FloatArray) -> FloatArray:
+    """Way from the last turning point, infinite before the first; less than `_TURN` is none."""
+    way = np.full(len(strain), np.inf)
+    direction, extreme, turning = 1.0, float(strain[0]), np.inf
+    for m, now in enumerate(strain.tolist()):
+        if direction * (now - extreme) > 0.0:
+            extreme = now
+        elif direction * (extreme - now) > _TURN:
+            direction, turning, extreme = -direction, extreme, now
+        way[m] = abs(now - turning)
+    return way
 
 
 def _open_door(trial: Trial, amplitude: float, shape: Shape) -> None:
@@ -127,7 +135,7 @@ CAUSES = (
         needs_unloading=True,
         draws=2,
     ),
-    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True),
+    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True, draws=2),
     Cause("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, outside=True, placements=("all", "one")),
     Cause("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, outside=True, draws=2),
     Cause(
@@ -159,5 +167,7 @@ CAUSES = (
         change=_crystals,
         outside=True,
     ),
-    Cause("blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True),
+    Cause(
+        "blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True, draws=2
+    ),
 )

@@ -54,7 +54,7 @@ def _onset(random: Generator, setting: Setting) -> Shape:
 
 
 CAUSES = (
-    Cause("damage", 0.15, _breaking, change=_logistic, draws=4),
-    Cause("damage", 0.15, _strength, change=_weibull),
+    Cause("damage", 0.15, _breaking, change=_logistic),
+    Cause("damage", 0.15, _strength, change=_weibull, draws=2),
     Cause("volume_change", 0.1, _onset, record=_cavitation, placements=("all",), draws=5),
 )

@@ -11,6 +11,7 @@ from probation.blind.laboratory.trial import Cause
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+    from probation.blind.laboratory.material import FloatArray
     from probation.blind.laboratory.trial import Setting, Shape, Trial
 
 
@@ -24,8 +25,9 @@ def _frame(trial: Trial, amplitude: float, shape: Shape) -> None:
     """Frame and grips, stiffer the more they are loaded."""
     force = shape["stiffening_MPa"]
 
-    def given_way(nominal_stress: np.ndarray) -> np.ndarray:
-        return amplitude * nominal_stress * (1.0 + shape["softness"] / (1.0 + np.abs(nominal_stress) / force))
+    def given_way(nominal_stress: FloatArray) -> FloatArray:
+        softer = shape["softness"] / (1.0 + np.abs(nominal_stress) / force)
+        return np.asarray(amplitude * nominal_stress * (1.0 + softer))
 
     trial.compliance = given_way
 
@@ -61,5 +63,5 @@ CAUSES = (
         placements=("all", "one"),
         draws=1,
     ),
-    Cause("grip_slip", 0.005, _instant, strain=_slip, placements=("one",), localised=True, draws=8),
+    Cause("grip_slip", 0.005, _instant, strain=_slip, placements=("one",), localised=True, draws=5),
 )

@@ -1,0 +1,90 @@
+"""Many independent jobs in processes, results as they come."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable, Hashable, Mapping
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from typing import TypeAlias, TypeVar
+
+from probation.errors import InputError
+
+Progress: TypeAlias = "Callable[[int, int, str], None]"
+Key = TypeVar("Key", bound=Hashable)
+Result = TypeVar("Result")
+
+_WAITING = 4
+"""Jobs handed out at a time, per process: few are lost by an interruption."""
+
+
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def run_all(
+    job: Callable[..., Result],
+    arguments: Mapping[Key, tuple[object, ...]],
+    *,
+    processes: int | None,
+    executor: Executor | None,
+    progress: Progress | None,
+    on_done: Callable[[Key, Result], None] | None,
+) -> None:
+    """Run a job for every key; `on_done` gets each result at once, in the order of completion.
+
+    Parameters
+    ----------
+    job : callable
+        Of a module's own, so that another process finds it.
+    arguments : mapping
+        Of each call.
+    processes : int, optional
+        As many as processors if left out; 1 stays in this process.
+    executor : Executor, optional
+        Instead of processes of its own, such as that of a cluster's client.
+
+    Raises
+    ------
+    InputError
+        For a number of processes below 1.
+    """
+    if processes is not None and processes < 1:
+        raise InputError(f"processes: found {processes}, expected at least 1")
+    count = processes or _processors()
+    done = 0
+
+    def finish(key: Key, result: Result) -> None:
+        nonlocal done
+        done += 1
+        if on_done is not None:
+            on_done(key, result)
+        if progress is not None:
+            progress(done, len(arguments), str(key))
+
+    if executor is None and count == 1:
+        for key, each in arguments.items():
+            finish(key, job(*each))
+        return
+    for name in _THREADS:  # the jobs are many; processes that are started from here have one thread each
+        os.environ.setdefault(name, "1")
+    own = executor or ProcessPoolExecutor(min(count, len(arguments) or 1), multiprocessing.get_context("spawn"))
+    left = iter(arguments.items())
+    waiting: dict[Future[Result], Key] = {}
+    try:
+        while True:
+            while len(waiting) < _WAITING * count and (item := next(left, None)) is not None:
+                waiting[own.submit(job, *item[1])] = item[0]
+            if not waiting:
+                return
+            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                finish(waiting.pop(future), future.result())
+    finally:
+        for future in waiting:
+            future.cancel()
+        if executor is None:
+            own.shutdown(wait=True, cancel_futures=True)
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,0 +1,1 @@
+"""What answers to a split are worth."""

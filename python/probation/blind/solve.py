@@ -1,0 +1,140 @@
+"""Answers to a split: one file per campaign, written whole, with the version and commit that gave it."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import json
+import time
+import traceback
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import probation
+from probation._files import write_whole
+from probation.blind.layout import Layout
+from probation.blind.origin import origin
+from probation.blind.pool import Progress, run_all
+from probation.blind.seal import read_json
+from probation.errors import InputError
+
+Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
+"""From a campaign's folder to the answer of ``probation diagnose --json``."""
+
+ANSWER_SCHEMA = "probation.blind.answer/1"
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a run did: campaigns answered before, answered now, and failed (name and what went wrong)."""
+
+    before: int
+    now: int
+    failed: dict[str, str]
+
+
+def diagnosed(folder: Path) -> dict[str, object]:
+    """The package's own answer.
+
+    Raises
+    ------
+    InputError
+        If the campaign cannot be read.
+    """
+    diagnose = getattr(probation, "diagnose", None)
+    if diagnose is None:
+        raise InputError("solver: found no probation.diagnose in this version; name another solver")
+    answer = json.loads(diagnose(probation.Campaign.load(folder)).to_json())
+    assert isinstance(answer, dict)
+    return answer
+
+
+def solver_named(name: str) -> Solver:
+    """The solver ``module:function``.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    module, colon, function = name.partition(":")
+    try:
+        found = getattr(importlib.import_module(module), function) if colon else None
+    except (ImportError, AttributeError, ValueError) as failure:
+        raise InputError(f"solver: found {name!r}, which cannot be loaded: {failure}") from None
+    if not callable(found):
+        raise InputError(f"solver: found {name!r}, expected MODULE:FUNCTION of a function of a campaign's folder")
+    return found  # type: ignore[no-any-return]
+
+
+def solve_split(
+    folder: str | Path,
+    solve: Solver = diagnosed,
+    *,
+    answers: str | Path | None = None,
+    processes: int | None = None,
+    executor: Executor | None = None,
+    progress: Progress | None = None,
+    again: bool = False,
+) -> Solved:
+    """Answer every campaign of a split that has no answer yet.
+
+    Parameters
+    ----------
+    folder : path
+        As `make_split` left it; only campaigns/ and seals.json are read.
+    solve : callable
+        From a campaign's folder to the answer, as the contract has it; a module's own function.
+    answers : path, optional
+        answers/ in `folder` if left out.
+    processes, executor, progress
+        As in `make_split`.
+    again : bool
+        Answer all anew.
+
+    Raises
+    ------
+    InputError
+        If `folder` holds no split.
+    """
+    layout = Layout(Path(folder), answer_folder=None if answers is None else Path(answers))
+    _, seals = layout.published()
+    layout.answers.mkdir(parents=True, exist_ok=True)
+    open_ones = [name for name in seals if again or not _is_answered(layout.answers / f"{name}.json")]
+    failed: dict[str, str] = {}
+
+    def keep(name: str, answer: dict[str, object]) -> None:
+        write_whole(layout.answers / f"{name}.json", json.dumps(answer, ensure_ascii=False, indent=1) + "\n")
+        if "error" in answer:
+            failed[name] = str(answer["error"])
+
+    jobs = {name: (solve, str(layout.campaigns / name), name) for name in open_ones}
+    run_all(_solve_one, jobs, processes=processes, executor=executor, progress=progress, on_done=keep)
+    return Solved(len(seals) - len(open_ones), len(open_ones) - len(failed), failed)
+
+
+def _is_answered(path: Path) -> bool:
+    return path.is_file() and "error" not in read_json(path)
+
+
+def _solve_one(solve: Solver, folder: str, name: str) -> dict[str, object]:
+    """One answer; a failure is one, too, and is tried again next time."""
+    begun = time.perf_counter()
+    answer: dict[str, object] = {"schema": ANSWER_SCHEMA, "campaign": name, "campaign_sha256": folder_sha256(folder)}
+    try:
+        answer["diagnosis"] = solve(Path(folder))
+    except Exception as failure:  # one campaign must not end the run
+        answer["error"] = f"{type(failure).__name__}: {failure}"
+        answer["trace"] = traceback.format_exc()
+    return {**answer, "seconds": time.perf_counter() - begun, "answered": origin()}
+
+
+def folder_sha256(folder: str | Path) -> str:
+    """SHA-256 over the names and contents of a campaign's files."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(folder).iterdir()):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()

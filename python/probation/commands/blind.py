@@ -1,0 +1,154 @@
+"""``probation blind``: the sealed benchmark."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from probation._files import write_whole
+from probation.commands.delivery import said, tell, warn
+from probation.commands.progress import shown
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+NAME = "blind"
+
+_DESCRIPTION = """\
+The sealed benchmark: campaigns of a virtual laboratory whose cause is withheld, answers to them, and scores.
+
+  probation blind make --seed 7 --count 100 --out split/      campaigns, and a seal of every truth
+  probation blind solve split/                                answers, each with the version that gave it
+  probation blind score split/ --json score.json              opens the truths, checks the seals, scores
+
+An interrupted run goes on where it stopped. The truths are in split/truths unless --truths says otherwise: keep them
+from whoever answers. Answers given after the truths were first opened are refused.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="the sealed benchmark: make, solve, score", description=_DESCRIPTION)
+    steps = parser.add_subparsers(title="steps", metavar="STEP", dest="step")
+    make = steps.add_parser("make", help="campaigns of a virtual laboratory, their truths sealed")
+    make.add_argument("--seed", type=int, required=True, help="another seed gives other campaigns")
+    make.add_argument("--count", type=int, default=100, help="campaigns (100)")
+    make.add_argument(
+        "--split", choices=("develop", "calibrate", "test"), default="develop", help="what it may be used for (develop)"
+    )
+    make.add_argument("--out", metavar="DIR", required=True, help="folder for campaigns and seals")
+    make.add_argument("--truths", metavar="DIR", help="folder for the truths (truths/ in --out)")
+    solve = steps.add_parser("solve", help="answer every campaign")
+    solve.add_argument("folder", metavar="DIR", help="as make left it")
+    solve.add_argument(
+        "--solver",
+        metavar="MODULE:FUNCTION",
+        default="probation.blind.solve:diagnosed",
+        help="from a campaign's folder to an answer (probation diagnose)",
+    )
+    solve.add_argument("--answers", metavar="DIR", help="folder for the answers (answers/ in DIR)")
+    solve.add_argument("--again", action="store_true", help="answer anew what has an answer")
+    for step in (make, solve):
+        step.add_argument("--processes", type=int, help="at a time (all processors)")
+        step.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
+    score = steps.add_parser("score", help="open the truths and score the answers")
+    score.add_argument("folder", metavar="DIR", help="as solve left it")
+    score.add_argument("--truths", metavar="DIR", help="folder of the truths (truths/ in DIR)")
+    score.add_argument("--answers", metavar="DIR", help="folder of the answers (answers/ in DIR)")
+    score.add_argument(
+        "--beside", metavar="NAME=DIR", action="append", default=[], help="other answers to score beside; repeatable"
+    )
+    score.add_argument(
+        "--after-opening", action="store_true", help="score answers given after the opening, too; not of a test split"
+    )
+    score.add_argument("--json", metavar="FILE", help="write the scores as JSON; - is standard output, alone there")
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    if options.step is None:
+        raise InputError("blind: found no step, expected make, solve or score; see probation blind --help")
+    {"make": _make, "solve": _solve, "score": _score}[options.step](options)
+    return 0
+
+
+def _make(options: argparse.Namespace) -> None:
+    from probation.blind.make import make_split  # noqa: PLC0415 - see the package
+
+    with shown(f"making {options.split}") as advance, _cluster(options.scheduler) as executor:
+        layout = make_split(
+            options.out,
+            seed=options.seed,
+            count=options.count,
+            split=options.split,
+            truths=options.truths,
+            processes=options.processes,
+            executor=executor,
+            progress=advance,
+        )
+    said("campaigns", layout.campaigns)
+    said("seals", layout.folder / "seals.json")
+    said("truths", layout.truths)
+
+
+def _solve(options: argparse.Namespace) -> None:
+    from probation.blind.solve import solve_split, solver_named  # noqa: PLC0415
+
+    solver = solver_named(options.solver)
+    with shown("solving") as advance, _cluster(options.scheduler) as executor:
+        solved = solve_split(
+            options.folder,
+            solver,
+            answers=options.answers,
+            processes=options.processes,
+            executor=executor,
+            progress=advance,
+            again=options.again,
+        )
+    tell(f"{solved.now} answered now, {solved.before} before, {len(solved.failed)} failed\n", sys.stdout)
+    for name, failure in solved.failed.items():
+        warn(f"{name}: {failure}")
+
+
+def _score(options: argparse.Namespace) -> None:
+    from probation.blind.score import score_split  # noqa: PLC0415
+
+    beside: dict[str, str] = {}
+    for entry in options.beside:
+        name, equals, folder = entry.partition("=")
+        if not equals or not name or not folder:
+            raise InputError(f"--beside: found {entry!r}, expected NAME=DIR")
+        beside[name] = folder
+    score = score_split(
+        options.folder,
+        truths=options.truths,
+        answers=options.answers,
+        beside=beside,
+        after_opening=options.after_opening,
+    )
+    tell(score.summary(), sys.stderr if options.json == "-" else sys.stdout)
+    if options.json == "-":
+        sys.stdout.write(score.to_json())
+    elif options.json:
+        write_whole(options.json, score.to_json())
+        said("JSON", options.json)
+
+
+@contextmanager
+def _cluster(address: str | None) -> Iterator[Executor | None]:
+    """The executor of a dask cluster, if one is named."""
+    if address is None:
+        yield None
+        return
+    try:
+        distributed = importlib.import_module("distributed")
+    except ImportError:
+        raise InputError("--scheduler: found no distributed; pip install distributed, or leave it out") from None
+    with distributed.Client(address) as client, client.get_executor() as executor:
+        yield executor

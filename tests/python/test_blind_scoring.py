@@ -1,0 +1,345 @@
+"""Seals, answers and scores, with answers that are made up."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+from probation.blind.layout import Layout
+from probation.blind.make import make_split
+from probation.blind.pool import run_all
+from probation.blind.score import score_split
+from probation.blind.scores.answer import NO_ANSWER, Answer, Region, read_answer
+from probation.blind.scores.baselines import majority, shuffled
+from probation.blind.scores.board import board
+from probation.blind.scores.case import Case
+from probation.blind.scores.intervals import Rate
+from probation.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
+from probation.blind.scores.where import overlap
+from probation.blind.seal import open_truth, read_truth, seal_truth
+from probation.blind.solve import solve_split, solver_named
+from probation.cli import main
+from probation.errors import InputError
+
+
+def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localised=False, everywhere=True):
+    stratum = stratum or ("none" if not explanation else "single" if len(explanation) == 1 else "pair")
+    causes = [
+        {
+            "effect": name,
+            "records": ["a"],
+            "everywhere": everywhere,
+            "localised": localised,
+            "left_by_best_other": detectability,
+            "windows": [{"record": "a", "time_s": [20.0, 60.0], "true_strain": [0.1, 0.3]}],
+        }
+        for name in explanation
+    ]
+    return {
+        "stratum": stratum,
+        "seed": 3,
+        "explanation": list(explanation),
+        "mimics": mimics,
+        "detectability": detectability if explanation else 0.0,
+        "causes": causes,
+        "oracle": {
+            "right": 1.0,
+            "resolvable": True,
+            "posterior": {"+".join(explanation): 1.0},
+            "answer_set": [list(explanation)],
+        },
+        "records": {
+            "a": {"duration_s": 100.0, "history": "ramp", "role": "identify"},
+            "b": {"duration_s": 50.0, "history": "ramp", "role": "identify"},
+        },
+        "base": {"unrelaxed_modulus_MPa": 2000.0},
+    }
+
+
+def _diagnosis(probabilities, answer_set=None, verdict=None, records=("a",), where=()):
+    """An answer as the contract has it, from probabilities of tuples of names."""
+    best = max(probabilities, key=lambda names: probabilities[names])
+    entries = {(): 0.0, ("unknown",): 0.0} | probabilities
+    return {
+        "schema": "probation.diagnosis/1",
+        "verdict": verdict or ("no_gap" if best == () else "unexplained" if "unknown" in best else "explained"),
+        "headline": "made up",
+        "base": {"parameters": {"unrelaxed_modulus_MPa": {"value": 2001.0, "se": 1.0, "status": "identifiable"}}},
+        "causes": [
+            {"effects": list(names), "records": list(records), "probability": p, "parameters": {}}
+            for names, p in sorted(entries.items(), key=lambda item: -item[1])
+        ],
+        "answer_set": [list(names) for names in (answer_set or [best])],
+        "where": [{"record": r, "time_s": [s, e], "share": 1.0} for r, s, e in where],
+        "shrink": {"identify": {"closure": 0.99, "interval": [0.97, 1.01]}, "held_out": None},
+    }
+
+
+def _perfect(truth):
+    windows = [(w["record"], *w["time_s"]) for cause in truth["causes"] for w in cause["windows"]]
+    return _diagnosis({tuple(truth["explanation"]): 1.0}, where=windows)
+
+
+def _cases(truths, answer=_perfect):
+    return [Case(f"c{k}", truth, read_answer(answer(truth), "made up")) for k, truth in enumerate(truths)]
+
+
+MIXED = (
+    [_truth() for _ in range(40)]
+    + [_truth((name,), localised=name == "grip_slip", everywhere=False) for name in ("damage", "grip_slip") * 10]
+    + [_truth(("damage", "force_offset")) for _ in range(10)]
+    + [_truth(("unknown",), "outside") for _ in range(10)]
+)
+
+
+def test_a_perfect_solver_scores_everything():
+    scores = board(_cases(MIXED))
+    for name, n in (("none", 40), ("single", 20), ("pair", 10), ("outside", 10)):
+        group = scores["by_stratum"][name]
+        assert (group["n"], group["top1"]["rate"], group["answer_set"]["coverage"]["rate"]) == (n, 1.0, 1.0)
+        assert (group["probability_on_truth"], group["log_score"], group["brier_score"]) == (1.0, 0.0, 0.0)
+    assert scores["false_alarms"]["k"] == 0
+    assert scores["detection"]["15"]["rate"] == 1.0
+    assert scores["unknown"]["auroc"] == scores["unknown"]["auroc_clear"] == 1.0
+    assert scores["where"]["mean_overlap"] == 1.0
+    assert scores["where"]["right_record"]["rate"] == 1.0
+    assert scores["exact_pairs"]["rate"] == 1.0
+    assert scores["reliability"]["ece"] == 0.0
+    assert scores["confusion"]["none"] == {"none": 40}
+    assert scores["base_parameters"]["none"]["rate"] == 1.0
+
+
+def test_shuffled_answers_score_chance():
+    """Of a balanced two-way truth, right by chance: k of 400 within six standard deviations of 200."""
+    truths = [_truth((name,)) for name in ("damage", "self_heating") * 200]
+    right = sum(case.right for case in shuffled(_cases(truths)))
+    assert abs(right - 200) < 6 * 10.0
+
+
+def test_the_majority_knows_the_frequencies_and_nothing_else():
+    """40 of 80 are none: right in a half, ln P the entropy of (40, 10, 10, 10, 10) / 80."""
+    cases = majority(_cases(MIXED))
+    parts = np.array([40, 10, 10, 10, 10]) / 80
+    assert Rate.of(case.right for case in cases).value == 0.5
+    assert log_score(cases) == pytest.approx(np.sum(parts * np.log(parts)))
+    assert brier_score(cases) == pytest.approx(1.0 - np.sum(parts**2))
+
+
+def test_intervals_are_those_of_clopper_and_pearson():
+    """At each bound the observed or a more extreme number has probability 2.5 %; 0 of 300 ends at 1 - 0.025^(1/300)."""
+    low, high = Rate(3, 250).interval
+    assert binom.sf(2, 250, low) == pytest.approx(0.025)
+    assert binom.cdf(3, 250, high) == pytest.approx(0.025)
+    assert Rate(0, 300).interval == (0.0, pytest.approx(1.0 - 0.025 ** (1 / 300)))
+
+
+def test_an_honest_solver_is_calibrated_and_a_boaster_is_not():
+    def cases(said, right):
+        other = ("damage",)
+        truths = [_truth() if hit else _truth(other) for hit in right]
+        return [Case("c", t, Answer({(): said, ("unknown",): 1.0 - said}, {}, (), gap=False)) for t in truths]
+
+    right = [k % 10 < 7 for k in range(200)]
+    honest, boasting = reliability(cases(0.7, right)), reliability(cases(0.99, right))
+    assert honest["ece"] == pytest.approx(0.0, abs=1e-12)
+    assert boasting["ece"] == pytest.approx(0.29)
+    assert boasting["ece"] > boasting["ece_limit95"]
+
+
+def test_area_under_the_curve_counts_pairs():
+    """Positives 3, 1 over negatives 2, 1: 2 + 1/2 of 4 pairs."""
+    assert area_under_curve([3.0, 1.0], [2.0, 1.0]) == pytest.approx(2.5 / 4)
+    assert area_under_curve([], [1.0]) is None
+
+
+def test_overlap_weighs_records_by_their_duration():
+    """20-60 against 40-80 of 100 s: 0.2 / 0.6; half of another record of 50 s beside: 0.2 / (0.6 + 0.5)."""
+    durations = {"a": 100.0, "b": 50.0}
+    one, other = [Region("a", 20.0, 60.0)], [Region("a", 40.0, 70.0), Region("a", 60.0, 80.0)]
+    assert overlap(one, other, durations) == pytest.approx(0.2 / 0.6)
+    assert overlap(one, [*other, Region("b", 0.0, 25.0)], durations) == pytest.approx(0.2 / 1.1)
+    assert overlap([], [], durations) == 0.0
+
+
+def test_a_mimic_may_be_called_what_it_mimics_in_the_answer_set_only():
+    truth = _truth(("unknown",), "mimic", mimics="damage")
+    case = _cases([truth], lambda _: _diagnosis({("damage",): 0.9, ("unknown",): 0.1}))[0]
+    assert not case.right
+    assert case.covered
+
+
+def test_a_failed_answer_is_wrong_in_everything():
+    case = Case("c", _truth(), NO_ANSWER)
+    assert (case.right, case.covered, case.probability) == (False, False, 0.0)
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda answer: answer.pop("causes"),
+        lambda answer: answer["causes"][0].update(probability=0.5),
+        lambda answer: answer["causes"][0].update(probability="much"),
+        lambda answer: answer.update(verdict="perhaps"),
+        lambda answer: answer.update(answer_set=["damage"]),
+    ],
+)
+def test_an_answer_that_breaks_the_contract_is_named(spoil):
+    answer = _diagnosis({(): 1.0})
+    spoil(answer)
+    with pytest.raises(InputError, match=r"split/answers/x\.json.*contract"):
+        read_answer(answer, "split/answers/x.json")
+
+
+def test_a_seal_breaks_with_one_changed_digit(tmp_path):
+    sealed = seal_truth('{"stratum": "none", "x": 1}')
+    path = tmp_path / "t.json"
+    sealed.write(path)
+    assert open_truth(path, sealed.seal) == {"stratum": "none", "x": 1}
+    path.write_text(path.read_text().replace("1}", "2}"))
+    with pytest.raises(InputError, match=r"changed after it was sealed"):
+        open_truth(path, sealed.seal)
+
+
+def test_equal_truths_have_different_seals():
+    assert seal_truth("{}").seal != seal_truth("{}").seal
+
+
+def _publish(folder: Path, truths) -> Layout:
+    """A split with truths that are made up; its campaigns are empty."""
+    layout = Layout(folder)
+    layout.truths.mkdir(parents=True)
+    seals = {}
+    for k, truth in enumerate(truths):
+        name = f"develop-{k:04d}"
+        (layout.campaigns / name).mkdir(parents=True)
+        (layout.campaigns / name / "campaign.toml").write_text(f'name = "{name}"\n')
+        sealed = seal_truth(json.dumps(truth))
+        sealed.write(layout.truths / f"{name}.json")
+        seals[name] = sealed.seal
+    (folder / "seals.json").write_text(json.dumps({"split": "develop", "seals": seals}))
+    return layout
+
+
+def _knows(layout):
+    return lambda folder: _perfect(json.loads(read_truth(layout.truths / f"{folder.name}.json").text))
+
+
+@pytest.fixture
+def split(tmp_path):
+    return _publish(tmp_path / "split", MIXED[35:45])
+
+
+def test_answers_are_kept_one_by_one_and_an_interruption_loses_none(split):
+    calls = []
+
+    def stops_at_the_fifth(folder):
+        calls.append(folder.name)
+        if len(calls) == 5:
+            raise KeyboardInterrupt
+        return _knows(split)(folder)
+
+    with pytest.raises(KeyboardInterrupt):
+        solve_split(split.folder, stops_at_the_fifth, processes=1)
+    assert len(list(split.answers.glob("develop-*.json"))) == 4
+    done = solve_split(split.folder, stops_at_the_fifth, processes=1)
+    assert (done.before, done.now, done.failed) == (4, 6, {})
+    assert len(calls) == 5 + 6
+    answer = json.loads(next(split.answers.glob("develop-*.json")).read_text())
+    assert {"version", "commit", "at"} <= set(answer["answered"])
+    assert score_split(split.folder).content["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
+
+
+def test_a_failure_is_kept_said_and_tried_again(split):
+    def fails_once(folder):
+        if folder.name.endswith("3"):
+            raise RuntimeError("no convergence")
+        return _knows(split)(folder)
+
+    done = solve_split(split.folder, fails_once, processes=1)
+    assert done.failed == {"develop-0003": "RuntimeError: no convergence"}
+    again = solve_split(split.folder, _knows(split), processes=1)
+    assert (again.before, again.now) == (9, 1)
+
+
+def test_another_executor_gives_the_same_answers(split, tmp_path):
+    """As a cluster's client offers one."""
+    solve_split(split.folder, _knows(split), processes=1)
+    with ThreadPoolExecutor(2) as executor:
+        solve_split(split.folder, _knows(split), answers=tmp_path / "other", executor=executor)
+    for path in split.answers.glob("develop-*.json"):
+        other = json.loads((tmp_path / "other" / path.name).read_text())
+        assert other["diagnosis"] == json.loads(path.read_text())["diagnosis"]
+
+
+def test_answers_after_the_opening_are_refused(split):
+    solve_split(split.folder, _knows(split), processes=1)
+    score_split(split.folder)
+    score_split(split.folder)
+    solve_split(split.folder, lambda folder: _diagnosis({(): 1.0}), processes=1, again=True)
+    with pytest.raises(InputError, match=r"not there when the truths were opened"):
+        score_split(split.folder)
+    assert score_split(split.folder, after_opening=True).content["answers_after_opening"] == 10
+
+
+def test_answers_to_other_data_are_refused(split):
+    solve_split(split.folder, _knows(split), processes=1)
+    (split.campaigns / "develop-0002" / "campaign.toml").write_text("name = 'changed'\n")
+    with pytest.raises(InputError, match=r"develop-0002.*other data"):
+        score_split(split.folder)
+
+
+def test_a_missing_answer_is_named(split):
+    with pytest.raises(InputError, match=r"no answer to develop-0000 and 9 more.*blind solve"):
+        score_split(split.folder)
+
+
+def test_other_answers_are_scored_beside(split, tmp_path):
+    solve_split(split.folder, _knows(split), processes=1)
+    solve_split(split.folder, lambda folder: _diagnosis({(): 1.0}), answers=tmp_path / "none", processes=1)
+    scores = score_split(split.folder, beside={"always none": tmp_path / "none"}).content["scores"]
+    assert scores["always none"]["by_stratum"]["single"]["top1"]["rate"] == 0.0
+    assert scores["oracle"]["by_stratum"]["single"]["top1"]["rate"] == 1.0
+    assert set(scores) == {"answers", "majority", "oracle", "shuffled", "always none"}
+
+
+def test_processes_of_their_own_do_every_job():
+    found = {}
+    jobs = {k: (k, 2) for k in range(9)}
+    run_all(pow, jobs, processes=2, executor=None, progress=None, on_done=found.__setitem__)
+    assert found == {k: k**2 for k in range(9)}
+
+
+def test_made_solved_and_scored_on_the_command_line(tmp_path, capsys):
+    folder = tmp_path / "split"
+    make = ["blind", "make", "--seed", "1", "--count", "2", "--out", str(folder), "--truths", str(tmp_path / "kept")]
+    assert main([*make, "--processes", "1"]) == 0
+    assert not list(folder.rglob("*truth*"))
+    published = "".join(path.read_text() for path in folder.rglob("*") if path.is_file() and path.suffix != ".csv")
+    assert "seed" not in published
+    before = (folder / "seals.json").read_text()
+    assert main([*make, "--processes", "1"]) == 0  # all there: the seals stay
+    assert json.loads((folder / "seals.json").read_text())["seals"] == json.loads(before)["seals"]
+    solver = "probation.blind.example:no_gap"
+    assert main(["blind", "solve", str(folder), "--solver", solver, "--processes", "1"]) == 0
+    capsys.readouterr()
+    assert main(["blind", "score", str(folder), "--truths", str(tmp_path / "kept"), "--json", "-"]) == 0
+    score = json.loads(capsys.readouterr().out)
+    assert score["schema"] == "probation.blind.score/1"
+    assert score["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
+    assert score["seeds"] == [1]
+
+
+def test_another_plan_in_the_same_folder_is_refused(tmp_path):
+    (tmp_path / "truths").mkdir()
+    (tmp_path / "truths" / "plan.json").write_text('{"split": "develop", "seed": 1, "count": 2}')
+    with pytest.raises(InputError, match=r"found a split made with.*'seed': 1"):
+        make_split(tmp_path, seed=2, count=2)
+
+
+@pytest.mark.parametrize("name", ["nowhere:solve", "probation.cli", "probation.cli:nothing"])
+def test_an_unknown_solver_is_named(name):
+    with pytest.raises(InputError, match="solver"):
+        solver_named(name)
