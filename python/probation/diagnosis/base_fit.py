@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.excitation import Excitation
+    from probation.gap.noise_model import NoiseModel
     from probation.gap.protocol import GapLaw
     from probation.gap.record_view import RecordView
     from probation.identify import Fit
@@ -38,6 +39,9 @@ STRAIN_STEP = 1e-6
 """Strain by which the law is probed for what strain noise does to the stress."""
 
 PARAMETERS = 3
+
+FIRST, STIFFER, FAR = 20, 1.3, 3.0
+"""Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,12 +57,15 @@ class BaseFit:
         On the identify records, without causes.
     whitened : Whitened
         The same as the statistics see it.
+    other_starts : tuple of ndarray, shape (n_base,)
+        Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
     """
 
     law: GapLaw
     views: tuple[RecordView, ...]
     refit: Refit
     whitened: Whitened
+    other_starts: tuple[FloatArray, ...] = ()
 
     @property
     def model(self) -> CampaignModel:
@@ -99,7 +106,34 @@ def base_fit(campaign: Campaign, scheme: Scheme = "be2", hold: Mapping[str, floa
     views = views_of(campaign, excitations=samples, scheme=scheme, substeps=found.substeps)
     free = [name for name in found.law.parameter_names if name in found.names]
     law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in free])
-    return fit_views(law, views, campaign.records, samples)
+    base = fit_views(law, views, campaign.records, samples)
+    return replace(base, other_starts=_other_starts(base))
+
+
+def _other_starts(base: BaseFit) -> tuple[FloatArray, ...]:
+    """With E_u by the records' first slope, and tau_max by what is known best, E_u tau_max; where that is far away."""
+    names = list(base.law.parameter_names)
+    if "unrelaxed_modulus_MPa" not in names:
+        return ()
+    at = names.index("unrelaxed_modulus_MPa")
+    time = next((index for index, name in enumerate(names) if name in ("tau_max_s", "alpha")), None)
+    slope = STIFFER * max(_first_slope(view) for view in base.model.views)
+    ratio = base.parameters[at] / slope if slope > 0.0 else 1.0
+    if 1.0 / FAR < ratio < FAR:
+        return ()
+    moved = base.parameters.copy()
+    moved[at] = slope
+    if time is not None:
+        moved[time] *= ratio
+    return (np.clip(moved, *base.law.bounds),)
+
+
+def _first_slope(view: RecordView) -> float:
+    """Steepest secant from the first sample to one of the next few [MPa]."""
+    strain = view.sampled(view.true_strain)[1:FIRST] - view.true_strain[0]
+    stress = view.data[1:FIRST] - view.data[0]
+    moving = np.abs(strain) > 0.1 * float(np.max(np.abs(strain), initial=0.0))
+    return float(np.max(np.abs(stress[moving] / strain[moving]), initial=0.0)) if moving.any() else 0.0
 
 
 def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
@@ -147,9 +181,7 @@ def fit_views(
         if noises is None:
             carried = {view.id: _carried(law, view, excitations[view.id], parameters) for view in chosen}
         residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
-        noises = estimate_noise(residuals)
-        drift = estimate_drift(Whitened.of(residuals, noises))
-        noises = tuple(with_drift(noise, drift) for noise in noises)
+        noises = _noises(residuals)
         found = refit(model, parameters, Whitener(noises), most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
@@ -162,6 +194,38 @@ def fit_views(
     quiet = CampaignModel(law, views).quietened(parameters).views
     fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
     return BaseFit(law, quiet, replace(found, model=fitted), Whitened.of(residuals, noises))
+
+
+def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
+    """The same with the noise as an explanation leaves it: a gap makes slow noise look larger than it is.
+
+    Parameters
+    ----------
+    base : BaseFit
+    explained : Refit
+        With the causes, on the same records.
+    """
+    raw, jacobian = explained.model.residual_and_jacobian(explained.parameters)
+    rows = [explained.model.rows(record.name) for record in base.whitened.records]
+    left = [
+        replace(record, residual=raw[part], tangent=jacobian[part])
+        for record, part in zip(base.whitened.records, rows, strict=True)
+    ]
+    noises = _noises(left)
+    found = refit(base.model, base.parameters, Whitener(noises), most_steps=12)
+    raw, jacobian = base.model.residual_and_jacobian(found.parameters)
+    residuals = [
+        replace(record, residual=raw[part], tangent=jacobian[part])
+        for record, part in zip(base.whitened.records, rows, strict=True)
+    ]
+    return replace(base, refit=found, whitened=Whitened.of(residuals, noises))
+
+
+def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
+    """Every record's noise, its drift included."""
+    noises = estimate_noise(residuals)
+    drift = estimate_drift(Whitened.of(residuals, noises))
+    return tuple(with_drift(noise, drift) for noise in noises)
 
 
 def _residual(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._arrays import one_of
-from probation.diagnosis.base_fit import BaseFit, base_fit
+from probation.diagnosis.base_fit import BaseFit, base_fit, with_noise_beside
 from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.checks import checks
 from probation.diagnosis.evidence import Discrepancy
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from probation.diagnosis.probabilities import Weighed
     from probation.law import Scheme
     from probation.records import Campaign
+
+RECONSIDERED = 24
+"""Hypotheses that are judged again once the noise is known beside the best one."""
 
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
 
@@ -102,7 +105,13 @@ def diagnose(
         sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
         screened += screen(base.model, at, sharp, residual=base.model.residual(at), threads=workers)
         columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
-        found = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.45 * part)).run(columns)
+        search = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.35 * part))
+        found = search.run(columns)
+        leading = search.ranked()
+        if leading:
+            base = with_noise_beside(base, leading[0].refit)
+            discrepancy = Discrepancy.of(base.whitened)
+            found = search.reconsidered(base, RECONSIDERED)
     else:
         found = linear_hypotheses(base, columns, discrepancy)
     weighed = weigh(found, len(considered))

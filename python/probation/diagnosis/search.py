@@ -105,6 +105,14 @@ class Search:
             self._told(0.6 + 0.2 * (size - 1))
         return self.found
 
+    def reconsidered(self, base: BaseFit, count: int) -> list[Hypothesis]:
+        """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
+        again = Search(base, Discrepancy.of(base.whitened), self.effects, self.threads)
+        leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
+        again.found += [again._judged(each) for each in again._polished([each.refit for each in leading])]
+        again._look_beside_the_leading()
+        return again.found
+
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
         """Hypotheses with causes, most evidence first, the best of each set of effects; of so many effects only."""
         best: dict[tuple[str, ...], Hypothesis] = {}
@@ -171,12 +179,16 @@ class Search:
         """Refits of candidates beside a hypothesis, or of candidates alone, in parallel."""
         before = beside[0].refit if beside else self.base.refit
 
-        def one(candidate: Candidate) -> Refit | None:
-            model = before.model.with_causes([*before.model.causes, candidate.cause])
-            start = np.concatenate([before.parameters, candidate.values])
-            return self._tried(model, start, steps)
+        starts = [before.parameters]
+        if not beside:
+            starts += self.base.other_starts
 
-        return self._in_parallel(one, list(candidates))
+        def one(job: tuple[Candidate, FloatArray]) -> Refit | None:
+            candidate, base = job
+            model = before.model.with_causes([*before.model.causes, candidate.cause])
+            return self._tried(model, np.concatenate([base, candidate.values]), steps)
+
+        return self._in_parallel(one, [(candidate, base) for candidate in candidates for base in starts])
 
     def _polished(self, refits: Sequence[Refit]) -> list[Refit]:
         return self._in_parallel(lambda each: self._tried(each.model, each.parameters, None), list(refits))
