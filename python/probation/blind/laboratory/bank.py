@@ -106,9 +106,7 @@ class Bank:
         self.bench, self._noises = bench, noises
         sizes = [len(bench.tests[k].time) for k in bench.identified]
         ends = np.cumsum(sizes)
-        self._rows = {
-            k: slice(end - size, end) for k, size, end in zip(bench.identified, sizes, ends, strict=True)
-        }
+        self._rows = {k: slice(end - size, end) for k, size, end in zip(bench.identified, sizes, ends, strict=True)}
         self.size = int(ends[-1])
         self.base: dict[int, FloatArray] = {}
         tangent = np.zeros((self.size, 3))
@@ -157,7 +155,9 @@ class Bank:
             unloads=any(test.schedule.unloads for test in tests),
         )
 
-    def add(self, random: Generator, causes: Sequence[Cause], extra: Sequence[tuple[Cause, Shape, int | None]] = ()) -> None:
+    def add(
+        self, random: Generator, causes: Sequence[Cause], extra: Sequence[tuple[Cause, Shape, int | None]] = ()
+    ) -> None:
         """Add signals of causes, in shapes that are drawn, and of some given shapes (in one record, or in all)."""
         everywhere: list[tuple[Cause, Shape]] = []
         single: list[tuple[Cause, Shape, int]] = []
@@ -211,9 +211,7 @@ class Bank:
     def added(self, k: int, causes: Sequence[Sequence[Acting]]) -> list[FloatArray]:
         """What sets of causes add to the recorded stress of a record, on the samples' grid."""
         solving = [j for j, each in enumerate(causes) if any(acting.cause.solves for acting in each)]
-        stress = dict(
-            zip(solving, recorded_stress([(self.bench.trial(k), causes[j]) for j in solving]), strict=True)
-        )
+        stress = dict(zip(solving, recorded_stress([(self.bench.trial(k), causes[j]) for j in solving]), strict=True))
         plain = self.bench.trial(k)
         answers = []
         for j, each in enumerate(causes):

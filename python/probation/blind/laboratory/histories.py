@@ -128,7 +128,13 @@ def _scaled(kind: str, time: FloatArray, strain: FloatArray, peak_rate: float, e
 
 
 def draw_schedules(
-    random: Generator, count: int, slowest: float, fastest: float, end: float, modulus: float, needs_unloading: bool,
+    random: Generator,
+    count: int,
+    slowest: float,
+    fastest: float,
+    end: float,
+    modulus: float,
+    needs_unloading: bool,
     gentle: bool,
 ) -> list[Schedule]:
     """A campaign's histories: ramps over the whole range of rates, and others between.

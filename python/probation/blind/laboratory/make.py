@@ -70,7 +70,9 @@ def make(seed: int, index: int, split: str = "develop") -> SealedCampaign:
         found = _attempt(random, stratum)
         if found is not None:
             return _sealed(split, seed, index, stratum, *found)
-    raise RuntimeError(f"{campaign_name(split, seed, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs")
+    raise RuntimeError(
+        f"{campaign_name(split, seed, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs"
+    )
 
 
 class _Run:
@@ -149,8 +151,15 @@ def _pretence(random: Generator, run: _Run) -> tuple[Wish, Planted, str] | None:
 
 
 def _sealed(
-    split: str, seed: int, index: int, stratum: str,
-    run: _Run, planted: list[Planted], wishes: list[Wish], mimics: str, recorded: Recorded,
+    split: str,
+    seed: int,
+    index: int,
+    stratum: str,
+    run: _Run,
+    planted: list[Planted],
+    wishes: list[Wish],
+    mimics: str,
+    recorded: Recorded,
 ) -> SealedCampaign:
     bench, bank = run.bench, run.bank
     acting = [_signal_of(bank.signals, each) for each in planted]

@@ -137,9 +137,9 @@ def _members(
         prior = (share_outside if names == (UNKNOWN,) else share) - np.log(per_name[where[0]])
         members += [_Member(names, [k], float(prior - np.log(2.0 * len(held)))) for k in held]
         members.append(_Member(names, held, float(prior - np.log(2.0))))
-    telling = sorted(
-        placed, key=lambda where: -max(abs(expected[k]) / np.sqrt(gram[k, k]) for k in placed[where])
-    )[:_PAIRED]
+    telling = sorted(placed, key=lambda where: -max(abs(expected[k]) / np.sqrt(gram[k, k]) for k in placed[where]))[
+        :_PAIRED
+    ]
     telling = list(dict.fromkeys([*acting, *telling]))
     pairs = [(one, two) for one, two in combinations(telling, 2) if one[0] != two[0]]
     count = len(known) * (len(known) - 1) / 2.0

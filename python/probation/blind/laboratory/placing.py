@@ -76,7 +76,9 @@ def draw_names(random: Generator, count: int) -> list[str]:
     return [NAMES[k] for k in random.permutation(len(NAMES))[:count]]
 
 
-def plant(random: Generator, bank: Bank, wish: Wish, shape: Shape | None = None, record: int | None = None) -> Planted | None:
+def plant(
+    random: Generator, bank: Bank, wish: Wish, shape: Shape | None = None, record: int | None = None
+) -> Planted | None:
     """Find the amplitude at which a cause has the detectability wished for, or the largest plausible one.
 
     None where even that cannot be detected, or where there is nothing for it to act on.

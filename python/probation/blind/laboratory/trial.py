@@ -234,7 +234,9 @@ def recorded_stress(trials: Sequence[tuple[Trial, Sequence[Acting]]]) -> list[Fl
 
 def _solved(trials: Sequence[Trial]) -> list[FloatArray]:
     """True stress of the specimens; where the frame takes its part of the strain, iterated until it settles."""
-    found = [stress * trial.area for trial, stress in zip(trials, integrate([t.specimen() for t in trials]), strict=True)]
+    found = [
+        stress * trial.area for trial, stress in zip(trials, integrate([t.specimen() for t in trials]), strict=True)
+    ]
     soft = {k: trial.strain.copy() for k, trial in enumerate(trials) if trial.compliance is not None}
     for _ in range(_ITERATIONS):
         if not soft:

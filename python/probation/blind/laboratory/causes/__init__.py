@@ -3,7 +3,14 @@
 from probation.blind.laboratory.causes import flow, force, network, outside, section, spectrum, strain
 from probation.blind.laboratory.trial import Cause
 
-KNOWN: tuple[Cause, ...] = (*flow.CAUSES, *network.CAUSES, *section.CAUSES, *spectrum.CAUSES, *force.CAUSES, *strain.CAUSES)
+KNOWN: tuple[Cause, ...] = (
+    *flow.CAUSES,
+    *network.CAUSES,
+    *section.CAUSES,
+    *spectrum.CAUSES,
+    *force.CAUSES,
+    *strain.CAUSES,
+)
 """All that has a name in the catalogue; a name may have several forms."""
 
 OUTSIDE: tuple[Cause, ...] = outside.CAUSES

@@ -116,7 +116,9 @@ CAUSES = (
     Cause("rate_dependent_relaxation", 0.5, _width, change=_bounded, signed=True),
     Cause("rate_dependent_relaxation", 0.5, _critical, change=_carreau, signed=True),
     Cause("stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(4.0, 20.0)}, change=_tobolsky, draws=2),
-    Cause("stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(10.0, 30.0)}, change=_ree_eyring, draws=2),
+    Cause(
+        "stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(10.0, 30.0)}, change=_ree_eyring, draws=2
+    ),
     Cause("self_heating", 0.3, _plate, change=_slab, draws=4),
     Cause("structural_softening", 0.5, _ageing, change=_rejuvenation, draws=4),
     Cause("structural_softening", 0.3, _ageing, change=_stiff_rejuvenation, draws=4),
