@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.special import ndtr, stdtrit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -115,8 +116,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     total = float(count.sum())
     excess = float(before.sum() - floor.sum())
     # Sum of squares of correlated noise scatters as if there were fewer samples.
-    fewer = np.array([_correlation(piece.noise) for piece in pieces])
-    own = np.sqrt(2.0 * fewer / count) * floor
+    own = np.sqrt(2.0 * np.array([_square_inflation(piece.noise) for piece in pieces]) / count) * floor
     error = float(np.sqrt(np.sum(own**2 + (level * floor) ** 2)))
     known = (
         float(np.sqrt(before.sum() / total)),
@@ -139,14 +139,18 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     else:
         how = "noise drawn: too few records to resample them"
         left = np.maximum(before - floor, 0.0), np.maximum(after - floor, 0.0)
-        mean_floor = floor / count
-        common = own * rng.standard_normal((DRAWS, len(pieces)))
+        # The same noise meets what there was of a gap and what is left of it, as far as they are alike.
+        both = np.array([float(piece.before @ piece.after) for piece in pieces]) - floor
+        alike = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
+        slow = np.array([_slow_inflation(piece.noise) for piece in pieces])
+        common, first, apart = rng.standard_normal((3, DRAWS, len(pieces)))
+        met = first, alike * first + np.sqrt(1.0 - alike**2) * apart
         drawn = [
-            each + common + 2.0 * np.sqrt(part * mean_floor * fewer) * rng.standard_normal((DRAWS, len(pieces)))
-            for each, part in zip((before, after), left, strict=True)
+            each + own * common + 2.0 * np.sqrt(part * floor / count * slow) * cross
+            for each, part, cross in zip((before, after), left, met, strict=True)
         ]
         draws = _ratio(drawn[0], drawn[1], floor * np.exp(level * rng.standard_normal((DRAWS, len(pieces)))))
-    return Closure(*known, value, _interval(draws, value), how)
+    return Closure(*known, value, _interval(draws, value, len(pieces) if len(pieces) >= ENOUGH else None), how)
 
 
 def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple[float, float]:
@@ -157,7 +161,8 @@ def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple
     chosen = rng.integers(len(parts), size=(DRAWS, len(parts)))
     level = np.sqrt(parts[0].noise.level_variance + parts[0].noise.shape_variance)
     draws = _ratio(before[chosen], after[chosen], floor[chosen] * np.exp(level * rng.standard_normal((DRAWS, 1))))
-    return _interval(draws, 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum()))
+    value = 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum())
+    return _interval(draws, value, len(parts))
 
 
 def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArray:
@@ -165,12 +170,22 @@ def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArr
     return np.asarray(1.0 - (after.sum(axis=1) - floor.sum(axis=1)) / np.where(below > 0.0, below, np.nan))
 
 
-def _interval(draws: FloatArray, value: float) -> tuple[float, float]:
-    low, high = np.nanquantile(draws, [0.5 - 0.5 * COVERAGE, 0.5 + 0.5 * COVERAGE])
+def _interval(draws: FloatArray, value: float, resampled: int | None = None) -> tuple[float, float]:
+    """Quantiles of the draws; of so few resampled parts further out: "expanded percentiles" (Hesterberg 2015)."""
+    tail = 0.5 - 0.5 * COVERAGE
+    if resampled is not None:
+        tail = float(ndtr(np.sqrt(resampled / (resampled - 1.0)) * stdtrit(resampled - 1, tail)))
+    low, high = np.nanquantile(draws, [tail, 1.0 - tail])
     return float(min(low, value)), float(max(high, value))
 
 
-def _correlation(noise: NoiseModel) -> float:
-    """Variance of a mean square over that of as many independent samples (at least 1)."""
-    ratio = noise.arma.long_run / max(noise.arma.deviation, 1e-300)
-    return float(max(ratio, 1.0))
+def _square_inflation(noise: NoiseModel) -> float:
+    """Variance of a mean square over that of as many independent samples: 1 + 2 sum of squared autocorrelations."""
+    phi, theta = noise.arma.phi, noise.arma.theta
+    first = (phi + theta) * (1.0 + phi * theta) / (1.0 + 2.0 * phi * theta + theta**2)
+    return 1.0 + 2.0 * first**2 / (1.0 - phi**2)
+
+
+def _slow_inflation(noise: NoiseModel) -> float:
+    """Variance of a product with something slow over that of as many independent samples (at least 1)."""
+    return float(max((noise.arma.long_run / max(noise.arma.deviation, 1e-300)) ** 2, 1.0))

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import log_ndtr, logsumexp
+from scipy.special import erfcx, log_ndtr, logsumexp
 
 from probation.gap.smooth_basis import smooth_basis
 
@@ -189,7 +189,8 @@ class _Problem:
     log_prior: float
     bound_factor: float
     free: NDArray[np.bool_]
-    room: FloatArray
+    below: FloatArray
+    above: FloatArray
 
     @classmethod
     def of(cls, found: Refit, discrepancy: Discrepancy) -> _Problem:
@@ -197,19 +198,18 @@ class _Problem:
         x = coordinates.of(found.parameters)
         jacobian, residual = found.jacobian, found.residual
         gradient = jacobian.T @ residual + coordinates.precision * (x - coordinates.centre)
-        held = coordinates.pushed_out(x, gradient) & (np.arange(len(x)) >= model.base_count)
-        slope = np.abs(gradient)
-        width = np.linalg.norm(jacobian, axis=0)
-        width = np.sqrt(np.pi / 2.0) / np.maximum(np.maximum(width, np.sqrt(coordinates.precision)), 1e-300)
-        factor = float(np.sum(np.log(np.minimum(1.0 / np.maximum(slope[held], 1e-300), np.minimum(width[held], 1e3)))))
-        free = ~held
+        effects = np.arange(len(x)) >= model.base_count
+        free = ~(coordinates.pushed_out(x, gradient) & effects)
         inside = jacobian[:, free]
-        amplitudes = np.zeros(len(x), dtype=bool)
-        at = model.base_count
-        for cause in model.causes:
-            amplitudes[at] = True
-            at += len(cause.form.parameters)
-        room = np.where(amplitudes, x - coordinates.lower, np.inf)
+        # A flat prior ends at its bounds, or after a period: a wide normal one around x, cut there, stands in for it.
+        below, above = x - coordinates.lower, coordinates.upper - x
+        period = np.append(np.zeros(model.base_count), [each.period for each in model.effect_parameters])
+        below, above = (
+            np.where(effects, np.where(period > 0.0, 0.5 * period, room), np.inf) for room in (below, above)
+        )
+        flat = effects & (coordinates.precision == 0.0)
+        centre = np.where(flat, x, coordinates.centre)
+        precision = np.where(flat, (below + above) ** -2.0, coordinates.precision)
         normal_part = -0.5 * coordinates.precision * (x - coordinates.centre) ** 2
         return cls(
             square=float(residual @ residual),
@@ -217,13 +217,14 @@ class _Problem:
             normal=inside.T @ inside,
             waves_of_residual=-discrepancy.of_columns(residual),
             waves_of_jacobian=discrepancy.of_columns(inside),
-            away=(coordinates.centre - x)[free],
-            precision=coordinates.precision[free],
+            away=(centre - x)[free],
+            precision=precision[free],
             # Normalisation of the priors and, held at a bound, their value there.
             log_prior=model.log_prior(found.parameters) - float(np.sum(normal_part[free])),
-            bound_factor=factor,
+            bound_factor=_at_bounds(jacobian, precision, np.abs(gradient), free, below + above),
             free=free,
-            room=room[free],
+            below=below[free],
+            above=above[free],
         )
 
     def log_integral(self, variances: FloatArray) -> float:
@@ -242,7 +243,7 @@ class _Problem:
         step = (vectors @ (turned / values)) / size
         quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
         deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
-        cut = float(np.sum(log_ndtr((self.room + step) / deviation)))
+        cut = float(np.sum(_log_inside(-(self.below + step) / deviation, (self.above - step) / deviation)))
         log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))
         return (
             -0.5 * quadratic
@@ -263,3 +264,29 @@ class _Problem:
         full = np.zeros((len(self.free), len(self.free)))
         full[np.ix_(self.free, self.free)] = own
         return full
+
+
+def _at_bounds(
+    jacobian: FloatArray, precision: FloatArray, slope: FloatArray, free: NDArray[np.bool_], room: FloatArray
+) -> float:
+    """Log of the integrals of exp(-g t - h t^2/2), t the way from the bound, over parameters that are held there.
+
+    g is the objective's slope, h its curvature with the free parameters following.
+    """
+    if free.all():
+        return 0.0
+    columns = np.vstack([jacobian, np.diag(np.sqrt(precision))])
+    held, inside = columns[:, ~free], columns[:, free]
+    size = np.maximum(np.linalg.norm(inside, axis=0), 1e-300)
+    seen = held - inside / size @ np.linalg.lstsq(inside / size, held, rcond=1e-10)[0]
+    curvature = np.maximum(np.sum(seen**2, axis=0), 1e-300)
+    whole = np.sqrt(0.5 * np.pi / curvature) * erfcx(slope[~free] / np.sqrt(2.0 * curvature))
+    return float(np.sum(np.log(np.minimum(whole, room[~free]))))
+
+
+def _log_inside(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Log P(low < N(0, 1) < high), in whichever tail has the digits."""
+    flip = low > -high
+    low, high = np.where(flip, -high, low), np.where(flip, -low, high)
+    most = log_ndtr(high)
+    return np.asarray(most + np.log1p(-np.exp(log_ndtr(low) - most)))

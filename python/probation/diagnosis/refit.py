@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -159,10 +159,7 @@ def refit(
     """
     coordinates = Coordinates.of_model(model)
     x = np.clip(coordinates.of(np.asarray(start, dtype=np.float64)), coordinates.lower, coordinates.upper)
-    parameters = coordinates.parameters(x)
-    raw, slopes = model.residual_and_jacobian(parameters)
-    residual = whitener.residual(raw)
-    jacobian = whitener.columns(slopes * coordinates.slopes(parameters))
+    residual, jacobian = _tangent(model, x, coordinates, whitener)
     if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
         raise ConvergenceError(f"the law has no finite stress at the start of {', '.join(model.parameter_names)}")
     cost = float(residual @ residual) + coordinates.penalty(x)
@@ -181,38 +178,51 @@ def refit(
             promise = -float(2.0 * gradient @ step) - float(step[free] @ normal @ step[free])
             if promise < settled:
                 break
-            moved = _evaluate(model, np.clip(x + step, coordinates.lower, coordinates.upper), coordinates, whitener)
-            if moved is not None and moved[2] < cost:
+            tried = np.clip(x + step, coordinates.lower, coordinates.upper)
+            moved = _moved(model, tried, coordinates, whitener, cost)
+            if moved is not None:
                 break
-            moved = None
             damping *= 5.0
         if moved is None:
             break
         steps += 1
-        gained = cost - moved[2]
+        gained = cost - moved.cost
         damping = max(damping / (10.0 if gained > 0.5 * promise else 2.0), LEAST_DAMPING)
-        x, _, cost = moved
-        parameters = coordinates.parameters(x)
-        raw, slopes = model.residual_and_jacobian(parameters)
-        residual = whitener.residual(raw)
-        jacobian = whitener.columns(slopes * coordinates.slopes(parameters))
+        x, cost, residual, jacobian = moved
         if gained < settled:
             break
-    return Refit(model, parameters, residual, jacobian, coordinates, steps)
+    return Refit(model, coordinates.parameters(x), residual, jacobian, coordinates, steps)
 
 
-def _evaluate(
-    model: CampaignModel, x: FloatArray, coordinates: Coordinates, whitener: Whitener
-) -> tuple[FloatArray, FloatArray, float] | None:
-    """Coordinates, whitened residual and objective; None where the law has no solution."""
+class _Point(NamedTuple):
+    x: FloatArray
+    cost: float
+    residual: FloatArray
+    jacobian: FloatArray
+
+
+def _moved(
+    model: CampaignModel, x: FloatArray, coordinates: Coordinates, whitener: Whitener, cost: float
+) -> _Point | None:
+    """The problem at x; None where the objective is not below `cost`, or the law, or its derivative, cannot be had."""
     try:
-        raw = model.residual(coordinates.parameters(x))
+        residual = whitener.residual(model.residual(coordinates.parameters(x)))
+        lower = float(residual @ residual) + coordinates.penalty(x)
+        if not lower < cost:
+            return None
+        residual, jacobian = _tangent(model, x, coordinates, whitener)
     except (ConvergenceError, InputError, FloatingPointError):
         return None
-    if not np.isfinite(raw).all():
-        return None
-    residual = whitener.residual(raw)
-    return x, residual, float(residual @ residual) + coordinates.penalty(x)
+    return _Point(x, lower, residual, jacobian) if np.isfinite(jacobian).all() else None
+
+
+def _tangent(
+    model: CampaignModel, x: FloatArray, coordinates: Coordinates, whitener: Whitener
+) -> tuple[FloatArray, FloatArray]:
+    """Whitened residual, and its derivatives along the coordinates."""
+    parameters = coordinates.parameters(x)
+    raw, slopes = model.residual_and_jacobian(parameters)
+    return whitener.residual(raw), whitener.columns(slopes * coordinates.slopes(parameters))
 
 
 def _solve(normal: FloatArray, gradient: FloatArray, damping: float) -> FloatArray:

@@ -12,6 +12,7 @@ from probation.gap.model import CampaignModel
 from probation.gap.noise import estimate_noise
 from probation.gap.record_residual import RecordResidual
 from probation.gap.smooth_basis import smooth_basis
+from probation.gap.spikes import without_spikes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,7 +47,12 @@ def shrink_of(
     after = everywhere.with_causes(causes).predict(best.refit.parameters) if causes else before
     noises = {noise.name: noise for noise in base.whitened.noises} | _noise_of_others(base, everywhere, campaign)
     pieces = {
-        view.id: Piece(before[view.id] - view.data, after[view.id] - view.data, noises[view.id]) for view in base.views
+        view.id: Piece(
+            without_spikes(before[view.id] - view.data, noises[view.id].spikes),
+            without_spikes(after[view.id] - view.data, noises[view.id].spikes),
+            noises[view.id],
+        )
+        for view in base.views
     }
     fitted = [view.id for view in base.views if view.role == "identify"]
     others = [view.id for view in base.views if view.role != "identify"]

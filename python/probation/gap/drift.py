@@ -99,4 +99,4 @@ def with_drift(noise: NoiseModel, size: float) -> NoiseModel:
     columns = waves(len(noise), min(MODELLED, len(noise) // HIGHEST))
     order = np.maximum(np.arange(columns.shape[1]), 1)
     slow: FloatArray = noise.long_run[:, None] * columns * np.sqrt(size / order)
-    return replace(noise, carried=np.hstack([noise.carried, slow]))
+    return replace(noise, drift=slow)

@@ -17,7 +17,7 @@ Growth = Literal["constant", "force", "local"]
 
 @dataclass(frozen=True, eq=False)
 class NoiseModel:
-    """x = profile * ARMA(1,1) + carried * N(0, 1), gap-method section 1.
+    """x = profile * ARMA(1,1) + carried * N(0, 1) + drift * N(0, 1), gap-method section 1.
 
     Attributes
     ----------
@@ -44,6 +44,8 @@ class NoiseModel:
         Readings that are kept out.
     source : str
         Where the estimate is from, in words.
+    drift : ndarray, shape (n, k) [MPa], optional
+        Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
     """
 
     name: str
@@ -58,6 +60,7 @@ class NoiseModel:
     shape_variance: float
     spikes: tuple[int, ...]
     source: str
+    drift: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.profile)
@@ -87,9 +90,10 @@ class NoiseModel:
     def simulate(self, rng: np.random.Generator, size: int = 1) -> FloatArray:
         """Draws of the noise, shape (size, n) [MPa]."""
         rough = self.profile * self.arma.simulate(rng, len(self), size)
-        if not self.carried.shape[1]:
+        slow = self._slow
+        if not slow.shape[1]:
             return rough
-        return np.asarray(rough + rng.standard_normal((size, self.carried.shape[1])) @ self.carried.T)
+        return np.asarray(rough + rng.standard_normal((size, slow.shape[1])) @ slow.T)
 
     def scaled(self, factor: float) -> NoiseModel:
         """The same noise with `factor` times the standard deviation."""
@@ -99,13 +103,19 @@ class NoiseModel:
             sigma=self.sigma * factor,
             white=self.white * factor,
             carried=self.carried * factor,
+            drift=None if self.drift is None else self.drift * factor,
         )
+
+    @property
+    def _slow(self) -> FloatArray:
+        return self.carried if self.drift is None else np.hstack([self.carried, self.drift])
 
     @cached_property
     def _smooth_part(self) -> tuple[FloatArray, FloatArray]:
-        """(I + U U^T)^(-1/2) = I - Q diag(1 - (1 + s^2)^(-1/2)) Q^T, U = Q diag(s) V^T the whitened carried noise."""
-        if not self.carried.shape[1]:
+        """(I + U U^T)^(-1/2) = I - Q diag(1 - (1 + s^2)^(-1/2)) Q^T, U = Q diag(s) V^T the whitened slow noise."""
+        slow = self._slow
+        if not slow.shape[1]:
             return np.zeros((len(self), 0)), np.zeros(0)
-        whitened = self.arma.whiten(self.carried / self.profile[:, None])
+        whitened = self.arma.whiten(slow / self.profile[:, None])
         directions, size, _ = np.linalg.svd(whitened, full_matrices=False)
         return directions, 1.0 - 1.0 / np.sqrt(1.0 + size**2)

@@ -1,0 +1,144 @@
+"""Probabilities of explanations follow Bayes' rule, and an answer set holds what it promises."""
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from campaigns import linear_problem as problem
+from probation import gap
+from probation.diagnosis.evidence import Evidence
+from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.probabilities import Weighed, answer_set, log_prior, weigh
+from probation.gap import Cause
+
+VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
+BASE = problem.solved(problem.bar(), VIEWS)
+NAMES = [f"effect_{letter}" for letter in "abcdef"]
+
+
+def made(name, kind="material", more_forms=()):
+    return problem.effect(
+        lambda view, values: values[0] * view.true_strain,
+        problem.parameter("size", -1.0, 1.0, 1.0),
+        name=name,
+        kind=kind,
+        more_forms=more_forms,
+    )
+
+
+def hypothesis(*causes, log_evidence=0.0, unknown=-np.inf):
+    model = gap.CampaignModel(problem.bar(), VIEWS, causes)
+    found = replace(BASE, model=model, parameters=model.start)
+    return Hypothesis(found, Evidence(log_evidence, 0.0, unknown, np.zeros((0, 0))))
+
+
+def alone(name, **options):
+    effect = made(name)
+    return hypothesis(Cause(effect, effect.forms[0]), **options)
+
+
+def every_place(effect, **options):
+    """A rig's fault in all records and in each alone, in every form."""
+    places = [None, *((view.id,) for view in VIEWS)]
+    return [hypothesis(Cause(effect, form, place), **options) for form in effect.forms for place in places]
+
+
+def test_probabilities_sum_to_one_and_come_in_order():
+    rng = np.random.default_rng(0)
+    found = [hypothesis(log_evidence=-3.0, unknown=-2.0)]
+    found += [alone(name, log_evidence=rng.normal(), unknown=rng.normal()) for name in NAMES]
+    weighed = weigh(found, len(NAMES))
+    chances = [each.probability for each in weighed]
+    assert sum(chances) == pytest.approx(1.0, abs=1e-12)
+    assert chances == sorted(chances, reverse=True)
+    assert {(), ("unknown",)} <= {each.effects for each in weighed}
+
+
+def test_prior_probabilities_of_all_sets_sum_to_one():
+    """None, unknown, each alone, pairs, triples, each beside an unknown one."""
+    count = len(NAMES)
+    sets = [names for size in range(4) for names in combinations(NAMES, size)]
+    sets += [("unknown",), *((name, "unknown") for name in NAMES)]
+    assert sum(np.exp(log_prior(names, count)) for names in sets) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_more_effects_are_less_probable_beforehand():
+    count = len(NAMES)
+    chain = [log_prior(tuple(NAMES[:size]), count) for size in range(4)]
+    assert chain == sorted(chain, reverse=True)
+    assert log_prior((NAMES[0], "unknown"), count) < log_prior((NAMES[0],), count)
+    assert log_prior((*NAMES[:2], "unknown"), count) < log_prior((NAMES[0], "unknown"), count)
+
+
+def test_with_equal_evidence_the_odds_are_those_beforehand():
+    weighed = weigh([hypothesis(), *(alone(name) for name in NAMES)], len(NAMES))
+    chance = {each.effects: each.probability for each in weighed}
+    for name in NAMES:
+        expected = np.exp(log_prior((name,), len(NAMES)) - log_prior((), len(NAMES)))
+        assert chance[(name,)] / chance[()] == pytest.approx(expected)
+
+
+def test_odds_grow_with_the_ratio_of_evidences():
+    """Two log units: e^2."""
+    pair = weigh([hypothesis(), alone(NAMES[0], log_evidence=2.0), alone(NAMES[1])], len(NAMES))
+    chance = {each.effects: each.probability for each in pair}
+    assert chance[(NAMES[0],)] / chance[(NAMES[1],)] == pytest.approx(np.exp(2.0))
+
+
+@pytest.mark.parametrize("forms", [(), ("second",), ("second", "third")])
+def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
+    """All equally good: as probable together as an effect of one form that sits in all records."""
+    rig = made("rig_fault", kind="rig", more_forms=forms)
+    weighed = weigh([hypothesis(), alone(NAMES[0]), *every_place(rig)], len(NAMES))
+    chance = {each.effects: each.probability for each in weighed}
+    assert chance[("rig_fault",)] == pytest.approx(chance[(NAMES[0],)])
+
+
+def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():
+    rig = made("rig_fault", kind="rig")
+    best = hypothesis(Cause(rig, rig.forms[0], ("r2",)), log_evidence=5.0)
+    weighed = weigh([hypothesis(), *every_place(rig), best], len(NAMES))
+    assert weighed[0].hypothesis.records == ("r2",)
+
+
+def test_several_starts_that_end_in_one_place_are_counted_once():
+    once = weigh([hypothesis(), alone(NAMES[0], log_evidence=1.0)], len(NAMES))
+    often = weigh([hypothesis(), *(alone(NAMES[0], log_evidence=e) for e in (1.0, 1.0, -4.0))], len(NAMES))
+    assert [each.probability for each in often] == pytest.approx([each.probability for each in once])
+
+
+def test_an_effect_that_could_not_be_solved_has_no_say():
+    weighed = weigh([hypothesis(), alone(NAMES[0], log_evidence=-np.inf), alone(NAMES[1])], len(NAMES))
+    assert all(np.isfinite(each.probability) for each in weighed)
+    assert sum(each.probability for each in weighed if each.effects == (NAMES[0],)) == 0.0
+
+
+def test_a_combination_bears_its_names_sorted():
+    effects = [made(name) for name in ("effect_b", "effect_a")]
+    pair = hypothesis(*(Cause(effect, effect.forms[0]) for effect in effects), unknown=0.0)
+    names = {each.effects for each in weigh([hypothesis(), pair], len(NAMES))}
+    assert {("effect_a", "effect_b"), ("effect_a", "effect_b", "unknown")} <= names
+
+
+def named(*chances):
+    none = hypothesis()
+    return [Weighed((name,), chance, none) for name, chance in zip("abcdef", chances, strict=False)]
+
+
+def test_an_answer_set_is_the_shortest_list_that_holds_its_probability():
+    assert answer_set(named(0.6, 0.3, 0.08, 0.02), 0.95) == (("a",), ("b",), ("c",))
+    assert answer_set(named(0.97, 0.03), 0.95) == (("a",),)
+    assert answer_set(named(0.5, 0.5), 0.95) == (("a",), ("b",))
+
+
+def test_answer_sets_hold_the_truth_as_often_as_they_promise():
+    """Truths drawn from made-up probabilities: 95 % or, since sets are whole, more."""
+    rng = np.random.default_rng(1)
+    held = 0
+    for _ in range(2000):
+        chances = np.sort(rng.dirichlet(np.full(6, 0.5)))[::-1]
+        truth = "abcdef"[rng.choice(6, p=chances)]
+        held += (truth,) in answer_set(named(*chances.tolist()), 0.95)
+    assert held / 2000 >= 0.95 - 3.0 * np.sqrt(0.05 * 0.95 / 2000)
