@@ -3,6 +3,7 @@
 import ast
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,13 @@ from scipy.integrate import quad, solve_ivp
 
 import probation
 from probation.blind import laboratory
+from probation.blind.laboratory.bank import Bank
 from probation.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
+from probation.blind.laboratory.design import draw_design
 from probation.blind.laboratory.material import TIME_RATIO, WEIGHT, Activation, BaseLaw, Heating, Specimen, integrate
+from probation.blind.laboratory.noise import Noise, draw_record_noise
+from probation.blind.laboratory.rig import REFINEMENT
+from probation.blind.laboratory.trial import Acting, recorded_stress
 from probation.blind.laboratory.withheld import shortest_window
 
 SOURCE = Path(probation.__file__).parent
@@ -170,6 +176,24 @@ def test_every_name_of_the_contract_can_be_withheld():
     assert not {cause.name for cause in OUTSIDE} & CONTRACT
     assert all(not cause.outside for cause in KNOWN)
     assert all(cause.outside for cause in OUTSIDE)
+
+
+def test_every_cause_adds_the_same_on_the_samples_and_on_four_times_finer_steps():
+    """In one unloaded record; the samples' signals are what detectabilities are made of."""
+    random = np.random.default_rng(4)
+    bench = draw_design(random, needs_unloading=True, needs_reach=True).bench
+    k = next(k for k, test in enumerate(bench.tests) if test.schedule.unloads)
+    bench = replace(bench, held_out=tuple(j != k for j in range(len(bench.tests))))
+    noise = Noise(0.1, False, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    noises = [draw_record_noise(random, noise, bench.law, test.time, test.strain) for test in bench.tests]
+    bank = Bank(bench, noises)
+    setting = bank.setting([k])
+    plain = recorded_stress([(bench.trial(k, fine=True), ())])[0][::REFINEMENT]
+    for cause in (*KNOWN, *OUTSIDE):
+        acting = Acting(cause, 0.5 * min(cause.scale, cause.largest(setting)), cause.draw(random, setting))
+        coarse = bank.added(k, [(acting,)])[0]
+        fine = recorded_stress([(bench.trial(k, fine=True), (acting,))])[0][::REFINEMENT] - plain
+        assert np.linalg.norm(coarse - fine) <= 0.1 * np.linalg.norm(fine) + 1e-6, cause.name
 
 
 @pytest.fixture(scope="module")

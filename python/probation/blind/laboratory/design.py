@@ -60,8 +60,12 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) 
     else:
         slowest = fastest / 10.0 ** random.uniform(1.3, 2.0)
         law = BaseLaw(modulus, 1.5 * weissenberg / fastest, hardening)
+
+    def elastic_strain(rate: float) -> float:
+        return _PLATEAU * rate * float(np.exp(law.log_time(np.array([rate]))[0]))
+
     count = int(random.integers(3, 9))
-    schedules = draw_schedules(random, count, slowest, fastest, end, modulus, needs_unloading, with_companion)
+    schedules = draw_schedules(random, count, slowest, fastest, end, elastic_strain, needs_unloading, with_companion)
     controller = draw_controller(random)
     samples = int(random.integers(280, 560))
     tests = tuple(drive(random, each, int(samples * random.uniform(0.85, 1.2)), controller) for each in schedules)

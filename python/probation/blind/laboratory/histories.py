@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -133,7 +134,7 @@ def draw_schedules(
     slowest: float,
     fastest: float,
     end: float,
-    modulus: float,
+    elastic_strain: Callable[[float], float],
     needs_unloading: bool,
     gentle: bool,
 ) -> list[Schedule]:
@@ -146,8 +147,8 @@ def draw_schedules(
     slowest, fastest : float [1/s]
     end : float [-]
         Largest strain.
-    modulus : float [MPa]
-        E_u, by which an unloading is measured.
+    elastic_strain : callable
+        By which an unloading from a steady flow at some rate is measured [-].
     needs_unloading : bool
     gentle : bool
         Without dwells: where the base law's times follow the rate they say more of the rate's noise than of the law.
@@ -160,7 +161,6 @@ def draw_schedules(
     chosen = list(random.permutation(kinds))
     if needs_unloading:
         chosen = ["unloading", *(kind for kind in chosen if kind != "unloading")]
-    back = float(np.clip(120.0 / modulus, 0.03, 0.12))
     for kind in [*chosen, *chosen][: count - ramps]:
         middle = slowest * 10.0 ** (decades * random.uniform(0.3, 0.8))
         top = end * random.uniform(0.7, 1.0)
@@ -172,7 +172,7 @@ def draw_schedules(
             centre = slowest * 10.0 ** (0.5 * decades)
             found.append(rate_jumps(random, centre, top, min(decades, 1.3)))
         elif kind == "unloading":
-            found.append(unloading(random, middle, top, back))
+            found.append(unloading(random, middle, top, float(np.clip(1.5 * elastic_strain(middle), 0.01, 0.12))))
         elif kind == "dwell":
             found.append(dwell(random, middle, top))
         else:

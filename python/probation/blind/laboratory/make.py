@@ -143,7 +143,7 @@ def _wishes(random: Generator, stratum: str) -> list[Wish]:
 
 
 def _pretence(random: Generator, run: _Run) -> tuple[Wish, Planted, str] | None:
-    """Something outside the catalogue that looks like something in it: of all signals the one most alike."""
+    """Something outside the catalogue that looks like something in it, every kind with the same chance."""
     known = [each for each in run.bank.signals if not each.cause.outside]
     directions = np.stack([each.column / each.norm for each in known], axis=1)
     candidates: list[tuple[float, Signal]] = []
@@ -153,6 +153,9 @@ def _pretence(random: Generator, run: _Run) -> tuple[Wish, Planted, str] | None:
     alike = [(cosine, each) for cosine, each in candidates if cosine >= _MIMIC_COSINE]
     if not alike:
         return None
+    kinds = sorted({each.cause.name for _, each in alike})
+    kind = kinds[int(random.integers(len(kinds)))]
+    alike = [pair for pair in alike if pair[1].cause.name == kind]
     cosine, signal = alike[int(random.integers(len(alike)))]
     target = min(_MIMIC_LEFT / max(float(np.sqrt(1.0 - cosine**2)), 1e-3), _MIMIC_MOST)
     wish = Wish(signal.cause, signal.everywhere, max(target, _MIMIC_LEAST) * random.uniform(0.8, 1.0))

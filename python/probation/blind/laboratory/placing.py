@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
+from probation.blind.laboratory.oracle import TARGETS
 from probation.blind.laboratory.trial import Acting
 
 if TYPE_CHECKING:
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
     from probation.blind.laboratory.bank import Bank, Signal
     from probation.blind.laboratory.material import FloatArray
     from probation.blind.laboratory.trial import Cause, Shape
-
-TARGETS = (3.0, 5.0, 8.0, 15.0, 40.0, 100.0)
-"""Detectabilities that are aimed at."""
 
 LEAST = 2.0
 """Less detectable causes are not planted."""
