@@ -7,6 +7,7 @@ from probation.change import Change, Direction, PowerActivation, SelfHeating, St
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
+from probation.diagnosis import Diagnosis, diagnose
 from probation.errors import ConvergenceError, InputError
 from probation.excitation import Excitation, excite
 from probation.histories import ImposedHistory, named_history
@@ -26,6 +27,7 @@ __all__ = [
     "Change",
     "ConvergenceError",
     "CrossCheck",
+    "Diagnosis",
     "Direction",
     "Excitation",
     "Exponential",
@@ -50,6 +52,7 @@ __all__ = [
     "certify",
     "creep",
     "crosscheck",
+    "diagnose",
     "excite",
     "fit",
     "haward_thackray_strain",

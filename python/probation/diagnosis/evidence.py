@@ -8,8 +8,9 @@ nearly all of it. So what an explanation leaves is let be noise plus a smooth di
 
 y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
 waves over every record and D = rho^2 lambda_r v the discrepancy's variance: rho the relative error of a form, lambda_r
-what the explanation does to record r, v the spectrum of smooth curves. rho is integrated out. "Unknown" is the same
-with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001; gap-method sections 4 and 7).
+what the explanation does to record r, v the spectrum of smooth curves. rho is integrated out; errors of a form that are
+alike in all records (`form_columns`) stand among the parameters. "Unknown" is the same with nothing but a discrepancy,
+of any size (Kennedy & O'Hagan 2001; gap-method sections 4 and 7).
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ if TYPE_CHECKING:
     from probation.diagnosis.refit import Refit
     from probation.gap.whitening import Whitened
 
-FORM_ERRORS = (0.0, 0.01, 0.02, 0.04, 0.08, 0.16)
-FORM_WEIGHTS = (0.3, 0.2, 0.2, 0.15, 0.1, 0.05)
+FORM_ERRORS = (0.0, 0.01, 0.02, 0.04, 0.08)
+FORM_WEIGHTS = (0.4, 0.2, 0.2, 0.12, 0.08)
 """Relative errors of a form, and how probable they are beforehand."""
 
 SIZES = tuple((10.0 ** np.arange(0.5, 9.0, 0.25)).tolist())
@@ -122,7 +123,14 @@ class Evidence:
     covariance: FloatArray
 
 
-def evidence(found: Refit, base: Refit, discrepancy: Discrepancy, *, unknown: bool = True) -> Evidence:
+def evidence(
+    found: Refit,
+    base: Refit,
+    discrepancy: Discrepancy,
+    *,
+    forms: FloatArray | None = None,
+    unknown: bool = True,
+) -> Evidence:
     """Evidence of an explanation, or of the base law itself.
 
     Parameters
@@ -131,10 +139,12 @@ def evidence(found: Refit, base: Refit, discrepancy: Discrepancy, *, unknown: bo
     base : Refit
         Of the base law without causes.
     discrepancy : Discrepancy
+    forms : ndarray, shape (N, m), optional
+        Ways in which the forms may be wrong, of one standard deviation each; see `form_columns`.
     unknown : bool
         Whether an unknown effect beside it is looked for, too; else its evidence is -inf.
     """
-    problem = _Problem.of(found, discrepancy)
+    problem = _Problem.of(found, discrepancy, forms)
     done = discrepancy.energy(found.residual - base.residual)
     errors = FORM_ERRORS if found.model.causes else (0.0,)
     weights = FORM_WEIGHTS if found.model.causes else (1.0,)
@@ -193,7 +203,7 @@ class _Problem:
     above: FloatArray
 
     @classmethod
-    def of(cls, found: Refit, discrepancy: Discrepancy) -> _Problem:
+    def of(cls, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> _Problem:
         model, coordinates = found.model, found.coordinates
         x = coordinates.of(found.parameters)
         jacobian, residual = found.jacobian, found.residual
@@ -211,20 +221,26 @@ class _Problem:
         centre = np.where(flat, x, coordinates.centre)
         precision = np.where(flat, (below + above) ** -2.0, coordinates.precision)
         normal_part = -0.5 * coordinates.precision * (x - coordinates.centre) ** 2
+        # Beside the parameters stand the errors of their forms, standard normal; their integral is a marginal density.
+        more = np.zeros((len(residual), 0)) if forms is None else forms
+        count = more.shape[1]
+        inside = np.hstack([inside, more])
         return cls(
             square=float(residual @ residual),
             gradient=-(inside.T @ residual),
             normal=inside.T @ inside,
             waves_of_residual=-discrepancy.of_columns(residual),
             waves_of_jacobian=discrepancy.of_columns(inside),
-            away=(centre - x)[free],
-            precision=precision[free],
+            away=np.append((centre - x)[free], np.zeros(count)),
+            precision=np.append(precision[free], np.ones(count)),
             # Normalisation of the priors and, held at a bound, their value there.
-            log_prior=model.log_prior(found.parameters) - float(np.sum(normal_part[free])),
+            log_prior=model.log_prior(found.parameters)
+            - float(np.sum(normal_part[free]))
+            - 0.5 * count * float(np.log(2.0 * np.pi)),
             bound_factor=_at_bounds(jacobian, precision, np.abs(gradient), free, below + above),
             free=free,
-            below=below[free],
-            above=above[free],
+            below=np.append(below[free], np.full(count, np.inf)),
+            above=np.append(above[free], np.full(count, np.inf)),
         )
 
     def log_integral(self, variances: FloatArray) -> float:
@@ -261,8 +277,8 @@ class _Problem:
         inverse = np.linalg.pinv(self.normal + prior, hermitian=True)
         # The discrepancy widens what the estimate, made without it, scatters by.
         own = inverse @ (self.normal + inside.T @ (variances[:, None] * inside) + prior) @ inverse
-        full = np.zeros((len(self.free), len(self.free)))
-        full[np.ix_(self.free, self.free)] = own
+        full, count = np.zeros((len(self.free), len(self.free))), int(np.count_nonzero(self.free))
+        full[np.ix_(self.free, self.free)] = own[:count, :count]
         return full
 
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key, span_of
 from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.form_error import form_columns
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refit import Refit, refit
 from probation.errors import ConvergenceError, InputError
 from probation.gap.screen import screen
+from probation.gap.sharp import find_lines, find_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -33,6 +35,9 @@ IN_THE_RUNNING, SLACK = 6.0, 30.0
 
 BEHIND, FRACTION = 30.0, 0.02
 """A cause is raced if its linearised gain is within so much of the best one's, or this part of it."""
+
+CREDIBLE = 0.01
+"""p-value of a line or a step, over all records, below which causes that make them are sought there."""
 
 STARTS = 3
 """Starts per form and place that a cause in the running is given."""
@@ -128,7 +133,9 @@ class Search:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + EXPLAINED
 
     def _singles(self, columns: WhitenedColumns) -> None:
-        candidates = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+        candidates = self._credible(
+            columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
+        )
         first = _promising(_first_of_each(candidates))
         raced = self._refitted([], first, HEAT_STEPS)
         left = np.array([each.chi_square for each in raced])
@@ -158,9 +165,30 @@ class Search:
             if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
         ]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
-        ranked = white.candidates(leading.refit.residual, span_of(leading.refit.jacobian))
+        ranked = self._credible(
+            white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
+        )
         chosen = _first_of_each_effect([each for each in ranked if each.gain > WORTH], ADDITIONS)
         self.found += [self._judged(each) for each in self._refitted([leading], chosen, None)]
+
+    def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
+        """Without sharp causes in records where nothing sharp is left."""
+        span = span_of(before.jacobian)
+        left = replace(self.base.whitened, residual=before.residual - span @ (span.T @ before.residual), span=span)
+        places = {
+            "line": {line.record for line in find_lines(left) if line.p_value < CREDIBLE},
+            "step": {step.record for step in find_steps(left, size=500) if step.p_value < CREDIBLE},
+        }
+        return [
+            each
+            for each in candidates
+            if each.cause.form.sharp is None
+            or (
+                places[each.cause.form.sharp]
+                if each.cause.records is None
+                else places[each.cause.form.sharp] & {*each.cause.records}
+            )
+        ]
 
     def _swaps(self) -> None:
         """The best pair with one of its causes given up for another: the first may have stood in for both."""
@@ -209,7 +237,8 @@ class Search:
         return [each for each in found if each is not None]
 
     def _judged(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
-        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy, unknown=unknown))
+        forms = form_columns(found, self.base.whitener)
+        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy, forms=forms, unknown=unknown))
 
     def _look_beside_the_leading(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""

@@ -22,6 +22,7 @@ Values: TypeAlias = "Sequence[float] | FloatArray"
 
 Kind = Literal["material", "rig"]
 Placement = Literal["all", "one"]
+Sharp = Literal["line", "step"]
 
 LawChangeHook: TypeAlias = "Callable[[RecordView, Values], Alteration | None]"
 StrainHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
@@ -142,6 +143,9 @@ class Form:
     threshold : bool
         The effect sets in beyond some amplitude, so that its derivative at 0 says nothing: `starts` gives the
         amplitude first, then the shapes, and screens take the secant.
+    sharp : {"line", "step"}, optional
+        The effect shows as a line of one frequency or a step at one instant, and is only sought in records that have
+        one: among all frequencies or instants chance alone always finds something.
     """
 
     name: str
@@ -153,6 +157,7 @@ class Form:
     placements: tuple[Placement, ...] = ()
     starts: StartsHook | None = None
     threshold: bool = False
+    sharp: Sharp | None = None
 
     def __post_init__(self) -> None:
         if not self.parameters:

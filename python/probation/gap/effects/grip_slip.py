@@ -63,7 +63,7 @@ EFFECT = Effect(
     shows_in="one record, from one instant on: the stress drops and recovers",
     kind="rig",
     forms=(
-        Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts, placements=("one",)),
+        Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts, placements=("one",), sharp="step"),
         Form(
             "measured_section",
             _PARAMETERS,
@@ -71,6 +71,7 @@ EFFECT = Effect(
             starts=_starts,
             converts=False,
             placements=("one",),
+            sharp="step",
         ),
     ),
 )
