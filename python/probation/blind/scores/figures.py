@@ -55,7 +55,7 @@ def reliability_figure(board: Mapping[str, object]) -> Figure:
     curve = cast("Mapping[str, object]", board["reliability"])
     bins = cast("list[Mapping[str, object]]", curve["bins"])
     with house_style():
-        figure = new_figure(4.6, 4.2)
+        figure = new_figure(7.2, 3.8)
         axes = figure.subplots()
         axes.plot([0.0, 1.0], [0.0, 1.0], color=colour("muted"), lw=0.8)
         right = [cast("Mapping[str, object]", each["right"]) for each in bins]

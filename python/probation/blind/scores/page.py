@@ -39,7 +39,7 @@ def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -
     resolvable = cast("Mapping[str, object]", answers["resolvable"])
     Page(
         title=f"Sealed benchmark, split {content['split']}",
-        verdict=f"Right on {_rate(resolvable['top1'])} of what can be told from the data; "
+        verdict=f"Right on {_rate(resolvable['top1'])} of the causes that can be told from the data; "
         f"false alarms on {_rate(answers['false_alarms'])} of the nulls.",
         lead=f"{content['campaigns']} campaigns whose cause was withheld, seeds {_list(content['seeds'])}; answered by "
         f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed, "
@@ -58,8 +58,8 @@ def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -
 def _strata(board: Mapping[str, object]) -> Section:
     groups = {**_groups(board, "by_stratum"), "resolvable": cast("Mapping[str, object]", board["resolvable"])}
     note = (
-        "Resolvable: an oracle that knows every form, prior and the noise is right in 95 % of noise draws (mimics are "
-        "left out). Covered: the answer set holds the truth, or of a mimic what it looks like."
+        "Resolvable: an oracle that knows every form, prior and the noise is right in 95 % of noise draws (nulls and "
+        "mimics are left out). Covered: the answer set holds the truth, or of a mimic what it looks like."
     )
     return Section("By stratum", (_table("stratum", groups), note))
 
