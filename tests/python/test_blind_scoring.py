@@ -325,11 +325,14 @@ def test_made_solved_and_scored_on_the_command_line(tmp_path, capsys):
     solver = "probation.blind.example:no_gap"
     assert main(["blind", "solve", str(folder), "--solver", solver, "--processes", "1"]) == 0
     capsys.readouterr()
-    assert main(["blind", "score", str(folder), "--truths", str(tmp_path / "kept"), "--json", "-"]) == 0
+    page = tmp_path / "score.html"
+    score = ["blind", "score", str(folder), "--truths", str(tmp_path / "kept"), "--report", str(page)]
+    assert main([*score, "--json", "-"]) == 0
     score = json.loads(capsys.readouterr().out)
     assert score["schema"] == "probation.blind.score/1"
     assert score["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
     assert score["seeds"] == [1]
+    assert "By detectability" in page.read_text()
 
 
 def test_another_plan_in_the_same_folder_is_refused(tmp_path):

@@ -19,6 +19,8 @@ from probation.blind.solve import folder_sha256
 from probation.errors import InputError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from probation.blind.scores.answer import Answer
     from probation.blind.scores.case import Case
 
@@ -48,6 +50,18 @@ class Score:
         from probation.blind.scores.text import score_text  # noqa: PLC0415
 
         return score_text(self.content)
+
+    def plot(self) -> Figure:
+        """Gaps found and causes named over the detectability."""
+        from probation.blind.scores.figures import power_figure  # noqa: PLC0415 - matplotlib is slow to load
+
+        return power_figure(cast("dict[str, dict[str, object]]", self.content["scores"])["answers"])
+
+    def report(self, path: str | Path) -> None:
+        """Write one self-contained page."""
+        from probation.blind.scores.page import write_score_page  # noqa: PLC0415 - matplotlib is slow to load
+
+        write_score_page(self.content, path)
 
 
 def score_split(

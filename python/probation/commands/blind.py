@@ -9,8 +9,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
-from probation.commands.delivery import said, tell, warn
+from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
 from probation.commands.progress import shown
 from probation.errors import InputError
 
@@ -24,7 +23,7 @@ The sealed benchmark: campaigns of a virtual laboratory whose cause is withheld,
 
   probation blind make --seed 7 --count 100 --out split/      campaigns, and a seal of every truth
   probation blind solve split/                                answers, each with the version that gave it
-  probation blind score split/ --json score.json              opens the truths, checks the seals, scores
+  probation blind score split/ --report score.html             opens the truths, checks the seals, scores
 
 An interrupted run goes on where it stopped. The truths are in split/truths unless --truths says otherwise: keep them
 from whoever answers. Answers given after the truths were first opened are refused.
@@ -66,7 +65,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     score.add_argument(
         "--after-opening", action="store_true", help="score answers given after the opening, too; not of a test split"
     )
-    score.add_argument("--json", metavar="FILE", help="write the scores as JSON; - is standard output, alone there")
+    add_delivery(score)
     return parser
 
 
@@ -132,12 +131,8 @@ def _score(options: argparse.Namespace) -> None:
         beside=beside,
         after_opening=options.after_opening,
     )
-    tell(score.summary(), sys.stderr if options.json == "-" else sys.stdout)
-    if options.json == "-":
-        sys.stdout.write(score.to_json())
-    elif options.json:
-        write_whole(options.json, score.to_json())
-        said("JSON", options.json)
+    deliver(score, options)
+    deliver_report(score, options)
 
 
 @contextmanager

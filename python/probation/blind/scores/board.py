@@ -32,7 +32,7 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
             lambda case: case.detectability_class,
             [name for name, _, _ in DETECTABILITIES],
         ),
-        "resolvable": _group([case for case in cases if case.resolvable and case.stratum != "mimic"]),
+        "resolvable": _group([case for case in cases if case.resolvable and case.stratum not in ("none", "mimic")]),
         "false_alarms": Rate.of(case.answer.gap for case in cases if case.stratum == "none").plain(),
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
