@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import savgol_filter
 
 from probation.errors import InputError
 from probation.gap.alteration import ONCE, Alteration
@@ -173,6 +172,8 @@ class CampaignModel:
         What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
         over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept.
         """
+        from scipy.signal import savgol_filter  # noqa: PLC0415 - slow to load
+
         base, causes = self.split(parameters)
         views = []
         for view in self.views:
