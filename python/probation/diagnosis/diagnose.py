@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from probation.law import Scheme
     from probation.records import Campaign
 
-RECONSIDERED = 24
+RECONSIDERED = 16
 """Hypotheses that are judged again once the noise is known beside the best one."""
 
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")

@@ -33,8 +33,8 @@ HEAT_STEPS = 4
 IN_THE_RUNNING, SLACK = 6.0, 30.0
 """A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
 
-BEHIND, FRACTION = 30.0, 0.02
-"""A cause is raced if its linearised gain is within so much of the best one's, or this part of it."""
+BEHIND, FRACTION, STRONG = 14.0, 0.02, 100.0
+"""A cause is raced if its linearised gain is within so much of the best one's; for a strong gap, if it is this part."""
 
 CREDIBLE = 0.01
 """p-value of a line or a step, over all records, below which causes that make them are sought there."""
@@ -50,6 +50,9 @@ FORWARD, ADDITIONS = 3, 6
 
 LEADING = 6
 """Hypotheses beside which an unknown effect is looked for."""
+
+HOPELESS = 15.0
+"""Log evidence behind the best one from which on a hypothesis is not looked at again."""
 
 WORTH = 10.0
 """Linearised gain from which on an addition is refitted."""
@@ -114,6 +117,8 @@ class Search:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
         again = Search(base, Discrepancy.of(base.whitened), self.effects, self.threads)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
+        least = leading[0].evidence.log_evidence - HOPELESS
+        leading = [each for each in leading if each.evidence.log_evidence > least]
         again.found += [again._judged(each) for each in again._polished([each.refit for each in leading])]
         again._look_beside_the_leading()
         return again.found
@@ -148,7 +153,8 @@ class Search:
         self.found += [self._judged(each) for each in out]
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
-        more = [each for each in _others(candidates, first, STARTS - 1) if cause_key(each.cause) in keys]
+        others = _others(_promising(candidates), first, STARTS - 1)
+        more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted([], more, None)
         self.found += [self._judged(each) for each in polished]
 
@@ -279,7 +285,8 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
     best = max((each.gain for each in candidates), default=0.0)
-    least = max(min(best - BEHIND, FRACTION * best), 0.0)
+    strong = best / (best + STRONG) if best > 0.0 else 0.0
+    least = best - max(BEHIND, (1.0 - FRACTION) * strong * best)
     return [each for each in candidates if each.gain >= least and each.gain > 0.0]
 
 
