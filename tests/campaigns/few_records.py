@@ -8,7 +8,7 @@ import probation
 from probation.records import Noise, Record
 
 NOISE = 0.04
-COUNT = 200
+COUNT = 150
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
 CORNERS = {
     "slow": ([0.0, 1000.0], [0.0, 1.2]),
