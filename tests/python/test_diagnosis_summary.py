@@ -17,6 +17,7 @@ from probation.diagnosis.words import (
     explanation_name,
     name_of,
     p_text,
+    parameter_lines,
     parameter_text,
     percent,
     short_ids,
@@ -164,3 +165,31 @@ def test_long_record_names_are_shortened_only_where_they_stay_different():
     assert short[ids[1]] == ids[1]
     assert len(short[ids[3]]) <= 30
     assert len(set(short.values())) == 4
+
+
+def test_parameters_of_a_combination_stand_under_their_effects_with_the_record_of_a_fault():
+    def parameter(effect, name, records, value):
+        return CauseParameter(effect, name, "MPa", records, value, 0.1)
+
+    every = ("ramp-0.001", "ramp-0.003", "ramp-0.006", "dwell", made_up.LONG)
+    pair = Explanation(
+        effects=("force_offset", "prestress"),
+        titles=("offset of the force", "prestress"),
+        forms=("constant", "relaxing"),
+        records=every,
+        probability=0.5,
+        parameters=(
+            parameter("prestress", "stress_MPa", every, 2.0),
+            parameter("prestress", "start_MPa", every, 1.0),
+            parameter("force_offset", "offset_MPa", ("dwell",), 3.0),
+        ),
+    )
+    assert parameter_lines(pair, made_up.self_heating()) == [
+        "prestress:",
+        "stress 2.00 ± 0.10 MPa",
+        "start 1.00 ± 0.10 MPa",
+        "offset of the force, in dwell:",
+        "offset 3.00 ± 0.10 MPa",
+    ]
+    alone = replace(pair, parameters=pair.parameters[:2])
+    assert parameter_lines(alone, made_up.self_heating()) == ["stress 2.00 ± 0.10 MPa", "start 1.00 ± 0.10 MPa"]

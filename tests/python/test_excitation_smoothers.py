@@ -166,3 +166,28 @@ def test_an_unknown_method_is_refused_with_the_known_ones():
     time = np.linspace(0.0, 9.0, 30)
     with pytest.raises(InputError, match=r"excitation is 'loess'.*quintic-spline.*savitzky-golay"):
         excite(record(time, 0.01 * time), "loess")
+
+
+def cycles(samples_per_cycle, samples, amplitude=0.01, noise=1e-5):
+    """A sine on a ramp, twenty samples a second."""
+    time = 0.05 * np.arange(samples)
+    wave = amplitude * np.sin(2.0 * np.pi * np.arange(samples) / samples_per_cycle)
+    return time, 0.005 * time + wave + noise * np.random.default_rng(0).normal(size=samples)
+
+
+def test_cycles_too_many_for_the_smoothers_knots_are_left_as_recorded():
+    """200 cycles: what the spline leaves is the cycles, a dozen times what neighbouring samples scatter by."""
+    time, strain = cycles(20, 4001)
+    found = excite(record(time, strain, control="cyclic"))
+    assert found.method == "raw"
+    assert_allclose(found.true_strain, strain, rtol=0.0, atol=0.0)
+    assert found.strain_rate is None
+    assert found.operators is None
+
+
+def test_cycles_that_the_smoother_follows_are_smoothed():
+    time, strain = cycles(80, 801)
+    found = excite(record(time, strain, control="cyclic"))
+    assert found.method == DEFAULT
+    assert np.max(np.abs(found.true_strain - strain)) < 1e-4
+    assert found.strain_noise == pytest.approx(1e-5, rel=0.1)

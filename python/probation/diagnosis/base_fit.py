@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.refit import Refit, refit
+from probation.diagnosis.substeps import enough_substeps, predicted
 from probation.diagnosis.whitener import Whitener
 from probation.excitation import excite
 from probation.gap.dnlr_law import DnlrLaw
@@ -103,7 +104,8 @@ def base_fit(campaign: Campaign, scheme: Scheme = "be2", hold: Mapping[str, floa
     else:
         found = fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection")
     samples = _excitations(campaign, found)
-    views = views_of(campaign, excitations=samples, scheme=scheme, substeps=found.substeps)
+    steps = enough_substeps(campaign, found, samples)
+    views = views_of(campaign, excitations=samples, scheme=scheme, substeps=steps)
     free = [name for name in found.law.parameter_names if name in found.names]
     law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in free])
     base = fit_views(law, views, campaign.records, samples)
@@ -154,16 +156,7 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
 
 def _misfit(found: Fit, excitation: Excitation, record: Record) -> float:
     """Sum of squares of the fit residual [MPa^2]."""
-    fine = excitation.refined(found.substeps)
-    stress = found.law.stress(
-        fine.time,
-        fine.true_strain,
-        scheme=found.scheme,
-        strain_rate=fine.strain_rate,
-        jumps=fine.time[list(fine.jumps)] if fine.jumps else None,
-        direction=fine.direction,
-    )
-    return float(np.sum((stress[:: found.substeps] - record.true_stress) ** 2))
+    return float(np.sum((predicted(found, excitation, found.substeps) - record.true_stress) ** 2))
 
 
 def fit_views(

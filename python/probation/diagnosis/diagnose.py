@@ -31,9 +31,10 @@ from probation.gap.screen import screen
 from probation.gap.where import locate
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.result import Checks
     from probation.law import Scheme
     from probation.records import Campaign
 
@@ -119,16 +120,14 @@ def diagnose(
         weighed = _with_none_leading(weighed)
     told(0.8)
     best = weighed[0]
+    chosen = answer_set(weighed)
     verdict: Verdict = "no_gap"
-    judged = None
+    judged: dict[tuple[str, ...], Checks] = {}
     if gap.rejected:
-        after = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed)
-        verdict = "unexplained" if UNKNOWN in best.effects or after.rejected else "explained"
-        if best.hypothesis.causes:
-            judged = checks(best.hypothesis, base.refit, base.whitened, after.p_value)
+        left, judged = _judged(weighed, chosen, base, discrepancy, seed)
+        verdict = "unexplained" if UNKNOWN in best.effects or left else "explained"
     told(0.85)
     explanations = explanations_of(weighed, judged)
-    chosen = answer_set(weighed)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
     shrink, curves = shrink_of(base, best.hypothesis, campaign, where.located, seed=seed)
     told(0.9)
@@ -162,6 +161,22 @@ def diagnose(
         seed=seed,
         isolability=apart,
     )
+
+
+def _judged(
+    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, discrepancy: Discrepancy, seed: int
+) -> tuple[bool, dict[tuple[str, ...], Checks]]:
+    """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
+    left, found = False, {}
+    for index, each in enumerate(weighed[: len(chosen)]):
+        if index and not each.hypothesis.causes:
+            continue
+        after = remaining_gap(each.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed)
+        if index == 0:
+            left = after.rejected
+        if each.hypothesis.causes:
+            found[each.effects] = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
+    return left, found
 
 
 def _with_none_leading(weighed: list[Weighed]) -> list[Weighed]:

@@ -12,7 +12,7 @@ from probation.gap.where import Located, contribution_regions
 from probation.identify.parameter import IDENTIFIABLE, WEAKLY
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
@@ -23,10 +23,10 @@ UNINFORMED = 0.9
 """A standard error above so much of the prior's means that the data add nothing."""
 
 
-def explanations_of(weighed: Sequence[Weighed], checks: Checks | None) -> tuple[Explanation, ...]:
-    """Entries of the answer, in the order of `weighed`; the first one is given the checks."""
+def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...], Checks]) -> tuple[Explanation, ...]:
+    """Entries of the answer, in the order of `weighed`, with the checks of those that were checked."""
     found = []
-    for index, each in enumerate(weighed):
+    for each in weighed:
         causes = each.hypothesis.causes
         found.append(
             Explanation(
@@ -36,7 +36,7 @@ def explanations_of(weighed: Sequence[Weighed], checks: Checks | None) -> tuple[
                 records=each.hypothesis.records,
                 probability=each.probability,
                 parameters=cause_parameters(each.hypothesis),
-                checks=checks if index == 0 else None,
+                checks=checks.get(each.effects),
             )
         )
     return tuple(found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
-from probation.diagnosis.words import listed
+from probation.diagnosis.words import listed, percent
 from probation.gap.registry import effect
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def headline(
         shown = listed([titles(each) for each in rivals[:MOST_RIVALS]], "or")
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell it from {shown}{more}."
-    return f"{sentence} (probability {100.0 * best.probability:.0f} %)."
+    return f"{sentence} (probability {percent(best.probability)})."
 
 
 def _confined(best: Explanation, record_count: int) -> bool:

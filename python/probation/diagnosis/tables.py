@@ -12,7 +12,7 @@ from probation.diagnosis.words import (
     closed_interval,
     explanation_name,
     p_text,
-    parameter_text,
+    parameter_lines,
     percent,
     short_ids,
     span_text,
@@ -71,7 +71,7 @@ def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
             (
                 star,
                 explanation_name(each, found),
-                "\n".join(parameter_text(parameter) for parameter in each.parameters) if detail else "",
+                "\n".join(parameter_lines(each, found)) if detail else "",
                 "\n".join(checks_text(each)),
                 percent(each.probability),
             )

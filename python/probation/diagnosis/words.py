@@ -142,6 +142,19 @@ def parameter_text(each: CauseParameter) -> str:
     return " ".join([_words(each), value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
 
 
+def parameter_lines(each: Explanation, found: Diagnosis) -> list[str]:
+    """An explanation's parameters, one a line; those of a combination under the name of their effect."""
+    titles = dict(zip(each.effects, each.titles, strict=False))
+    causes = list(dict.fromkeys((parameter.effect, parameter.records) for parameter in each.parameters))
+    lines = []
+    for effect, records in causes:
+        if len(causes) > 1:
+            place = f", in {short_ids(found.curves).get(records[0], records[0])}" if len(records) == 1 else ""
+            lines.append(f"{titles.get(effect, effect.replace('_', ' '))}{place}:")
+        lines += [parameter_text(own) for own in each.parameters if (own.effect, own.records) == (effect, records)]
+    return lines
+
+
 def _words(each: CauseParameter) -> str:
     suffix = _suffix(each.unit)
     return (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")

@@ -1,0 +1,66 @@
+"""Steps of the scheme from sample to sample that keep its own error from being taken for an effect."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.records.noise import scatter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from probation._arrays import FloatArray
+    from probation.excitation import Excitation
+    from probation.identify import Fit
+    from probation.records import Campaign
+
+TOLERATED = 2.0
+"""Norm of the scheme's error over the noise, all samples together: its square is what an effect must gain at least."""
+
+MOST, ENOUGH_INSTANTS = 16, 4000
+"""Most substeps; on short records as many as make so many instants in all."""
+
+
+def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Excitation]) -> int:
+    """Substeps for a scheme of order 2, at least those of the fit.
+
+    A fit takes as many as its standard errors ask for, which are wide where there is a gap; the noise asks for more.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    found : Fit
+        Of the base law.
+    excitations : dict of str to Excitation
+        By record id, at the samples.
+    """
+    most = max(MOST, ENOUGH_INSTANTS // max(len(record.time) for record in campaign.identify))
+    steps = found.substeps
+    while steps < most:
+        square = 0.0
+        for record in campaign.identify:
+            coarse, fine = (predicted(found, excitations[record.id], count) for count in (steps, 2 * steps))
+            noise = max(scatter(record.time, record.true_stress - fine), 1e-300)
+            square += float(np.sum((coarse - fine) ** 2)) / noise**2
+        # Halving the step leaves a quarter of the error.
+        norm = 4.0 / 3.0 * np.sqrt(square)
+        if norm <= TOLERATED:
+            break
+        steps = int(min(max(np.ceil(steps * np.sqrt(min(norm / TOLERATED, 1e6))), steps + 1), most))
+    return steps
+
+
+def predicted(found: Fit, excitation: Excitation, substeps: int) -> FloatArray:
+    """The fitted law's stress at the samples, shape (n_samples,) [MPa]."""
+    fine = excitation.refined(substeps)
+    stress = found.law.stress(
+        fine.time,
+        fine.true_strain,
+        scheme=found.scheme,
+        strain_rate=fine.strain_rate,
+        jumps=fine.time[list(fine.jumps)] if fine.jumps else None,
+        direction=fine.direction,
+    )
+    return np.asarray(stress[::substeps])
