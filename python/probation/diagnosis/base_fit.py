@@ -159,6 +159,13 @@ def _misfit(found: Fit, excitation: Excitation, record: Record) -> float:
     return float(np.sum((predicted(found, excitation, found.substeps) - record.true_stress) ** 2))
 
 
+def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "be2") -> BaseFit:
+    """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
+    excitations = {record.id: excite(record) for record in campaign.records}
+    views = views_of(campaign, excitations=excitations, scheme=scheme)
+    return fit_views(law, views, campaign.records, excitations)
+
+
 def fit_views(
     law: GapLaw, views: Sequence[RecordView], records: Sequence[Record], excitations: Mapping[str, Excitation]
 ) -> BaseFit:

@@ -61,9 +61,11 @@ class WhitenedColumns:
         return cls(columns, whitener.columns(matrix))
 
     def by_effect(self) -> dict[str, FloatArray]:
-        """The columns of every effect."""
+        """The columns of every effect that is not sharp: lines and steps have tests of their own."""
         places: dict[str, list[int]] = {}
         for index, column in enumerate(self.columns):
+            if column.cause.form.sharp is not None:
+                continue
             places.setdefault(column.cause.effect.name, []).append(index)
         return {name: self.matrix[:, own] for name, own in places.items()}
 

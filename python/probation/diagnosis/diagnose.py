@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation._arrays import one_of
-from probation.diagnosis.base_fit import BaseFit, base_fit, with_noise_beside
+from probation.diagnosis.base_fit import BaseFit, base_fit, fit_law, with_noise_beside
 from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.checks import checks
 from probation.diagnosis.evidence import Discrepancy
@@ -17,7 +16,7 @@ from probation.diagnosis.explain import base_parameters, explanations_of, region
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import next_test_of
-from probation.diagnosis.probabilities import answer_set, weigh
+from probation.diagnosis.probabilities import answer_set, weigh, with_none_leading, with_unknown_leading
 from probation.diagnosis.remaining import remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
@@ -33,8 +32,12 @@ from probation.gap.where import locate
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
+    from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks
+    from probation.gap.effect import Effect
+    from probation.gap.protocol import GapLaw
+    from probation.gap.screen import Column
     from probation.law import Scheme
     from probation.records import Campaign
 
@@ -50,6 +53,7 @@ def diagnose(
     *,
     effects: Iterable[str] | None = None,
     hold: Mapping[str, float] | None = None,
+    law: GapLaw | None = None,
     seed: int = 0,
     threads: int | None = None,
     design: bool = True,
@@ -65,6 +69,9 @@ def diagnose(
         Names of those to be considered; all of the catalogue if left out.
     hold : dict of str to float, optional
         Parameters that are not identified, by name with unit; on top of the campaign's own.
+    law : GapLaw, optional
+        Another law than the campaign's, `probation.gap.CallableLaw` for one; effects that it does not understand are
+        left out.
     seed : int
         Of the bootstraps.
     threads : int, optional
@@ -91,7 +98,7 @@ def diagnose(
         if progress:
             progress(part)
 
-    base = base_fit(campaign, scheme, hold)
+    base = base_fit(campaign, scheme, hold) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
     at = base.parameters
     screened = screen(base.model, at, considered, threads=workers)
@@ -100,32 +107,22 @@ def diagnose(
     gap = with_sharp(GapTester(base.whitened, columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
     told(0.35)
-    discrepancy = Discrepancy.of(base.whitened)
     if gap.rejected:
-        # Starts that are read off the residual come in here: in the gap test they would find what chance put there.
-        sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
-        screened += screen(base.model, at, sharp, residual=base.model.residual(at), threads=workers)
-        columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
-        search = Search(base, discrepancy, considered, workers, lambda part: told(0.35 + 0.35 * part))
-        found = search.run(columns)
-        leading = search.ranked()
-        if leading:
-            base = with_noise_beside(base, leading[0].refit)
-            discrepancy = Discrepancy.of(base.whitened)
-            found = search.reconsidered(base, RECONSIDERED)
+        base, found = _searched(base, considered, screened, workers, lambda part: told(0.35 + 0.45 * part))
+        weighed = weigh(found, len(considered))
     else:
-        found = linear_hypotheses(base, columns, discrepancy)
-    weighed = weigh(found, len(considered))
-    if not gap.rejected:
-        weighed = _with_none_leading(weighed)
-    told(0.8)
-    best = weighed[0]
+        found = linear_hypotheses(base, columns, Discrepancy.of(base.whitened))
+        weighed = with_none_leading(weigh(found, len(considered)))
     chosen = answer_set(weighed)
     verdict: Verdict = "no_gap"
     judged: dict[tuple[str, ...], Checks] = {}
     if gap.rejected:
-        left, judged = _judged(weighed, chosen, base, discrepancy, seed)
-        verdict = "unexplained" if UNKNOWN in best.effects or left else "explained"
+        left, judged = _judged(weighed, chosen, base, Discrepancy.of(base.whitened), seed)
+        if (left or not weighed[0].effects) and UNKNOWN not in weighed[0].effects:
+            weighed = with_unknown_leading(weighed)
+            chosen = answer_set(weighed)
+        verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
+    best = weighed[0]
     told(0.85)
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
@@ -141,7 +138,7 @@ def diagnose(
         campaign=campaign.name,
         verdict=verdict,
         headline=headline(verdict, explanations, chosen, shrink.identify, len(base.model.views), gap.p_value),
-        law=_law_text(campaign),
+        law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
         scheme=scheme,
         base=base_parameters(base),
         gap=gap,
@@ -179,14 +176,26 @@ def _judged(
     return left, found
 
 
-def _with_none_leading(weighed: list[Weighed]) -> list[Weighed]:
-    """Where no gap is seen, no explanation may lead "no effect is needed"."""
-    none = next(each for each in weighed if not each.effects)
-    others = [each for each in weighed if each.effects]
-    lifted = max(none.probability, *(each.probability for each in others))
-    total = 1.0 - none.probability + lifted
-    first = replace(none, probability=lifted)
-    return [replace(each, probability=each.probability / total) for each in (first, *others)]
+def _searched(
+    base: BaseFit,
+    considered: tuple[Effect, ...],
+    screened: list[Column],
+    threads: int,
+    progress: Callable[[float], None],
+) -> tuple[BaseFit, list[Hypothesis]]:
+    """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
+    # Starts that are read off the residual come in here: in the gap test they would find what chance put there.
+    sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
+    residual = base.model.residual(base.parameters)
+    more = screen(base.model, base.parameters, sharp, residual=residual, threads=threads)
+    columns = WhitenedColumns.of([*screened, *more], base.whitener, len(base.whitened))
+    search = Search(base, Discrepancy.of(base.whitened), considered, threads, progress)
+    found = search.run(columns)
+    leading = search.ranked()
+    if not leading:
+        return base, found
+    base = with_noise_beside(base, leading[0].refit)
+    return base, search.reconsidered(base, RECONSIDERED)
 
 
 def _law_text(campaign: Campaign) -> str:

@@ -100,6 +100,14 @@ class Discrepancy:
         parts = [size * share for size, share in zip(energy, self.spectrum, strict=True)]
         return np.asarray(np.concatenate(parts), dtype=np.float64)
 
+    def factor(self, energy: FloatArray) -> FloatArray:
+        """B D^(1/2) for a discrepancy of so much energy in each record, shape (N, d)."""
+        columns = np.zeros((self.slices[-1].stop, len(self)))
+        size = np.sqrt(self.variances(energy))
+        for own, part, place in zip(self.columns, self.slices, self.places, strict=True):
+            columns[part, place] = own * size[place]
+        return columns
+
 
 @dataclass(frozen=True, eq=False)
 class Evidence:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import comb, log
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.40, 0.06, 0.01
 UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.05, 0.03
 """Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
+
+LEFT_OVER = 0.9
+"""Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
 
 COVERED = 0.95
 """Probability that an answer set holds."""
@@ -60,7 +63,7 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int) -> list[Weighed]:
         inside = sum(_form_and_place(cause, each) for cause in each.causes)
         for effects, score in (
             (each.effects, value),
-            ((*each.effects, UNKNOWN), each.evidence.log_evidence_unknown),
+            (with_unknown(each.effects), each.evidence.log_evidence_unknown),
         ):
             together.setdefault(effects, []).append((score + inside, each))
     scores = {
@@ -73,6 +76,34 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int) -> list[Weighed]:
         for effects, score in scores.items()
     ]
     return sorted(found, key=lambda each: -each.probability)
+
+
+def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """The same effects with one outside the catalogue beside them."""
+    return tuple(sorted({*effects, UNKNOWN}))
+
+
+def with_none_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Where no gap is seen, no explanation may lead "no effect is needed"."""
+    none = next(each for each in weighed if not each.effects)
+    others = [each for each in weighed if each.effects]
+    lifted = max(none.probability, *(each.probability for each in others)) if others else none.probability
+    return _normalised([replace(none, probability=lifted), *others])
+
+
+def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Where a gap is left after the best explanation, most of its probability goes to it with an unknown beside."""
+    best, beside = weighed[0], with_unknown(weighed[0].effects)
+    moved = LEFT_OVER * best.probability
+    known = next((each.probability for each in weighed if each.effects == beside), 0.0)
+    changed = [replace(best, probability=best.probability - moved), Weighed(beside, known + moved, best.hypothesis)]
+    return _normalised([*changed, *(each for each in weighed[1:] if each.effects != beside)])
+
+
+def _normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
+    total = sum(each.probability for each in weighed)
+    parts = [replace(each, probability=each.probability / total) for each in weighed]
+    return sorted(parts, key=lambda each: (-each.probability, len(each.effects)))
 
 
 def _best_starts(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.candidate import span_of
+from probation.diagnosis.form_error import form_columns
+from probation.diagnosis.whitener import Whitener
 from probation.gap.gap_test import GapTest, GapTester
 
 if TYPE_CHECKING:
@@ -32,20 +34,19 @@ def remaining_gap(found: Refit, base: Refit, whitened: Whitened, discrepancy: Di
     discrepancy : Discrepancy
     seed : int
     """
-    allowed = TOLERATED**2 * discrepancy.energy(found.residual - base.residual)
-    span = span_of(_widened(found.jacobian, discrepancy, allowed))
-    residual = _widened(found.residual, discrepancy, allowed)
+    energy = TOLERATED**2 * discrepancy.energy(found.residual - base.residual)
+    allowed = np.hstack([discrepancy.factor(energy), form_columns(found, Whitener(whitened.noises))])
+    both = _whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
+    residual, span = both[:, 0], span_of(both[:, 1:])
     after = replace(whitened, residual=residual - span @ (span.T @ residual), span=span)
     return GapTester(after, size=2000, seed=seed)()
 
 
-def _widened(values: FloatArray, discrepancy: Discrepancy, energy: FloatArray) -> FloatArray:
-    """(I + B D B^T)^(-1/2) times whitened columns (N,) or (N, m)."""
-    variances = discrepancy.variances(energy)
-    shrink = 1.0 - 1.0 / np.sqrt(1.0 + variances)
-    found = values.copy()
-    for own, part, place in zip(discrepancy.columns, discrepancy.slices, discrepancy.places, strict=True):
-        along = own.T @ values[part]
-        weight = shrink[place] if values.ndim == 1 else shrink[place][:, None]
-        found[part] -= own @ (weight * along)
-    return found
+def _whitened_beside(allowed: FloatArray, values: FloatArray) -> FloatArray:
+    """(I + U U^T)^(-1/2) times whitened columns (N, m), U of shape (N, k)."""
+    squares, turned = np.linalg.eigh(allowed.T @ allowed)
+    seen = squares > 1e-9 * max(float(squares.max(initial=0.0)), 1e-300)
+    size = np.sqrt(squares[seen])
+    directions = allowed @ (turned[:, seen] / size)
+    shrink = 1.0 - 1.0 / np.sqrt(1.0 + size**2)
+    return np.asarray(values - directions @ (shrink[:, None] * (directions.T @ values)))

@@ -23,8 +23,8 @@ OVERSAMPLING = 2
 CANDIDATES = 128
 """Instants per record at which a step is first looked for."""
 
-AROUND = 14
-"""Samples on each side of a step by which the noise there is judged."""
+AROUND = (6, 14)
+"""Samples on each side of a step by which the noise there is judged, closely and less so."""
 
 NEIGHBOURS = 60
 """Frequencies whose median power a line is measured against, if that is above the noise's."""
@@ -158,8 +158,12 @@ def _loudness(left: FloatArray, place: int) -> float:
 
     The noise model may have missed a burst; a step is looked for with short windows, and would find it.
     """
-    around = np.r_[max(place - AROUND, 0) : max(place - 1, 0), place + 2 : min(place + AROUND, len(left))]
-    return max(float(np.sqrt(np.mean(left[around] ** 2))), 1.0) if around.size > AROUND // 2 else 1.0
+    found = 1.0
+    for reach in AROUND:
+        around = np.r_[max(place - reach, 0) : max(place - 1, 0), place + 2 : min(place + reach, len(left))]
+        if around.size > reach:
+            found = max(found, float(np.sqrt(np.mean(left[around] ** 2))))
+    return found
 
 
 def _left(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
