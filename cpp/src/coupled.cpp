@@ -141,7 +141,7 @@ void CoupledSolver::solve_step(Index m, double extra_stress) {
   // Newton on the stress at the end of the step, from a continuation of the steps before. There the modes are
   // passed through without waiting for the feedbacks, whose factors go on with the stress, too.
   const double change = continuation_.change(data.fresh, data.ratio, rise);
-  double stress = stress_here_ + change, residual = 0.0;
+  double residual = 0.0;
   StepForcing<Dual> guess;
   double guessed_fluidity = 0.0, guessed_relaxed = 0.0;
   const auto guess_at = [&](double fluidity, double relaxed) {
@@ -155,46 +155,49 @@ void CoupledSolver::solve_step(Index m, double extra_stress) {
   guess_at(law_fluidity * factor.fluidity, law_relaxed * factor.hardening);
   bool passed = guess.rule != StepRule::exponential;  // whose expansion would not reach the solution
   if (passed) expand(values(guess));
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    step_.factor = feedbacks_.at({stress, 1.0});
-    step_.relaxed_stress = law_relaxed * step_.factor.hardening;
-    step_.fluidity = law_fluidity * step_.factor.fluidity;
-    const auto seen = [&] {
-      if (scheme_ != Scheme::sa3)
-        return straight(guess, step_.fluidity - guessed_fluidity, step_.relaxed_stress - guessed_relaxed);
-      data.relaxed_stress.next = step_.relaxed_stress;
-      data.fluidity.next = step_.fluidity;
-      return step_forcing(scheme_, start_, data);
-    };
-    StepForcing<Dual> forcing = seen();
-    if (!passed || !expanded_.reaches(forcing)) {
-      guess_at(step_.fluidity.value, step_.relaxed_stress.value);
-      forcing = seen();
-      expand(values(forcing));
-      passed = true;
+  // Where that leads nowhere, a straight continuation may lead there.
+  for (double stress : {stress_here_ + change, stress_here_ + continuation_.straight(data.fresh, data.ratio)})
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      step_.factor = feedbacks_.at({stress, 1.0});
+      step_.relaxed_stress = law_relaxed * step_.factor.hardening;
+      step_.fluidity = law_fluidity * step_.factor.fluidity;
+      const auto seen = [&] {
+        if (scheme_ != Scheme::sa3)
+          return straight(guess, step_.fluidity - guessed_fluidity, step_.relaxed_stress - guessed_relaxed);
+        data.relaxed_stress.next = step_.relaxed_stress;
+        data.fluidity.next = step_.fluidity;
+        return step_forcing(scheme_, start_, data);
+      };
+      StepForcing<Dual> forcing = seen();
+      if (!passed || !expanded_.reaches(forcing)) {
+        guess_at(step_.fluidity.value, step_.relaxed_stress.value);
+        forcing = seen();
+        expand(values(forcing));
+        passed = true;
+      }
+      const Dual excess = expanded_.stress(forcing) + total_weight_ * step_.relaxed_stress +
+                          Dual(extra_stress - stress, -1.0);
+      residual = excess.value;
+      const double compliance = -1.0 / excess.slope, correction = excess.value * compliance;
+      if (!std::isfinite(correction)) break;
+      stress += correction;
+      if (!small(correction, stress, tolerance_)) continue;
+      continuation_.add(stress - stress_here_, rise,
+                        compliance * expanded_.at.by_forcing[0] * modulus * end_weight(forcing.rule));
+      const double fluidity_here = fluidity_here_;
+      fluidity_here_ = step_.factor.fluidity.value + step_.factor.fluidity.slope * correction;
+      fluidity_drift_ =
+          fluidity_here_ - fluidity_here - step_.factor.fluidity.slope * (stress - stress_here_);
+      // So near the solution that everything goes straight there.
+      feedbacks_.settle(correction);
+      step_.stress = stress;
+      step_.relaxed_stress = moved(step_.relaxed_stress, correction);
+      step_.fluidity = moved(step_.fluidity, correction);
+      step_.factor = {moved(step_.factor.fluidity, correction), moved(step_.factor.hardening, correction)};
+      step_.forcing = {forcing.rule, moved(forcing.scale, correction), moved(forcing.forcing, correction),
+                       moved(forcing.curvature, correction)};
+      return;
     }
-    const Dual excess =
-        expanded_.stress(forcing) + total_weight_ * step_.relaxed_stress + Dual(extra_stress - stress, -1.0);
-    residual = excess.value;
-    const double compliance = -1.0 / excess.slope, correction = excess.value * compliance;
-    if (!std::isfinite(correction)) break;
-    stress += correction;
-    if (!small(correction, stress, tolerance_)) continue;
-    continuation_.add(stress - stress_here_, rise,
-                      compliance * expanded_.at.by_forcing[0] * modulus * end_weight(forcing.rule));
-    const double fluidity_here = fluidity_here_;
-    fluidity_here_ = step_.factor.fluidity.value + step_.factor.fluidity.slope * correction;
-    fluidity_drift_ = fluidity_here_ - fluidity_here - step_.factor.fluidity.slope * (stress - stress_here_);
-    // So near the solution that everything goes straight there.
-    feedbacks_.settle(correction);
-    step_.stress = stress;
-    step_.relaxed_stress = moved(step_.relaxed_stress, correction);
-    step_.fluidity = moved(step_.fluidity, correction);
-    step_.factor = {moved(step_.factor.fluidity, correction), moved(step_.factor.hardening, correction)};
-    step_.forcing = {forcing.rule, moved(forcing.scale, correction), moved(forcing.forcing, correction),
-                     moved(forcing.curvature, correction)};
-    return;
-  }
   fail(m, std::abs(residual));
 }
 

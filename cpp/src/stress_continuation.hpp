@@ -17,6 +17,8 @@ class StressContinuation {
     next_ratio_ = ratio;
     return change;
   }
+  /// The same, as the last step alone has it.
+  double straight(bool fresh, double ratio) const { return fresh ? 0.0 : ratio * stress_; }
   /// That step has been solved: its changes, and the instantaneous modulus in it.
   void add(double stress, double rise, double modulus) {
     earlier_stress_ = stress_;

@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <memory>
 
 #include "expansion.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/feedback/power_activation.hpp"
 #include "probation/feedback/stress_activation.hpp"
+#include "probation/solver.hpp"
 #include "probation/spectrum.hpp"
 
 using namespace probation;
@@ -99,6 +101,28 @@ TEST_CASE("its slopes are differences of the step, and so are those of a lineari
     CHECK(slopes.by_forcing == doctest::Approx(by_forcing).epsilon(1e-7));
     if (rule == StepRule::exponential)
       CHECK(slopes.by_curvature == doctest::Approx(by_curvature).epsilon(1e-7));
+  }
+}
+
+TEST_CASE(
+    "a violent feedback on few steps is solved, and the more steps the nearer is the stress to its limit") {
+  Law law;
+  law.unrelaxed_modulus = 3220.0;
+  law.tau_max = 5.2;
+  law.hardening_modulus = 2.5;
+  LawChange change;
+  change.feedbacks = {std::make_shared<StressActivation>(0.3)};
+  for (const Scheme scheme : {Scheme::be2, Scheme::sa2, Scheme::sa3}) {
+    SolverOptions options;
+    options.scheme = scheme;
+    const auto at_end = [&](Index n) {
+      const ArrayXd time = ArrayXd::LinSpaced(n, 0.0, 100.0);
+      ArrayXd stress(n);
+      Solver(History(time, 0.005 * time), options).stress(law, change, stress);
+      return stress[n - 1];
+    };
+    const double limit = at_end(8001);
+    CHECK(std::abs(at_end(2001) - limit) < std::abs(at_end(20) - limit));
   }
 }
 
