@@ -1,117 +1,113 @@
 #include "coupled_tangent.hpp"
 
 namespace probation {
+namespace {
 
 using Eigen::Index;
 
-CoupledTangent::CoupledTangent(const CoupledSolver& pass, const Direction& direction, const ModalGroup& unit)
+/// factor times a law's sample, both with slopes; the factor's slope is that of its logarithm.
+Dual scaled(Dual sample, double factor, double d_log_factor) {
+  const double value = sample.value * factor;
+  return {value, sample.slope * factor + value * d_log_factor};
+}
+
+kernels::StepChange change_of(const StepForcing<Dual>& step) {
+  return {step.scale.slope / step.scale.value, step.forcing.slope, step.curvature.slope};
+}
+
+double stress_change(const kernels::StepSlopes& slopes, const kernels::StepChange& change) {
+  return slopes.by_log_scale * change.log_scale + slopes.by_forcing * change.forcing +
+         slopes.by_curvature * change.curvature;
+}
+
+}  // namespace
+
+void LinearisedStep::at(CoupledSolver& pass) {
+  const CoupledStep& step = pass.step_;
+  forcing = values(step.forcing);
+  slopes = pass.kernel_.linearise(pass.main_.view(), one_step(forcing, step.ratio), rows.data());
+  by_stress = change_of(step.forcing);
+  residual_by_stress =
+      stress_change(slopes, by_stress) + pass.total_weight_ * step.relaxed_stress.slope - 1.0;
+  pass.feedbacks_.differentiate(step.stress);
+}
+
+CoupledTangent::CoupledTangent(const CoupledSolver& pass, const Direction& direction)
     : pass_(pass),
       direction_(direction),
       d_weight_(direction.modal_weight.sum()),
-      unit_(unit),
-      unit_extra_(pass.extra_) {
+      feedback_(pass.feedbacks_.still()),
+      before_(Eigen::ArrayXd::Zero(pass.main_.padded())) {
   const History& history = pass.history_;
   form_inputs(pass.law_, pass.change_, history, pass.scheme_, *pass.base_, direction, inputs_);
   for (auto* samples : {&inputs_.fluidity_begin, &inputs_.fluidity_end})
     if (samples->size() == 1) samples->assign(static_cast<std::size_t>(history.steps()), (*samples)[0]);
-  if (!pass.extra_.empty()) {
-    RecordInputs<Dual> extra;
-    extra_inputs(inputs_, extra);
-    form_steps(pass.scheme_, pass.start_, history, extra, extra_steps_);
-  }
-  memory_.assign(pass.change_.feedbacks.size(), Dual(0.0));
-  next_memory_ = memory_;
-  before_.setZero(unit.padded());
-  weight_ = unit.pad(direction.modal_weight);
-  log_inverse_ = -unit.pad(direction.log_relaxation_ratio);
-  extra_state_.setZero(pass.extra_.padded());
-  extra_before_.setZero(pass.extra_.padded());
-  extra_weight_ = pass.extra_.pad(direction.extra_modulus);
-  extra_log_inverse_ = -pass.extra_.pad(direction.log_extra_time);
+  weight_ = pass.main_.pad(direction.modal_weight);
+  log_inverse_ = -pass.main_.pad(direction.log_relaxation_ratio);
 
   // The start moves too: the stress and sigma^r(0) together.
-  const double start = pass.stress_here_, relaxed = pass.inputs_.relaxed_stress[0].value;
-  double slope = direction.initial_modal_stress.sum();
+  const double start = pass.stress_here_, relaxed = pass.inputs_.relaxed_stress[0];
+  d_stress_ = direction.initial_modal_stress.sum();
   if (!pass.given_start()) {
-    const Dual held = inputs_.relaxed_stress[0] * exp(pass.start_shift(start, &direction).log_hardening);
-    slope = (slope + pass.total_weight_ * held.slope + d_weight_ * relaxed) /
-            (1.0 - pass.total_weight_ * relaxed * pass.begun_.log_hardening.slope);
+    const Dual held = inputs_.relaxed_stress[0] * pass.feedbacks_.at_start(start, direction).hardening;
+    const double by_stress = relaxed * pass.begun_.hardening.slope / pass.begun_.hardening.value;
+    d_stress_ = (d_stress_ + pass.total_weight_ * held.slope + d_weight_ * relaxed) /
+                (1.0 - pass.total_weight_ * by_stress);
   }
-  stress_ = {start, slope};
-  const FeedbackShift<Dual> begun = pass.start_shift(stress_, &direction);
-  inputs_.relaxed_stress[0] = inputs_.relaxed_stress[0] * exp(begun.log_hardening);
-  inputs_.fluidity_begin[0] = inputs_.fluidity_begin[0] * exp(-begun.log_relaxation_time);
+  const FeedbackFactor<Dual> begun = pass.feedbacks_.at_start({start, d_stress_}, direction);
+  inputs_.relaxed_stress[0] = inputs_.relaxed_stress[0] * begun.hardening;
+  inputs_.fluidity_begin[0] = inputs_.fluidity_begin[0] * begun.fluidity;
+  ModalGroup unit = pass.main_;
+  unit.to_unit_weight(pass.given_start() ? -relaxed : 0.0);
   unit.start_slope(pass.change_, direction, relaxed, inputs_.relaxed_stress[0].slope, state_);
+  state_ *= unit.weight;
+  if (weight_.size() > 0) state_ += weight_ * unit.state;
 }
 
-double CoupledTangent::take(const CoupledSolver::Step& step, const ModalGroup& unit,
-                            const ModalGroup& unit_extra, Eigen::ArrayXd& scratch) {
-  const auto i = static_cast<std::size_t>(step.m);
-  law_relaxed_ = inputs_.relaxed_stress[i + 1];
-  law_fluidity_ = inputs_.fluidity_end[i];
-  const double extra = follow_extra(step, unit_extra, scratch);
-  // With the stress held, the residual moves by what the direction does; the stress moves to cancel it.
-  const double slope = -(follow(step, 0.0, unit, scratch) + extra) / step.by_stress;
-  follow(step, slope, unit, scratch);
-  state_ = next_state_;
-  before_ = next_before_;
-  memory_ = next_memory_;
-  previous_ = next_;
-  stress_ = {step.stress, slope};
-  if (step.m + 1 < pass_.history_.steps())
-    inputs_.fluidity_begin[i + 1] = inputs_.fluidity_begin[i + 1] * exp(-next_shift_.log_relaxation_time);
-  return slope;
-}
-
-double CoupledTangent::follow(const CoupledSolver::Step& step, double moved, const ModalGroup& unit,
-                              Eigen::ArrayXd& scratch) {
+double CoupledTangent::take(const LinearisedStep& linearised, double extra) {
+  const CoupledStep& step = pass_.step_;
+  const FeedbackFactor<Dual>& factor = step.factor;
   const Index m = step.m;
   const auto i = static_cast<std::size_t>(m);
-  const Dual rise = inputs_.true_strain[i + 1] - inputs_.true_strain[i];
-  const Dual modulus = 0.5 * (at(inputs_.unrelaxed_modulus, m) + at(inputs_.unrelaxed_modulus, m + 1));
-  next_shift_ = pass_.shift({step.stress, moved}, stress_, rise, modulus, pass_.history_.step()[m], memory_,
-                            &direction_, next_memory_);
-  const Dual relaxed = law_relaxed_ * exp(next_shift_.log_hardening);
-  inputs_.relaxed_stress[i + 1] = relaxed;
-  inputs_.fluidity_end[i] = law_fluidity_ * exp(-next_shift_.log_relaxation_time);
-  next_ = step_forcing(pass_.scheme_, pass_.start_,
-                       step_data(pass_.history_, inputs_, m, previous_.scale, previous_.forcing));
-  unit_ = unit;
-  next_state_ = state_;
-  next_before_ = before_;
-  const double du = next_.forcing.slope, dv = next_.curvature.slope;
-  const double dx = next_.scale.slope / next_.scale.value;
-  double unused = 0.0, slope = 0.0;
-  const kernels::TangentDirection view{&du,
-                                       &dv,
-                                       &dx,
-                                       log_inverse_.size() ? log_inverse_.data() : nullptr,
-                                       weight_.size() ? weight_.data() : nullptr,
-                                       next_state_.data(),
-                                       next_before_.data(),
-                                       &slope};
-  pass_.kernel_.tangent(unit_.view(), one_step(step.forcing, step.ratio), &unused, &view, 1, scratch.data());
-  return slope + pass_.total_weight_ * relaxed.slope + d_weight_ * relaxed.value;
-}
+  StepData<Dual> data = step_data(pass_.history_, inputs_, m, previous_.scale, previous_.forcing);
 
-double CoupledTangent::follow_extra(const CoupledSolver::Step& step, const ModalGroup& unit_extra,
-                                    Eigen::ArrayXd& scratch) {
-  if (unit_extra.empty()) return 0.0;
-  const auto i = static_cast<std::size_t>(step.m);
-  unit_extra_ = unit_extra;
-  const double du = extra_steps_.forcing[i].slope, dv = extra_steps_.curvature[i].slope;
-  double unused = 0.0, slope = 0.0;
-  const kernels::TangentDirection view{&du,
-                                       &dv,
-                                       nullptr,
-                                       extra_log_inverse_.size() ? extra_log_inverse_.data() : nullptr,
-                                       extra_weight_.size() ? extra_weight_.data() : nullptr,
-                                       extra_state_.data(),
-                                       extra_before_.data(),
-                                       &slope};
-  pass_.kernel_.tangent(unit_extra_.view(), one_step(step.extra, step.ratio), &unused, &view, 1,
-                        scratch.data());
-  return slope;
+  const Dual modulus = 0.5 * (at(inputs_.unrelaxed_modulus, m) + at(inputs_.unrelaxed_modulus, m + 1));
+  const Dual work = plastic_work<Dual>(step.stress, {pass_.stress_here_, d_stress_},
+                                       data.true_strain.next - data.true_strain.here, modulus);
+  pass_.feedbacks_.hold(step.stress, work, direction_, feedback_);
+  Dual& relaxed = inputs_.relaxed_stress[i + 1];
+  Dual& fluidity = inputs_.fluidity_end[i];
+  relaxed = data.relaxed_stress.next =
+      scaled(relaxed, factor.hardening.value, feedback_.log_factor.hardening);
+  fluidity = data.fluidity.next = scaled(fluidity, factor.fluidity.value, feedback_.log_factor.fluidity);
+  previous_ = step_forcing(pass_.scheme_, pass_.start_, data);
+
+  const kernels::Modes modes = pass_.main_.view();
+  const kernels::StepDirection view{log_inverse_.size() ? log_inverse_.data() : nullptr,
+                                    weight_.size() ? weight_.data() : nullptr, state_.data(), before_.data()};
+  const double drift =
+      pass_.kernel_.drift(modes, one_step(linearised.forcing, step.ratio), view, linearised.rows.data());
+  const kernels::StepChange held = change_of(previous_);
+  const double held_slope = drift + stress_change(linearised.slopes, held) +
+                            pass_.total_weight_ * relaxed.slope + d_weight_ * relaxed.value + extra;
+  d_stress_ = -held_slope / linearised.residual_by_stress;
+
+  // And everything goes with the stress.
+  const kernels::StepChange& by = linearised.by_stress;
+  pass_.kernel_.move(modes,
+                     {held.log_scale + by.log_scale * d_stress_, held.forcing + by.forcing * d_stress_,
+                      held.curvature + by.curvature * d_stress_},
+                     view, linearised.rows.data());
+  pass_.feedbacks_.release(d_stress_, feedback_);
+  relaxed.slope += step.relaxed_stress.slope * d_stress_;
+  fluidity.slope += step.fluidity.slope * d_stress_;
+  previous_.scale.slope += step.forcing.scale.slope * d_stress_;
+  previous_.forcing.slope += step.forcing.forcing.slope * d_stress_;
+  if (m + 1 < pass_.history_.steps())
+    inputs_.fluidity_begin[i + 1] =
+        scaled(inputs_.fluidity_begin[i + 1], factor.fluidity.value,
+               feedback_.log_factor.fluidity + factor.fluidity.slope / factor.fluidity.value * d_stress_);
+  return d_stress_;
 }
 
 }  // namespace probation

@@ -1,5 +1,7 @@
 #pragma once
-// Sensitivities of a pass with feedbacks, along one direction, step by step beside it.
+// Sensitivities of a pass with feedbacks, step by step beside it, by the implicit function theorem: with the
+// stress at the end of a step held, everything moves by what the direction does; then the stress moves to
+// cancel that, and the rest follows it.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,39 +10,38 @@
 
 namespace probation {
 
-/// Everything of one direction that is kept from step to step, with its slope; modes in unit-weight states.
+/// What all directions share of a step that the pass has solved.
+struct LinearisedStep {
+  explicit LinearisedStep(Eigen::Index padded) : rows(5 * padded) {}
+  void at(CoupledSolver& pass);
+
+  Eigen::ArrayXd rows;
+  StepForcing<double> forcing;
+  kernels::StepSlopes slopes{};
+  kernels::StepChange by_stress{};  // how scale, U and V follow the stress
+  double residual_by_stress = 0.0;
+};
+
+/// Everything of one direction that is kept from step to step, as slopes.
 class CoupledTangent {
  public:
-  /// `unit` holds the unit-weight states of the pass at its start.
-  CoupledTangent(const CoupledSolver& pass, const Direction& direction, const ModalGroup& unit);
+  CoupledTangent(const CoupledSolver& pass, const Direction& direction);
 
   /// Slope of the stress at the start.
-  double start_slope() const { return stress_.slope; }
+  double start_slope() const { return d_stress_; }
 
-  /// Slope of the stress at the end of a step that the pass has solved; `unit` and `unit_extra` are the
-  /// states before it, scratch has 9 entries per mode.
-  double take(const CoupledSolver::Step& step, const ModalGroup& unit, const ModalGroup& unit_extra,
-              Eigen::ArrayXd& scratch);
+  /// Slope of the stress at the end of the step; that of the extra modes is known.
+  double take(const LinearisedStep& step, double extra);
 
  private:
-  /// The slope that the step has if the stress at its end moves by `moved`; the new states go to next_*.
-  double follow(const CoupledSolver::Step& step, double moved, const ModalGroup& unit,
-                Eigen::ArrayXd& scratch);
-  double follow_extra(const CoupledSolver::Step& step, const ModalGroup& unit_extra, Eigen::ArrayXd& scratch);
-
   const CoupledSolver& pass_;
   const Direction& direction_;
   double d_weight_;            // of all modal weights together
-  RecordInputs<Dual> inputs_;  // actual ones (shifts included) up to the current instant
-  RecordSteps<Dual> extra_steps_;
-  std::vector<Dual> memory_, next_memory_;
-  Dual stress_;
-  StepForcing<Dual> previous_, next_;
-  FeedbackShift<Dual> next_shift_;
-  Dual law_relaxed_, law_fluidity_;  // of the current step, before the feedbacks
-  ModalGroup unit_, unit_extra_;     // copies that the kernel may advance
-  Eigen::ArrayXd state_, before_, next_state_, next_before_, log_inverse_, weight_;
-  Eigen::ArrayXd extra_state_, extra_before_, extra_log_inverse_, extra_weight_;
+  RecordInputs<Dual> inputs_;  // actual ones (feedbacks included) up to the current instant
+  FeedbackSet::Slopes feedback_;
+  StepForcing<Dual> previous_;
+  double d_stress_;
+  Eigen::ArrayXd state_, before_, log_inverse_, weight_;
 };
 
 }  // namespace probation

@@ -55,7 +55,7 @@ class StepProblem {
     const double total_weight = law_.spectrum.modal_weight.sum();
     double stress = total_weight * relaxed, factor = 1.0;
     for (int i = 0; i < 200 && memories_ > 0; ++i) {
-      factor = std::exp(shift(stress, nullptr).log_hardening.value);
+      factor = feedback(stress, nullptr).hardening;
       stress = total_weight * relaxed * factor;
     }
     state.head(modes_) = law_.spectrum.modal_weight * (relaxed * factor);
@@ -75,16 +75,16 @@ class StepProblem {
     const auto sample = [&](const Sampled& s) { return (1.0 - u) * s[m] + u * s[m + 1]; };
 
     const double total = stress(state);
-    const FeedbackShift<Dual> moved = shift(total, state.data() + modes_ + extra_);
+    const FeedbackFactor<double> moved = feedback(total, state.data() + modes_ + extra_);
     double tau_max = law_.tau_max;
     if (law_.companion)
       tau_max = law_.alpha * law_.companion->relaxation_time(
                                  history_.companion_rate(m, speed, law_.companion->rate_floor()));
-    tau_max *= sample(time_factor_) * std::exp(moved.log_relaxation_time.value);
+    tau_max *= sample(time_factor_) / moved.fluidity;
     const double modulus = law_.unrelaxed_modulus * sample(modulus_factor_);
     const double relaxed =
         (law_.hardening_modulus * sample(hardening_factor_) * haward_thackray_strain(now) + sample(added_)) *
-        std::exp(moved.log_hardening.value);  // eq. (3)
+        moved.hardening;  // eq. (3)
 
     rate.head(modes_) = law_.spectrum.modal_weight * (modulus * speed) -
                         (state.head(modes_) - law_.spectrum.modal_weight * relaxed) /
@@ -102,13 +102,13 @@ class StepProblem {
   std::exception_ptr failure;
 
  private:
-  FeedbackShift<Dual> shift(double stress, const double* memory) const {
-    FeedbackShift<Dual> total;
+  FeedbackFactor<double> feedback(double stress, const double* memory) const {
+    FeedbackFactor<double> total;
     for (Index k = 0; k < memories_; ++k) {
-      const auto one = change_.feedbacks[static_cast<std::size_t>(k)]->shift(stress, memory ? memory[k] : 0.0,
-                                                                             Feedback::no_parameter);
-      total.log_relaxation_time = total.log_relaxation_time + one.log_relaxation_time;
-      total.log_hardening = total.log_hardening + one.log_hardening;
+      const auto one = change_.feedbacks[static_cast<std::size_t>(k)]->factor(
+          stress, memory ? memory[k] : 0.0, Feedback::no_parameter);
+      total.fluidity *= one.fluidity.value;
+      total.hardening *= one.hardening.value;
     }
     return total;
   }

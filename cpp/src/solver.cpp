@@ -100,15 +100,8 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   }
   Workspace& w = *work_;
   w.prepare(law, change, history_, options_);
-  if (!change.feedbacks.empty()) {
-    CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
-    coupled.solve(w.inputs, {}, stress, nullptr);
-    return;
-  }
-
   const kernels::Kernels& kernel = kernels::best();
   stress.setZero();
-  stress[0] = w.main.state.sum();
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
     for_each_run(
@@ -116,11 +109,17 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
           kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
         });
   };
-  sweep(w.main, w.inputs, w.steps);
   if (!w.extra.empty()) {
     extra_inputs(w.inputs, w.extra_in);
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
+  if (!change.feedbacks.empty()) {
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+        .solve(w.inputs, {}, stress, nullptr);
+    return;
+  }
+  stress[0] = w.main.state.sum();
+  sweep(w.main, w.inputs, w.steps);
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();
   for (Index i = 0; i < history_.size(); ++i)
@@ -197,17 +196,8 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions)
     direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
-  if (!change.feedbacks.empty()) {
-    CoupledSolver coupled(law, change, history_, options_.scheme, options_.start, w.main, w.extra);
-    coupled.solve(w.inputs, directions, stress, &derivatives);
-    return;
-  }
-
   const kernels::Kernels& kernel = kernels::best();
-  const double relaxed_start = w.inputs.relaxed_stress[0];
   stress.setZero();
-  stress[0] = w.main.state.sum();
-  w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
 
   std::vector<TangentState> tangents(directions.size());
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
@@ -243,6 +233,33 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     }
   };
 
+  for (TangentState& t : tangents) t.stress.setZero(n);
+  if (!w.extra.empty()) {
+    extra_inputs(w.inputs, w.extra_in);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      TangentState& t = tangents[k];
+      form_inputs(law, change, history_, options_.scheme, w.inputs, directions[k], w.dual_inputs);
+      extra_inputs(w.dual_inputs, w.dual_extra);
+      form_steps(options_.scheme, options_.start, history_, w.dual_extra, w.dual_steps);
+      t.take(w.dual_steps);
+      t.state.setZero(w.extra.padded());
+      t.before.setZero(w.extra.padded());
+      t.weight = w.extra.pad(directions[k].extra_modulus);
+      t.log_inverse = -w.extra.pad(directions[k].log_extra_time);
+    }
+    sweep(w.extra, w.extra_in, w.extra_steps);
+  }
+  if (!change.feedbacks.empty()) {
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      derivatives.col(static_cast<Index>(k)) = tangents[k].stress.matrix();
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+        .solve(w.inputs, directions, stress, &derivatives);
+    return;
+  }
+
+  const double relaxed_start = w.inputs.relaxed_stress[0];
+  stress[0] = w.main.state.sum();
+  w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
   std::vector<Eigen::ArrayXd> relaxed_slope(directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Direction& direction = directions[k];
@@ -267,29 +284,12 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
         relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
     }
     t.before.setZero(w.main.padded());
-    t.stress.setZero(n);
     t.weight = w.main.pad(direction.modal_weight);
     t.log_inverse = -w.main.pad(direction.log_relaxation_ratio);
     w.main.start_slope(change, direction, relaxed_start, relaxed_slope[k][0], t.state);
     t.stress[0] = (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
   }
   sweep(w.main, w.inputs, w.steps);
-
-  if (!w.extra.empty()) {
-    extra_inputs(w.inputs, w.extra_in);
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-      TangentState& t = tangents[k];
-      form_inputs(law, change, history_, options_.scheme, w.inputs, directions[k], w.dual_inputs);
-      extra_inputs(w.dual_inputs, w.dual_extra);
-      form_steps(options_.scheme, options_.start, history_, w.dual_extra, w.dual_steps);
-      t.take(w.dual_steps);
-      t.state.setZero(w.extra.padded());
-      t.before.setZero(w.extra.padded());
-      t.weight = w.extra.pad(directions[k].extra_modulus);
-      t.log_inverse = -w.extra.pad(directions[k].log_extra_time);
-    }
-    sweep(w.extra, w.extra_in, w.extra_steps);
-  }
 
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();

@@ -19,8 +19,8 @@ inline Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.s
 inline Dual operator-(Dual a, Dual b) { return {a.value - b.value, a.slope - b.slope}; }
 inline Dual operator*(Dual a, Dual b) { return {a.value * b.value, a.slope * b.value + a.value * b.slope}; }
 inline Dual operator/(Dual a, Dual b) {
-  const double ratio = a.value / b.value;
-  return {ratio, (a.slope - ratio * b.slope) / b.value};
+  const double inverse = 1.0 / b.value, ratio = a.value * inverse;
+  return {ratio, (a.slope - ratio * b.slope) * inverse};
 }
 inline bool operator>(Dual a, Dual b) { return a.value > b.value; }
 inline bool operator<(Dual a, Dual b) { return a.value < b.value; }

@@ -11,11 +11,11 @@
 
 namespace probation {
 
-/// What a feedback does at one instant: tau_max times e^log_relaxation_time, sigma^r times e^log_hardening.
+/// What a feedback does at one instant: 1 / tau_max times fluidity, sigma^r times hardening.
 template <class Real>
-struct FeedbackShift {
-  Real log_relaxation_time{};
-  Real log_hardening{};
+struct FeedbackFactor {
+  Real fluidity{1.0};
+  Real hardening{1.0};
 };
 
 /// A law coefficient that follows the current stress and one memory, the plastic work w per volume:
@@ -28,8 +28,8 @@ class Feedback {
   virtual ~Feedback() = default;
 
   virtual std::size_t parameters() const noexcept = 0;
-  /// Shift at a stress [MPa] and memory [MPa]; `parameter` (if below parameters()) carries a slope of one.
-  virtual FeedbackShift<Dual> shift(Dual stress, Dual memory, std::size_t parameter) const = 0;
+  /// Factors at a stress [MPa] and memory [MPa]; `parameter` (if below parameters()) carries a slope of one.
+  virtual FeedbackFactor<Dual> factor(Dual stress, Dual memory, std::size_t parameter) const = 0;
   /// Loss rate of the memory [1/s].
   virtual Dual loss_rate(std::size_t parameter) const = 0;
 
@@ -38,8 +38,8 @@ class Feedback {
 
 /// A feedback from one formula. `Form` states, for Real = double or Dual,
 ///   static constexpr std::size_t parameters;
-///   template <class Real> static FeedbackShift<Real> shift(const std::array<Real, parameters>&, Real stress,
-///   Real memory); template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
+///   template <class Real> static FeedbackFactor<Real> factor(const std::array<Real, parameters>&, Real
+///   stress, Real memory); template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
 template <class Form>
 class FormulaFeedback : public Feedback {
  public:
@@ -48,8 +48,8 @@ class FormulaFeedback : public Feedback {
   explicit FormulaFeedback(const Values& values) : values_(values) {}
 
   std::size_t parameters() const noexcept override { return Form::parameters; }
-  FeedbackShift<Dual> shift(Dual stress, Dual memory, std::size_t parameter) const override {
-    return Form::shift(seeded(parameter), stress, memory);
+  FeedbackFactor<Dual> factor(Dual stress, Dual memory, std::size_t parameter) const override {
+    return Form::factor(seeded(parameter), stress, memory);
   }
   Dual loss_rate(std::size_t parameter) const override { return Form::loss_rate(seeded(parameter)); }
   const Values& values() const noexcept { return values_; }

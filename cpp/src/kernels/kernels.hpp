@@ -46,6 +46,43 @@ struct Trial {
   double by_curvature;  ///< d stress / d V
 };
 
+/// A step tried where its end is thought to lie, and its stress nearby. With eta = (scale - tried) / (scale +
+/// tried), u and v the changes of U and V,
+///
+///   stress = (1 - eta) (sum_k stress[k] eta^k + u sum_k by_forcing[k] eta^k) + v by_curvature.
+///
+/// u is small itself, so that its sum needs a term less; the fourth place is zero.
+struct Expansion {
+  static constexpr int terms = 4;
+  double stress[terms];
+  double by_forcing[terms];
+  double by_curvature;
+  double reach;  ///< largest |eta| at which what is left out is rounding
+};
+
+/// How far from the step that was tried the step is that is taken; see Expansion.
+struct Nearby {
+  double eta, forcing, curvature;
+};
+
+/// How the stress at the end of a step moves with its inputs.
+struct StepSlopes {
+  double by_log_scale, by_forcing, by_curvature;
+};
+
+/// How the inputs of a step move along a direction.
+struct StepChange {
+  double log_scale, forcing, curvature;
+};
+
+/// One direction along which a step is differentiated, in states z_j; null pointers are zero.
+struct StepDirection {
+  const double* log_inverse;  ///< d ln inverse_ratio, per mode
+  const double* weight;       ///< d p_j, per mode
+  double* state;              ///< d z_j; advanced
+  double* before;             ///< advanced
+};
+
 struct Kernels {
   const char* name;
   /// Advance the modes by steps.count steps, adding sum_j z_j after each to stress[0..count).
@@ -55,6 +92,16 @@ struct Kernels {
                   double* scratch);
   /// One step (the first of steps) tried, in states z_j; nothing is advanced.
   Trial (*trial)(const Modes&, const Steps&);
+  /// The same and its stress nearby; what take() needs goes to rows (4 * padded entries).
+  void (*expand)(const Modes&, const Steps&, Expansion& found, double* rows);
+  /// The expanded step, or one nearby, taken.
+  void (*take)(const Modes&, StepRule, const Nearby&, const double* rows);
+  /// One step's coefficients and slopes, for drift() and move(), to rows (5 * padded entries); not taken.
+  StepSlopes (*linearise)(const Modes&, const Steps&, double* rows);
+  /// A direction advanced by the step while scale, U and V hold; returns the slope of the stress.
+  double (*drift)(const Modes&, const Steps&, const StepDirection&, const double* rows);
+  /// On top of it, d ln scale, dU and dV.
+  void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
 };
 
 /// The best build for this processor; PROBATION_KERNELS=baseline in the environment overrides the choice.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "coupled_step.hpp"
 #include "kernels.hpp"
 #include "vector.hpp"
 
@@ -405,6 +406,7 @@ Trial trial(const Modes& modes, const Steps& steps) {
 
 #define PROBATION_TEXT_OF(name) #name
 #define PROBATION_TEXT(name) PROBATION_TEXT_OF(name)
-const Kernels table{PROBATION_TEXT(PROBATION_ISA), sweep, tangent, trial};
+const Kernels table{
+    PROBATION_TEXT(PROBATION_ISA), sweep, tangent, trial, expand, take, linearise, drift, move};
 
 }  // namespace probation::kernels::PROBATION_ISA

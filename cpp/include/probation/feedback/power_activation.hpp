@@ -12,12 +12,10 @@ struct PowerActivationForm {
   static constexpr std::size_t parameters = 2;  // activation_stress [MPa], exponent [-]
 
   template <class Real>
-  static FeedbackShift<Real> shift(const std::array<Real, parameters>& p, Real stress, Real) {
+  static FeedbackFactor<Real> factor(const std::array<Real, parameters>& p, Real stress, Real) {
     const Real size = stress < 0.0 ? -stress : stress;
     if (!(size > 0.0)) return {};
-    const Real power = p[1] * log(size / p[0]);
-    // -ln(1 + e^power) without overflow.
-    return {power < 0.0 ? -log(1.0 + exp(power)) : -power - log(1.0 + exp(-power)), Real{}};
+    return {1.0 + pow(size / p[0], p[1]), 1.0};
   }
   template <class Real>
   static Real loss_rate(const std::array<Real, parameters>&) {

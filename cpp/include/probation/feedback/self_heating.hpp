@@ -14,9 +14,9 @@ struct SelfHeatingForm {
       4;  // heating [degC/MPa], cooling_rate [1/s], softening, hardening_loss [1/degC]
 
   template <class Real>
-  static FeedbackShift<Real> shift(const std::array<Real, parameters>& p, Real, Real memory) {
+  static FeedbackFactor<Real> factor(const std::array<Real, parameters>& p, Real, Real memory) {
     const Real rise = p[0] * memory;
-    return {-p[2] * rise, -p[3] * rise};
+    return {exp(p[2] * rise), exp(-p[3] * rise)};
   }
   template <class Real>
   static Real loss_rate(const std::array<Real, parameters>& p) {

@@ -12,17 +12,16 @@ struct StressActivationForm {
   static constexpr std::size_t parameters = 1;
 
   template <class Real>
-  static FeedbackShift<Real> shift(const std::array<Real, parameters>& p, Real stress, Real) {
+  static FeedbackFactor<Real> factor(const std::array<Real, parameters>& p, Real stress, Real) {
+    // sinh(x) / x is even; a series near zero, where the two exponentials cancel.
     const Real x = stress / p[0];
-    // ln(x / sinh x) is even; a series near zero, and no overflow far from it.
-    const Real x2 = x * x;
     const Real size = x < 0.0 ? -x : x;
-    Real shift{};
-    if (size < 0.05)
-      shift = -x2 / 6.0 * (1.0 - x2 / 30.0 * (1.0 - x2 * (4.0 / 63.0)));
-    else
-      shift = log(2.0 * size) - size - log(1.0 - exp(-2.0 * size));
-    return {shift, Real{}};
+    if (size < 0.05) {
+      const Real x2 = x * x;
+      return {1.0 + x2 * (1.0 / 6.0) * (1.0 + x2 * (1.0 / 20.0) * (1.0 + x2 * (1.0 / 42.0))), 1.0};
+    }
+    const Real grown = exp(size);
+    return {0.5 * (grown - 1.0 / grown) / size, 1.0};
   }
   template <class Real>
   static Real loss_rate(const std::array<Real, parameters>&) {
