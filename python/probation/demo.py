@@ -163,7 +163,7 @@ def diagnosis() -> Outcome:
     missing = ("rate_dependent_relaxation",)
     tables = [make(found, MOST)[0] for make in (where_table, which_table, shrink_table)]
     return Outcome(
-        verdict=f"Diagnosis of the law without its companion relation: {found.headline}",
+        verdict=f"Diagnosis without the companion relation: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "explained" and found.answer_set == (missing,),
         parts=(
             "Experiment 2 is fitted with a constant τ_max and experiment 3 only predicted. The twins' α and G differ a "
