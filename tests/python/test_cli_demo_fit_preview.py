@@ -34,6 +34,16 @@ def test_the_page_of_the_demonstration_holds_every_step(folder):
     assert len(html) < 2_000_000
 
 
+def test_the_demonstration_finds_the_companion_relation_that_is_taken_away(folder):
+    answer = json.loads((folder / "demo.json").read_text(encoding="utf-8"))["diagnosis"]
+    assert answer["answer_set"] == [["rate_dependent_relaxation"]]
+    assert answer["shrink"]["identify"]["before_MPa"] > 6.0
+    assert answer["shrink"]["identify"]["after_MPa"] < 0.06
+    page = (folder / "diagnosis.html").read_text(encoding="utf-8")
+    assert "Rate-dependent relaxation explains the gap" in page
+    assert (folder / "plots" / "diagnosis.png").exists()
+
+
 def test_the_twins_it_wrote_can_be_fitted(folder, capsys):
     assert main(["fit", str(folder / "experiment-2"), "--json", "-"]) == 0
     captured = capsys.readouterr()

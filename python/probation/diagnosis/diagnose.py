@@ -204,6 +204,12 @@ def _law_text(campaign: Campaign) -> str:
     return f"modal (DNLR) law, {settings.modes} modes over {settings.decades:g} decades, {companion}"
 
 
+def _spikes_text(count: int) -> str:
+    if count == 1:
+        return "1 reading stands out as a spike and was kept out"
+    return f"{count} readings stand out as spikes and were kept out"
+
+
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
     found = []
     if not robust:
@@ -212,7 +218,7 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
         found.append("one record only: nothing can be left out, and a cause that acts alike in it cannot be told apart")
     for noise in base.whitened.noises:
         if noise.spikes:
-            found.append(f"{noise.name}: {len(noise.spikes)} readings stand out as spikes and were kept out")
+            found.append(f"{noise.name}: {_spikes_text(len(noise.spikes))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])
     if levels.size > 1 and levels.max() > 10.0 * levels.min():
         found.append("the noise of the records differs more than tenfold; each is weighed by its own")

@@ -52,14 +52,17 @@ def headline(
     if verdict == "unexplained":
         gap = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if known:
-            return f"{gap}: {titles(known)}{place} is part of it ({fall}), but something outside the catalogue is left."
+            verb = "is" if len(known) == 1 else "are"
+            part = f"{titles(known)}{place} {verb} part of it ({fall})"
+            return f"{gap}: {part}, but something outside the catalogue is left."
         return f"{gap} and nothing in the catalogue explains it."
-    sentence = f"{titles(best.effects).capitalize()}{place} explains the gap: with it {fall}"
+    verb, pronoun = ("explains", "it") if len(best.effects) == 1 else ("explain", "them")
+    sentence = f"{titles(best.effects).capitalize()}{place} {verb} the gap: with {pronoun} {fall}"
     rivals = [each for each in answer_set if each != best.effects]
     if rivals:
         shown = listed([titles(each) for each in rivals[:MOST_RIVALS]], "or")
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot tell it from {shown}{more}."
+        return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}."
     return f"{sentence} (probability {percent(best.probability)})."
 
 

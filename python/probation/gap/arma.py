@@ -35,6 +35,10 @@ STEEP = 4.0
 PROMISED = 2.0
 """Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
 
+LEAST_KNOWN = 1.0
+"""Largest variance of the logarithm of the low frequencies' level: beyond it Fisher's information has run out (phi at
+its border), and a level that could be anything would excuse any gap."""
+
 GRID, REFINED = 21, 3
 """Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
 
@@ -194,7 +198,7 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     return ArmaFit(
         tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
         deviance,
-        PROMISED * _shape_variance(binned, best),
+        min(PROMISED * _shape_variance(binned, best), LEAST_KNOWN),
         tuple(2.0 / float(each.weight.sum()) for each in binned),
     )
 

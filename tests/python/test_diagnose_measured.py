@@ -1,0 +1,54 @@
+"""The diagnosis on measured polymers: it runs, and is honest; docs/measured-diagnoses.md holds the figures."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from probation import Campaign, diagnose
+
+DATA = Path(__file__).parents[2].parent / "shared" / "data"
+pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured records are not beside the checkout")
+
+RATE = "rate_dependent_relaxation"
+HARDENING = "rate_dependent_hardening"
+
+
+def thinned(record, every, samples=None, role="identify"):
+    part = slice(0, samples, every)
+    return replace(
+        record,
+        role=role,
+        time=record.time[part],
+        true_strain=record.true_strain[part],
+        true_stress=record.true_stress[part],
+        strain_rate=None if record.strain_rate is None else record.strain_rate[part],
+        transverse_strain=None if record.transverse_strain is None else record.transverse_strain[part],
+    )
+
+
+def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_not_certain():
+    """One temperature, one speed: the true rate changes twofold along the test, and the law without relation minds."""
+    whole = Campaign.from_files([DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"], control="displacement-rate")
+    found = diagnose(replace(whole, records=tuple(thinned(each, 4) for each in whole.records)), design=False)
+    assert found.gap.rejected
+    assert all(RATE in effects for effects in found.answer_set)
+    assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
+    assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
+
+
+def test_neither_rate_effect_alone_describes_vhb_down_to_its_noise():
+    """Loading only, two rates fitted, the middle one predicted; the law is hundreds of times the noise away."""
+    files = [DATA / "vhb4910" / f"{name}.csv" for name in ("0d01_3d0", "0d03_3d0", "0d05_3d0")]
+    whole = Campaign.from_files(files, control="displacement-rate")
+    records = []
+    for each in whole.records:
+        role = "held-out" if each.id == "0d03_3d0" else "identify"
+        records.append(thinned(each, 40, int(np.argmax(each.true_strain)) + 1, role))
+    found = diagnose(replace(whole, records=tuple(records)), effects=[RATE, HARDENING], design=False)
+    assert found.verdict == "unexplained"
+    assert set(found.best.effects) <= {RATE, HARDENING, "unknown"}
+    assert found.shrink.identify.before_MPa > 20 * found.noise_MPa
+    assert found.shrink.identify.after_MPa < found.shrink.identify.before_MPa
+    assert found.shrink.held_out is not None

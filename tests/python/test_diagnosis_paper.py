@@ -1,0 +1,78 @@
+"""The paper's own story: without a companion relation, tests at a changing rate ask for one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from probation import Campaign, Law, Weissenberg, diagnose
+from probation.paper.twins import SAMPLES, experiment_2, experiment_3, necking_history, twin_campaign
+from probation.paper.wavy_bias import drawn_wave
+from probation.records import LawSettings
+
+MISSING = "rate_dependent_relaxation"
+NOISE = 0.04  # MPa
+HELD = {"unrelaxed_modulus_MPa": 3220.0}
+TRUTH = Law(
+    unrelaxed_modulus=3220.0, alpha=1.1, hardening_modulus=1.8, companion=Weissenberg(slope=0.00464, intercept=0.0367)
+)
+
+
+def record(number, necking, role, bias=0.0):
+    """TRUTH along the strain history of experiment 2 or 3, by the exact scheme on 20 times finer a grid, with noise."""
+    history = necking_history(number, necking)
+    fine = np.linspace(0.0, history.duration, 20 * (SAMPLES - 1) + 1)
+    stress = TRUTH.stress(fine, history.true_strain(fine), scheme="exact", jumps=None)[::20]
+    stress = stress + NOISE * np.random.default_rng([number, int(necking[1])]).standard_normal(SAMPLES)
+    twin = (experiment_2 if number == 2 else experiment_3)(necking=necking)
+    wave = drawn_wave(twin.true_strain, np.random.default_rng([7, number]))
+    stress = stress + bias * wave / np.abs(wave).max()
+    return replace(twin.record(role), id=f"{number}-{necking}", true_stress=stress)
+
+
+def diagnosed(*records, hold=None):
+    return diagnose(Campaign("one law", records, LawSettings()), hold=hold, design=False)
+
+
+@pytest.mark.parametrize(("number", "other", "hold"), [(2, 3, HELD), (3, 2, HELD), (3, 2, None)])
+def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
+    """Without it 6 to 8 MPa; with it the noise, up to a tenth of a MPa that a power law is not eq. (11)."""
+    twins = twin_campaign((number,), held_out=(other,))
+    found = diagnose(Campaign(twins.name, twins.records, LawSettings()), hold=hold, design=False)
+    assert (found.verdict, found.answer_set) == ("explained", ((MISSING,),))
+    assert 6.0 < found.shrink.identify.before_MPa < 8.5
+    assert found.shrink.identify.after_MPa < 1.5 * NOISE
+    # The twins of 2 and 3 differ by 6 % in alpha and 5 % in G, by 4 to 5 MPa at the end of the test: that is left.
+    assert found.shrink.held_out.closure > 0.99
+    assert NOISE < found.shrink.held_out.after_MPa < 5.0
+
+
+@pytest.mark.parametrize(("number", "other"), [(2, 3), (3, 2)])
+def test_the_gap_falls_to_the_noise_on_other_kinematics_too(number, other):
+    """One law for all: necking otherwise at the same grip speed, and at a grip speed four times another."""
+    held_out = [record(number, "P1", "held-out"), record(number, "P3", "held-out"), record(other, "P2", "held-out")]
+    found = diagnosed(record(number, "P2", "identify"), *held_out, hold=HELD)
+    assert found.answer_set == ((MISSING,),)
+    for necking in ("P1", "P3"):
+        closure = found.shrink.records[f"{number}-{necking}"]
+        assert closure.before_MPa > 6.0
+        assert closure.after_MPa < 1.5 * NOISE
+    assert found.shrink.records[f"{other}-P2"].closure > 0.9995
+
+
+def test_two_grip_speeds_together_bring_it_down_to_the_noise():
+    found = diagnosed(record(2, "P2", "identify"), record(3, "P2", "identify"), hold=HELD)
+    assert (found.verdict, found.answer_set) == ("explained", ((MISSING,),))
+    assert found.shrink.identify.after_MPa == pytest.approx(NOISE, rel=0.1)
+
+
+def test_a_wavy_bias_is_told_beside_the_missing_relation():
+    """1.5 MPa at its largest, about 0.5 rms: what is left is of that size, and the headline says that it is there."""
+    found = diagnosed(record(3, "P2", "identify", bias=1.5), record(3, "P1", "held-out"), hold=HELD)
+    assert found.verdict == "unexplained"
+    assert MISSING in found.best.effects
+    assert all(MISSING in effects for effects in found.answer_set)
+    assert "rate-dependent relaxation is part of it" in found.headline
+    assert "something outside the catalogue is left" in found.headline
+    assert 0.2 < found.shrink.identify.after_MPa < 1.0
+    assert found.best.checks.remaining_p_value < 0.005
