@@ -31,7 +31,7 @@ class CoupledTangent {
   double start_slope() const { return d_stress_; }
 
   /// Slope of the stress at the end of the step; that of the extra modes is known.
-  double take(const LinearisedStep& step, double extra);
+  double take(const LinearisedStep& linearised, double extra);
 
  private:
   const CoupledSolver& pass_;

@@ -25,8 +25,11 @@ FeedbackFactor<double> log_slopes(const FeedbackFactor<Dual>& factor) {
 }  // namespace
 
 FeedbackSet::FeedbackSet(const std::vector<std::shared_ptr<const Feedback>>& feedbacks) {
-  for (const auto& feedback : feedbacks)
-    all_.push_back({feedback.get(), feedback->loss_rate(Feedback::no_parameter).value});
+  for (const auto& feedback : feedbacks) {
+    One& one = all_.emplace_back();
+    one.feedback = feedback.get();
+    one.loss_rate = feedback->loss_rate(Feedback::no_parameter).value;
+  }
 }
 
 FeedbackFactor<Dual> FeedbackSet::at_start(Dual stress) const { return at_start(stress, Direction{}); }

@@ -54,12 +54,12 @@ class FeedbackSet {
 
  private:
   struct One {
-    const Feedback* feedback;
-    double loss_rate;
-    double kept = 1.0, taken = 1.0;      // of the memory, and of the work, in a step of h_
-    double memory = 0.0;                 // at the beginning of the step
-    Dual next{};                         // at its end, with its slope along the stress
-    FeedbackFactor<double> by_memory{};  // d ln factor / d memory
+    const Feedback* feedback = nullptr;
+    double loss_rate = 0.0;
+    double kept = 1.0, taken = 1.0;    // of the memory, and of the work, in a step of h_
+    double memory = 0.0;               // at the beginning of the step
+    Dual next;                         // at its end, with its slope along the stress
+    FeedbackFactor<double> by_memory;  // d ln factor / d memory
   };
   std::vector<One> all_;
   double h_ = 0.0, stress_here_ = 0.0, rise_ = 0.0, modulus_ = 0.0;

@@ -49,13 +49,13 @@ void expand_rational(const Modes modes, const OneStep step, Expansion& found, do
     store(rows + m + at, t);
     store(rows + 2 * m + at, forcing);
 #pragma GCC unroll 4
-    for (int k = 0; k < 4; ++k) {
-      stress[k] += next;
+    for (Vector& total : stress) {
+      total += next;
       next *= t;
     }
 #pragma GCC unroll 3
-    for (int k = 0; k < 3; ++k) {
-      by_forcing[k] += forcing;
+    for (Vector& total : by_forcing) {
+      total += forcing;
       forcing *= t;
     }
   }
