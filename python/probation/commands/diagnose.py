@@ -58,7 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=_names,
         help="consider only these effects (all); names as --list-effects tells them",
     )
-    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="time integration (be2)")
+    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="sa3", help="time integration (sa3)")
     parser.add_argument(
         "--hold",
         metavar="NAME=VALUE",

@@ -84,7 +84,7 @@ class BaseFit:
         return Whitener(self.whitened.noises)
 
 
-def base_fit(campaign: Campaign, scheme: Scheme = "be2", hold: Mapping[str, float] | None = None) -> BaseFit:
+def base_fit(campaign: Campaign, scheme: Scheme = "sa3", hold: Mapping[str, float] | None = None) -> BaseFit:
     """Fit the engine's law to the identify records of a campaign.
 
     Parameters
@@ -159,7 +159,7 @@ def _misfit(found: Fit, excitation: Excitation, record: Record) -> float:
     return float(np.sum((predicted(found, excitation, found.substeps) - record.true_stress) ** 2))
 
 
-def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "be2") -> BaseFit:
+def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=scheme)

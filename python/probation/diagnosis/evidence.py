@@ -123,12 +123,15 @@ class Evidence:
         With an effect outside the catalogue beside it.
     covariance : ndarray, shape (p, p)
         Of the search coordinates, the form's error included; parameters at a bound have none.
+    log_evidence_exact : float
+        If its form were exact: what tells the forms of one effect apart.
     """
 
     log_evidence: float
     form_error: float
     log_evidence_unknown: float
     covariance: FloatArray
+    log_evidence_exact: float = -np.inf
 
 
 def evidence(
@@ -165,7 +168,9 @@ def evidence(
     form_error = float(posterior @ np.array(errors))
     covariance = problem.covariance(discrepancy.variances(form_error**2 * done))
     beside = _unknown(problem, discrepancy) if unknown else -np.inf
-    return Evidence(together, form_error, beside, covariance)
+    exact = problem if forms is None else _Problem.of(found, discrepancy)
+    plain = exact.log_integral(discrepancy.variances(0.0 * done))
+    return Evidence(together, form_error, beside, covariance, plain)
 
 
 def _unknown(problem: _Problem, discrepancy: Discrepancy) -> float:

@@ -69,7 +69,7 @@ class CampaignIsolability:
 
 def campaign_isolability(
     campaign: Campaign,
-    scheme: Scheme = "be2",
+    scheme: Scheme = "sa3",
     *,
     hold: Mapping[str, float] | None = None,
     effects: Iterable[str] | None = None,

@@ -25,6 +25,9 @@ UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.05, 0.03
 LEFT_OVER = 0.9
 """Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
 
+ABOUT_AS_PROBABLE = 12.0
+"""Log evidence within which forms of one effect are told apart by how well they fit as they are."""
+
 COVERED = 0.95
 """Probability that an answer set holds."""
 
@@ -72,10 +75,17 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int) -> list[Weighed]:
     }
     total = float(logsumexp(list(scores.values())))
     found = [
-        Weighed(effects, float(np.exp(score - total)), max(together[effects], key=lambda entry: entry[0])[1])
+        Weighed(effects, float(np.exp(score - total)), _standing_for(together[effects]))
         for effects, score in scores.items()
     ]
     return sorted(found, key=lambda each: -each.probability)
+
+
+def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
+    """Of the forms and places that are about as probable, the one that is most nearly exact."""
+    best = max(score for score, _ in entries)
+    close = [each for score, each in entries if score >= best - ABOUT_AS_PROBABLE]
+    return max(close, key=lambda each: each.evidence.log_evidence_exact)
 
 
 def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:

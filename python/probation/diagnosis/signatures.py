@@ -2,37 +2,44 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.diagnosis.candidate import span_of
 from probation.diagnosis.result import Signature
 from probation.gap.sharp import find_lines, find_steps
 from probation.gap.signatures import parameter_drift
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from probation.gap.whitening import Whitened
+    from probation.diagnosis.base_fit import BaseFit
+    from probation.diagnosis.hypothesis import Hypothesis
 
 LEVEL = 1e-3
 """p-value, over all records, below which a feature is told."""
 
 
-def signatures(whitened: Whitened, names: Sequence[str]) -> tuple[Signature, ...]:
+def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     """Lines of one frequency, steps, and parameters that drift with the rate or the order of the tests.
+
+    A gap that bends sharply looks like a step, one that is nearly periodic like a line: where the best explanation has
+    nothing sharp in it, they are looked for in what it leaves.
 
     Parameters
     ----------
-    whitened : Whitened
-        At the base fit.
-    names : sequence of str
-        Of the base parameters.
+    base : BaseFit
+    best : Hypothesis
     """
     found: list[Signature] = []
-    for line in find_lines(whitened):
+    whitened, names = base.whitened, base.law.parameter_names
+    left = whitened
+    if all(cause.form.sharp is None for cause in best.causes):
+        span = span_of(best.refit.jacobian)
+        left = replace(whitened, residual=best.refit.residual - span @ (span.T @ best.refit.residual), span=span)
+    for line in find_lines(left):
         if line.p_value < LEVEL:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"
             found.append(Signature("line", line.record, line.p_value, text))
-    for step in find_steps(whitened, size=500):
+    for step in find_steps(left, size=500):
         if step.p_value < LEVEL:
             text = (
                 f"a step of {-step.size_MPa:+.2g} MPa in {step.record} at {step.time_s:.4g} s "
