@@ -54,10 +54,6 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
     notes = []
     if p_value is not None and p_value < DISAGREE and scatter > SCATTER:
         notes.append(f"the records want amplitudes that differ by {100.0 * scatter:.0f} %")
-    if left_out is not None and left_out < 0.5:
-        notes.append(
-            f"records that are left out are foretold {'worse than without it' if left_out < 0.0 else 'poorly'}"
-        )
     low, high = found.at_bound
     for index, name in enumerate(found.model.parameter_names[found.model.base_count :], found.model.base_count):
         # An amplitude at zero is an effect that is not there; a shape at its bound asks for another form.

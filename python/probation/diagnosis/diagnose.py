@@ -122,7 +122,7 @@ def diagnose(
     judged: dict[tuple[str, ...], Checks] = {}
     if gap.rejected:
         left, judged = _judged(weighed, chosen, base, Discrepancy.of(base.whitened), seed)
-        if (left or not weighed[0].effects) and UNKNOWN not in weighed[0].effects:
+        if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
             weighed = with_unknown_leading(weighed)
             chosen = answer_set(weighed)
         verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
@@ -178,6 +178,15 @@ def _judged(
         if each.hypothesis.causes:
             found[each.effects] = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
     return left, found
+
+
+def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:
+    """Whether what is left is more than the errors of the best explanation's forms, or nothing was explained."""
+    if not best.hypothesis.causes:
+        return True
+    discrepancy = Discrepancy.of(base.whitened)
+    left = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed, share=1.0)
+    return left.rejected
 
 
 def _searched(

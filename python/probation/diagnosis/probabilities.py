@@ -82,9 +82,9 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int) -> list[Weighed]:
 
 
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
-    """Of the forms and places that are about as probable, the one that is most nearly exact."""
-    best = max(score for score, _ in entries)
-    close = [each for score, each in entries if score >= best - ABOUT_AS_PROBABLE]
+    """Of the forms that are about as probable in the same place, the one that is most nearly exact."""
+    best, leading = max(entries, key=lambda entry: entry[0])
+    close = [each for score, each in entries if score >= best - ABOUT_AS_PROBABLE and each.records == leading.records]
     return max(close, key=lambda each: each.evidence.log_evidence_exact)
 
 

@@ -19,10 +19,15 @@ if TYPE_CHECKING:
     from probation.gap.whitening import Whitened
 
 TOLERATED = 0.05
-"""Relative error of an effect's form that is let pass: so much of what an effect does is not another effect's doing."""
+"""Relative error of an effect's form, record by record, that evidence takes for the effect's own."""
+
+TOLD = 0.25
+"""Part of what evidence lets pass beyond which a gap is told to be left: it is real, whatever its cause."""
 
 
-def remaining_gap(found: Refit, base: Refit, whitened: Whitened, discrepancy: Discrepancy, *, seed: int) -> GapTest:
+def remaining_gap(
+    found: Refit, base: Refit, whitened: Whitened, discrepancy: Discrepancy, *, seed: int, share: float = TOLD
+) -> GapTest:
     """The gap test on what an explanation leaves, its parameters refitted, its form's error let pass.
 
     Parameters
@@ -33,9 +38,11 @@ def remaining_gap(found: Refit, base: Refit, whitened: Whitened, discrepancy: Di
         At the base fit.
     discrepancy : Discrepancy
     seed : int
+    share : float
+        Part of the errors of a form, as evidence takes them, that is let pass.
     """
-    energy = TOLERATED**2 * discrepancy.energy(found.residual - base.residual)
-    allowed = np.hstack([discrepancy.factor(energy), form_columns(found, Whitener(whitened.noises))])
+    energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.residual)
+    allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, Whitener(whitened.noises))])
     both = _whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
     residual, span = both[:, 0], span_of(both[:, 1:])
     after = replace(whitened, residual=residual - span @ (span.T @ residual), span=span)

@@ -6,7 +6,6 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
-from probation.diagnosis.words import listed, percent, set_names
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis
@@ -65,19 +64,11 @@ def _cases(p_value: float) -> str:
 
 
 def next_test_text(found: Diagnosis) -> str:
-    """The next test, what it separates, and what it is worth."""
+    """The next test in one sentence; empty if there is none."""
     test = found.next_test
     if test is None:
         return ""
-    text = f"Next test: {test.what.rstrip('.')}."
-    if test.separates:
-        names = set_names(test.separates, found)
-        text += f" It separates {listed(names, 'from' if len(names) == 2 else 'and')};"
-        return (
-            f"{text} the chance of naming the right one rises from {percent(test.probability_before)} to "
-            f"{percent(test.probability_after)}."
-        )
-    return text
+    return f"Next test: {test.what.rstrip('.')}."
 
 
 def signs(found: Diagnosis) -> list[str]:

@@ -194,7 +194,7 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
 
 
 def _sentence(chosen: RankedTest, separates: Sequence[Sequence[str]], surely: bool, before: float) -> str:
-    names = [" with ".join(effects) if effects else "no effect" for effects in separates]
+    names = [" with ".join(effects).replace("_", " ") if effects else "no effect" for effects in separates]
     told = f"{', '.join(names[:-1])} and {names[-1]}"
     what, after = chosen.test.what, chosen.probability_after
     if after < before + HELPS:
