@@ -1,0 +1,69 @@
+"""Another law, and effects of a user's own, go through the same diagnosis."""
+
+import numpy as np
+import pytest
+
+import probation
+from probation import gap
+from probation.records import Campaign, Record
+
+MODULUS, TIME = 1200.0, 8.0  # MPa, s
+
+
+def maxwell(time, rate):
+    """E tau rate (1 - e^(-t / tau)): a ramp on a Maxwell bar."""
+    return MODULUS * TIME * rate * -np.expm1(-time / TIME)
+
+
+def campaign(fault=None):
+    records = []
+    for index, (name, rate) in enumerate({"slow": 1e-3, "middle": 4e-3, "fast": 1.6e-2}.items()):
+        time = np.linspace(0.0, 0.4 / rate, 160)
+        noise = 0.05 * np.random.default_rng(index).standard_normal(len(time))
+        stress = maxwell(time, rate) + noise
+        if fault is not None:
+            stress = fault(name, time, rate * time, stress)
+        records.append(Record(id=name, time=time, true_strain=rate * time, true_stress=stress, control="strain-rate"))
+    return Campaign("bars", tuple(records))
+
+
+def test_a_maxwell_bar_that_is_one_has_no_gap():
+    found = probation.diagnose(campaign(), law=gap.maxwell_bar(), design=False)
+    assert found.verdict == "no_gap"
+    values = {each.name: each for each in found.base}
+    assert values["modulus_MPa"].value == pytest.approx(MODULUS, abs=4.0 * values["modulus_MPa"].se)
+    assert values["relaxation_time_s"].value == pytest.approx(TIME, abs=4.0 * values["relaxation_time_s"].se)
+
+
+def test_an_offset_in_one_record_of_a_maxwell_bar_is_named_with_its_record():
+    shifted = campaign(lambda name, time, strain, stress: stress + 0.4 * np.exp(strain) * (name == "middle"))
+    found = probation.diagnose(shifted, law=gap.maxwell_bar(), design=False)
+    assert found.verdict == "explained"
+    assert found.best.effects == ("force_offset",)
+    assert found.best.records == ("middle",)
+    offset = found.best.parameters[0]
+    assert offset.value == pytest.approx(0.4, abs=4.0 * offset.se)
+
+
+def test_effects_that_a_law_does_not_understand_are_not_considered():
+    found = probation.diagnose(campaign(), law=gap.maxwell_bar(), design=False)
+    assert all("rate_dependent_relaxation" not in each.effects for each in found.explanations)
+
+
+def test_a_users_own_effect_is_found_once_it_is_registered():
+    amplitude = gap.EffectParameter("bend_MPa", "MPa", -5.0, 5.0, 0.5, "some tenths of a MPa")
+    bend = gap.Form("bend", (amplitude,), recorded_stress=lambda view, values, stress: stress + values[0] * _bend(view))
+    gap.register(
+        gap.Effect("bent_grip", "bent grip", "A grip bends.\nAmplitude: of the bend.", "none", "all", "rig", (bend,))
+    )
+    try:
+        bent = campaign(lambda name, time, strain, stress: stress + 0.3 * np.sin(3.0 * np.pi * strain / 0.4))
+        found = probation.diagnose(bent, law=gap.maxwell_bar(), design=False)
+    finally:
+        gap.unregister("bent_grip")
+    assert found.best.effects == ("bent_grip",)
+    assert found.best.parameters[0].value == pytest.approx(0.3, abs=0.03)
+
+
+def _bend(view):
+    return np.sin(3.0 * np.pi * view.recorded_strain / 0.4)
