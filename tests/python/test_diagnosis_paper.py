@@ -36,7 +36,7 @@ def diagnosed(*records, hold=None):
 
 @pytest.mark.parametrize(("number", "other", "hold"), [(2, 3, HELD), (3, 2, HELD), (3, 2, None)])
 def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
-    """Without it 6 to 8 MPa; with it the noise, up to a tenth of a MPa that a power law is not eq. (11)."""
+    """Without it 6 to 8 MPa; with it the noise, on the record that was fitted."""
     twins = twin_campaign((number,), held_out=(other,))
     found = diagnose(Campaign(twins.name, twins.records, LawSettings()), hold=hold, design=False)
     assert (found.verdict, found.answer_set) == ("explained", ((MISSING,),))
