@@ -1,6 +1,7 @@
 """Small campaigns whose truth is known, from records to the answer."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from campaigns.few_records import CORNERS, NOISE, damage, few_records, offset
 from probation import InputError
 from probation.diagnosis.diagnose import diagnose
+from probation.records import LawSettings
 
 EFFECTS = ["force_offset", "damage", "machine_compliance", "slow_process"]
 UNEVEN = {"slow": 0.02, "middle": 0.04, "fast": 0.4, "unloading": 0.1}
@@ -200,6 +202,15 @@ def test_a_held_parameter_is_not_fitted():
     found = diagnosed(few_records(names=("slow", "fast")), hold={"hardening_modulus_MPa": 2.0})
     assert [each.name for each in found.base] == ["unrelaxed_modulus_MPa", "tau_max_s"]
     assert found.verdict == "no_gap"
+
+
+def test_a_law_given_whole_is_diagnosed_with_nothing_fitted():
+    given = {"unrelaxed_modulus_MPa": 3220.0, "tau_max_s": 5.2, "hardening_modulus_MPa": 2.0}
+    campaign = replace(few_records(offset(0.5, "middle")), law=LawSettings(fixed=given))
+    found = diagnose(campaign, effects=["force_offset"], design=False)
+    assert found.base == ()
+    assert found.best.effects == ("force_offset",)
+    assert found.best.records == ("middle",)
 
 
 def test_the_same_seed_gives_the_same_answer(offset_in_middle):

@@ -88,7 +88,7 @@ class Coordinates:
         known, base = model.effect_parameters, model.base_count
         start = np.abs(model.law.start)
         size = np.append(np.where(start > 0.0, start, 1.0), np.ones(len(known)))
-        log = np.array([False] * base + [each.log for each in known])
+        log = np.array([False] * base + [each.log for each in known], dtype=bool)
         lower, upper = model.bounds
         centre = np.append(np.zeros(base), [each.to_search(each.centre) for each in known])
         scale = np.append(np.full(base, np.inf), [each.scale for each in known])
