@@ -59,7 +59,7 @@ def test_csv_json_plot_and_page_are_written(jump_file, tmp_path, capsys):
     assert 0.0 < found["relative_se_of_rate"]["median"] < 0.005
     page = (tmp_path / "out.html").read_text()
     assert "known to" in page
-    assert page.count("<figure>") == 3
+    assert page.count("<figure") == 3
 
 
 def test_a_campaigns_record_is_chosen_by_its_id(tmp_path, capsys):

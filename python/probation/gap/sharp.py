@@ -137,7 +137,8 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         near = np.arange(max(best - stride, 3), min(best + stride + 1, count - 2))
         fine, norm = _steps(whitened, index, white, near)
         at = int(np.argmax(np.abs(fine.T @ left)))
-        score = float(fine[:, at] @ left) / _loudness(left, int(near[at]))
+        along = float(fine[:, at] @ left)
+        score = along / _loudness(left, int(near[at]))
         spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
         values, vectors = np.linalg.eigh(steps.T @ steps)
         root = vectors * np.sqrt(np.maximum(values, 0.0))
@@ -148,7 +149,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         p_value = float(-np.expm1(len(whitened.records) * np.log1p(-min(family, 1.0 - 1e-15))))
         place = int(near[at])
         found.append(
-            Step(record.name, float(record.time[place]), float(record.true_strain[place]), score / norm[at], p_value)
+            Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
         )
     return tuple(sorted(found, key=lambda step: step.p_value))
 
