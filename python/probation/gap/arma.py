@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import lfilter
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -104,6 +103,8 @@ class Arma:
             exact[done] = innovation / np.sqrt(variance)
             done += 1
         if done < count:
+            from scipy.signal import lfilter  # noqa: PLC0415 - slow to load
+
             state = np.atleast_1d(-theta * innovation)[None] if values.ndim > 1 else np.array([-theta * innovation])
             exact[done:] = lfilter([1.0], [1.0, theta], moved[done:], axis=0, zi=state)[0]
         return exact
@@ -116,6 +117,8 @@ class Arma:
             return self.innovation * shocks
         # State s_t = phi x_t + theta e_t: x_{t+1} = s_t + e_{t+1}, of stationary variance (phi + theta)^2/(1 - phi^2).
         start = (phi + theta) / np.sqrt(1.0 - phi**2) * rng.standard_normal((size, 1))
+        from scipy.signal import lfilter  # noqa: PLC0415
+
         series: FloatArray = lfilter([1.0, theta], [1.0, -phi], shocks, axis=1, zi=start)[0]
         return self.innovation * series
 
