@@ -9,11 +9,11 @@ import numpy as np
 import probation
 from probation import gap
 from probation.diagnosis.refit import Refit, refit
-from probation.diagnosis.whitener import Whitener
 from probation.gap.arma import Arma
 from probation.gap.effect import Effect, EffectParameter, Form
 from probation.gap.noise_model import NoiseModel
 from probation.gap.record_residual import RecordResidual
+from probation.gap.whitener import Whitener
 from probation.gap.whitening import Whitened
 from probation.records import Noise, Record
 

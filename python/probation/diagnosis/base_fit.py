@@ -9,14 +9,14 @@ import numpy as np
 
 from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
-from probation.diagnosis.whitener import Whitener
 from probation.excitation import excite
 from probation.gap.dnlr_law import DnlrLaw
 from probation.gap.drift import estimate_drift, with_drift
 from probation.gap.model import CampaignModel
 from probation.gap.noise import carried_strain_noise, estimate_noise
-from probation.gap.record_residual import RecordResidual
 from probation.gap.record_view import views_of
+from probation.gap.view_residual import residual_of
+from probation.gap.whitener import Whitener
 from probation.gap.whitening import Whitened
 from probation.identify import fit
 from probation.identify.given import given
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from probation.excitation import Excitation
     from probation.gap.noise_model import NoiseModel
     from probation.gap.protocol import GapLaw
+    from probation.gap.record_residual import RecordResidual
     from probation.gap.record_view import RecordView
     from probation.identify import Fit
     from probation.law import Scheme
@@ -106,8 +107,7 @@ def base_fit(campaign: Campaign, scheme: Scheme = "sa3", hold: Mapping[str, floa
     samples = _excitations(campaign, found)
     steps = enough_substeps(campaign, found, samples)
     views = views_of(campaign, excitations=samples, scheme=scheme, substeps=steps)
-    free = [name for name in found.law.parameter_names if name in found.names]
-    law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in free])
+    law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in found.names])
     base = fit_views(law, views, campaign.records, samples)
     return replace(base, other_starts=_other_starts(base))
 
@@ -171,25 +171,27 @@ def fit_views(
 ) -> BaseFit:
     """Fit any law to the views whose role is "identify": parameters and noise in turns."""
     known = {record.id: record for record in records}
-    chosen = [view for view in views if view.role == "identify"]
-    model = CampaignModel(law, chosen)
+    model = CampaignModel(law, [view for view in views if view.role == "identify"])
     parameters = law.start
-    carried: dict[str, FloatArray | None] = {}
-    noises = None
+    raw, jacobian = model.residual_and_jacobian(parameters)
+    residuals = [
+        residual_of(
+            view,
+            raw[part],
+            jacobian[part],
+            given_noise=known[view.id].noise.stress_MPa,
+            carried=_carried(law, view, excitations[view.id], parameters),
+        )
+        for view, part in model.parts
+    ]
     for _ in range(ROUNDS):
-        raw, jacobian = model.residual_and_jacobian(parameters)
-        if noises is None:
-            carried = {view.id: _carried(law, view, excitations[view.id], parameters) for view in chosen}
-        residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
         noises = _noises(residuals)
         found = refit(model, parameters, Whitener(noises), most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
+        residuals = _at(residuals, found)
         if moved.size == 0 or float(moved.max()) < 1e-5:
             break
-    raw, jacobian = model.residual_and_jacobian(parameters)
-    residuals = [_residual(model, view, known[view.id], raw, jacobian, carried[view.id]) for view in chosen]
-    assert noises is not None
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
     fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
@@ -205,20 +207,18 @@ def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
     explained : Refit
         With the causes, on the same records.
     """
-    raw, jacobian = explained.model.residual_and_jacobian(explained.parameters)
-    rows = [explained.model.rows(record.name) for record in base.whitened.records]
-    left = [
-        replace(record, residual=raw[part], tangent=jacobian[part])
-        for record, part in zip(base.whitened.records, rows, strict=True)
-    ]
-    noises = _noises(left)
+    noises = _noises(_at(base.whitened.records, explained))
     found = refit(base.model, base.parameters, Whitener(noises), most_steps=12)
-    raw, jacobian = base.model.residual_and_jacobian(found.parameters)
-    residuals = [
-        replace(record, residual=raw[part], tangent=jacobian[part])
-        for record, part in zip(base.whitened.records, rows, strict=True)
+    return replace(base, refit=found, whitened=Whitened.of(_at(base.whitened.records, found), noises))
+
+
+def _at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidual]:
+    """The same records at another fit, in the units of the data."""
+    raw, jacobian = found.model.residual_and_jacobian(found.parameters)
+    parts = [part for _, part in found.model.parts]
+    return [
+        replace(each, residual=raw[part], tangent=jacobian[part]) for each, part in zip(residuals, parts, strict=True)
     ]
-    return replace(base, refit=found, whitened=Whitened.of(residuals, noises))
 
 
 def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
@@ -226,35 +226,6 @@ def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
     return tuple(with_drift(noise, drift) for noise in noises)
-
-
-def _residual(
-    model: CampaignModel,
-    view: RecordView,
-    record: Record,
-    residual: FloatArray,
-    jacobian: FloatArray,
-    carried: FloatArray | None,
-) -> RecordResidual:
-    rows = model.rows(view.id)
-    return RecordResidual(
-        name=view.id,
-        time=view.sampled(view.time),
-        true_strain=view.sampled(view.true_strain),
-        strain_rate=view.sampled(_signed_rate(view)),
-        residual=residual[rows],
-        tangent=jacobian[rows],
-        jumps=tuple(jump // view.stride for jump in view.jumps),
-        measured=view.data,
-        given_noise=record.noise.stress_MPa,
-        carried=carried,
-    )
-
-
-def _signed_rate(view: RecordView) -> FloatArray:
-    """Strain rate with its sign, 0 in a dwell; shape (n,) [1/s]."""
-    step = np.append(view.direction[:1], view.direction)
-    return np.asarray(step * view.rate)
 
 
 def _carried(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray | None:

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from probation.gap.span import without
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.diagnosis.whitener import Whitener
     from probation.gap.cause import Cause
     from probation.gap.screen import Column
+    from probation.gap.whitener import Whitener
 
 Key: TypeAlias = "tuple[str, str, tuple[str, ...] | None]"
 
@@ -79,7 +81,7 @@ class WhitenedColumns:
         span : ndarray, shape (N, p)
             Orthonormal basis of what a refit of the present model may change.
         """
-        left = residual - span @ (span.T @ residual)
+        left = without(residual, span)
         along = self.matrix.T @ left
         square = np.sum(self.matrix**2, axis=0) - np.sum((span.T @ self.matrix) ** 2, axis=0)
         found = []
@@ -95,14 +97,6 @@ class WhitenedColumns:
                 start = float(np.clip(wanted, -largest, largest))
             found.append(Candidate(column.cause, (start, *column.values[1:]), gain))
         return sorted(found, key=lambda each: -each.gain)
-
-
-def span_of(jacobian: FloatArray) -> FloatArray:
-    """Orthonormal basis of a Jacobian's columns."""
-    size = np.linalg.norm(jacobian, axis=0)
-    left, upper = np.linalg.qr(jacobian / np.where(size > 0.0, size, 1.0))
-    turned, singular, _ = np.linalg.svd(upper)
-    return np.asarray(left @ turned[:, singular > 1e-9 * max(float(singular.max(initial=0.0)), 1e-300)])
 
 
 def cause_key(cause: Cause) -> Key:

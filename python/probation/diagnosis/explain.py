@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.headline import title
-from probation.diagnosis.result import UNKNOWN, BaseParameter, CauseParameter, Explanation, Status
+from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation, Status
 from probation.gap.where import Located, contribution_regions
 from probation.identify.parameter import IDENTIFIABLE, WEAKLY
 
@@ -89,14 +89,10 @@ def regions_of(hypothesis: Hypothesis, base: BaseFit, p_value: float) -> tuple[L
     found, model = hypothesis.refit, hypothesis.refit.model
     first = model.base_count
     absent = found.parameters.copy()
-    amplitudes, at = [], first
-    for cause in model.causes:
-        amplitudes.append(at)
-        at += len(cause.form.parameters)
-    absent[amplitudes] = 0.0
+    absent[list(model.amplitudes)] = 0.0
     contribution = model.residual(found.parameters) - model.residual(absent)
     slopes = model.jacobian(found.parameters)[:, first:] * found.coordinates.slopes(found.parameters)[first:]
-    rows = [model.rows(view.id) for view in model.views]
+    rows = [part for _, part in model.parts]
     return contribution_regions(
         base.whitened.records,
         [contribution[part] for part in rows],
@@ -104,8 +100,3 @@ def regions_of(hypothesis: Hypothesis, base: BaseFit, p_value: float) -> tuple[L
         hypothesis.evidence.covariance[first:, first:],
         p_value,
     )
-
-
-def is_known(effects: Sequence[str]) -> bool:
-    """Whether an explanation has no part outside the catalogue."""
-    return UNKNOWN not in effects

@@ -13,8 +13,8 @@ import numpy as np
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.refit import Refit
-    from probation.diagnosis.whitener import Whitener
     from probation.gap.record_view import RecordView
+    from probation.gap.whitener import Whitener
 
 OF_A_MATERIAL, OF_A_RIG = 0.2, 0.05
 """Relative deviation of a form from its effect, per modulation: a material's effect has no formula, an offset has."""
@@ -35,14 +35,13 @@ def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
     still = model.residual(found.parameters)
     largest = max(float(np.max(view.true_strain)) for view in model.views)
     modulations = np.vstack([_modulations(view, largest) for view in model.views])
-    columns, at = [], model.base_count
-    for cause in model.causes:
+    columns = []
+    for cause, at in zip(model.causes, model.amplitudes, strict=True):
         absent = found.parameters.copy()
         absent[at] = 0.0
         contribution = still - model.residual(absent)
         size = OF_A_MATERIAL if cause.effect.kind == "material" else OF_A_RIG
         columns.append(size * contribution[:, None] * modulations)
-        at += len(cause.form.parameters)
     return whitener.columns(np.hstack(columns))
 
 

@@ -12,6 +12,7 @@ from probation.diagnosis.candidate import Key, cause_key
 from probation.diagnosis.evidence import Discrepancy, evidence
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refit import Coordinates, Refit, refit
+from probation.gap.span import without
 
 if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit
@@ -34,11 +35,11 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Disc
     """
     found = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
     span = base.whitened.span
-    left = base.refit.residual - span @ (span.T @ base.refit.residual)
+    left = without(base.refit.residual, span)
     grouped: dict[Key, list[tuple[float, int]]] = {}
     for index, column in enumerate(columns.columns):
         slope = columns.matrix[:, index]
-        seen = slope - span @ (span.T @ slope)
+        seen = without(slope, span)
         scale = column.cause.form.amplitude.scale
         gain = float(seen @ left) ** 2 / max(float(seen @ seen) + scale**-2.0, 1e-300)
         grouped.setdefault(cause_key(column.cause), []).append((gain, index))

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.diagnosis.whitener import Whitener
     from probation.gap.model import CampaignModel
+    from probation.gap.whitener import Whitener
 
 MOST_STEPS = 15
 SETTLED = 0.02

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.diagnosis.candidate import span_of
 from probation.diagnosis.form_error import form_columns
-from probation.diagnosis.whitener import Whitener
 from probation.gap.gap_test import GapTest, GapTester
+from probation.gap.whitener import Whitener
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -44,9 +42,7 @@ def remaining_gap(
     energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.residual)
     allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, Whitener(whitened.noises))])
     both = _whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
-    residual, span = both[:, 0], span_of(both[:, 1:])
-    after = replace(whitened, residual=residual - span @ (span.T @ residual), span=span)
-    return GapTester(after, size=2000, seed=seed)()
+    return GapTester(whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
 
 
 def _whitened_beside(allowed: FloatArray, values: FloatArray) -> FloatArray:

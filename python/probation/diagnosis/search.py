@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key, span_of
+from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.diagnosis.evidence import Discrepancy, evidence
 from probation.diagnosis.form_error import form_columns
 from probation.diagnosis.hypothesis import Hypothesis
@@ -16,6 +16,7 @@ from probation.diagnosis.refit import Refit, refit
 from probation.errors import ConvergenceError, InputError
 from probation.gap.screen import screen
 from probation.gap.sharp import find_lines, find_steps
+from probation.gap.span import span_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -179,8 +180,7 @@ class Search:
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes in records where nothing sharp is left."""
-        span = span_of(before.jacobian)
-        left = replace(self.base.whitened, residual=before.residual - span @ (span.T @ before.residual), span=span)
+        left = self.base.whitened.beside(before.residual, before.jacobian)
         places = {
             "line": {line.record for line in find_lines(left) if line.p_value < CREDIBLE},
             "step": {step.record for step in find_steps(left, size=500) if step.p_value < CREDIBLE},

@@ -10,9 +10,9 @@ from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.gap.model import CampaignModel
 from probation.gap.noise import estimate_noise
-from probation.gap.record_residual import RecordResidual
 from probation.gap.smooth_basis import smooth_basis
 from probation.gap.spikes import without_spikes
+from probation.gap.view_residual import residual_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,24 +99,14 @@ def shrink_of(
 
 def _noise_of_others(base: BaseFit, everywhere: CampaignModel, campaign: Campaign) -> dict[str, NoiseModel]:
     """The noise of records that were not fitted, by what is rougher than any law's error."""
-    others = [view for view in base.views if view.role != "identify"]
-    if not others:
+    if len(base.views) == len(base.model.views):
         return {}
     raw, jacobian = everywhere.residual_and_jacobian(base.parameters)
     known = {record.id: record for record in campaign.records}
     residuals = [
-        RecordResidual(
-            name=view.id,
-            time=view.sampled(view.time),
-            true_strain=view.sampled(view.true_strain),
-            strain_rate=view.sampled(view.rate),
-            residual=raw[everywhere.rows(view.id)],
-            tangent=jacobian[everywhere.rows(view.id)],
-            jumps=tuple(jump // view.stride for jump in view.jumps),
-            measured=view.data,
-            given_noise=known[view.id].noise.stress_MPa,
-        )
-        for view in others
+        residual_of(view, raw[part], jacobian[part], given_noise=known[view.id].noise.stress_MPa)
+        for view, part in everywhere.parts
+        if view.role != "identify"
     ]
     return {noise.name: noise for noise in estimate_noise(residuals)}
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.candidate import span_of
 from probation.diagnosis.result import Signature
 from probation.gap.sharp import find_lines, find_steps
 from probation.gap.signatures import parameter_drift
@@ -33,8 +31,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     whitened, names = base.whitened, base.law.parameter_names
     left = whitened
     if all(cause.form.sharp is None for cause in best.causes):
-        span = span_of(best.refit.jacobian)
-        left = replace(whitened, residual=best.refit.residual - span @ (span.T @ best.refit.residual), span=span)
+        left = whitened.beside(best.refit.residual, best.refit.jacobian)
     for line in find_lines(left):
         if line.p_value < LEVEL:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"

@@ -9,9 +9,11 @@ import numpy as np
 
 from probation.errors import InputError
 from probation.gap.effect_signals import signal
-from probation.gap.record_residual import RecordResidual
+from probation.gap.span import DEPENDENT
 from probation.gap.telling_apart import DETECTED
-from probation.gap.whitening import DEPENDENT, Whitened
+from probation.gap.view_residual import residual_of
+from probation.gap.whitener import Whitener
+from probation.gap.whitening import Whitened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,17 +76,13 @@ class Design:
     def of(cls, model: CampaignModel, parameters: FloatArray, noises: Sequence[NoiseModel]) -> Design:
         """A model at its parameters, with one noise per record."""
         residual, tangent = model.residual_and_jacobian(parameters)
-        records = []
-        for view in model.views:
-            rows = model.rows(view.id)
-            time, strain, rate = (view.sampled(each) for each in (view.time, view.true_strain, view.rate))
-            records.append(RecordResidual(view.id, time, strain, rate, residual[rows], tangent[rows]))
+        records = [residual_of(view, residual[rows], tangent[rows]) for view, rows in model.parts]
         white = Whitened.of(records, noises)
-        return cls(model, parameters, white, white.whiten([record.tangent for record in records]))
+        return cls(model, parameters, white, Whitener(white.noises).columns(tangent))
 
     def whitened(self, columns: FloatArray) -> FloatArray:
         """Stresses (n_samples, m) in white coordinates."""
-        return self.white.whiten([columns[self.model.rows(view.id)] for view in self.model.views])
+        return Whitener(self.white.noises).columns(columns)
 
     def left_of(self, raw: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What a refit leaves of whitened columns (n_samples, m), and its lengths (m,); rounding counts as nothing."""

@@ -16,6 +16,7 @@ from scipy.special import entr
 
 from probation.gap.model import CampaignModel
 from probation.gap.planned_record import planned_noise, planned_view
+from probation.gap.whitener import Whitener
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,7 +70,7 @@ class Explanation:
     ) -> Explanation:
         """With what the model's own records, one noise each, tell of its parameters."""
         jacobian = model.jacobian(parameters)
-        white = np.vstack([n.whiten(jacobian[model.rows(v.id)]) for v, n in zip(model.views, noises, strict=True)])
+        white = Whitener(tuple(noises)).columns(jacobian)
         known = np.zeros(len(parameters))
         known[model.base_count :] = [
             _prior_precision(each.scale, each.log, value)

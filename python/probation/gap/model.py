@@ -155,6 +155,17 @@ class CampaignModel:
             raise InputError(f"found no record {record_id!r}; {suggestion(record_id, self._rows)}")
         return self._rows[record_id]
 
+    @property
+    def parts(self) -> tuple[tuple[RecordView, slice], ...]:
+        """Every view with its rows among the stacked samples."""
+        return tuple((view, self._rows[view.id]) for view in self.views)
+
+    @property
+    def amplitudes(self) -> tuple[int, ...]:
+        """Where the causes' amplitudes stand among the parameters."""
+        sizes = [len(each.form.parameters) for each in self.causes]
+        return tuple(int(place) for place in self.base_count + np.cumsum([0, *sizes])[: len(sizes)])
+
     def with_causes(self, causes: Iterable[Cause]) -> CampaignModel:
         """The same law and records with other causes."""
         return CampaignModel(self.law, self.views, causes)
@@ -251,8 +262,7 @@ class CampaignModel:
     def contribution(self, parameters: FloatArray, cause: Cause) -> FloatArray:
         """What one of the causes adds to the recorded stress, all others staying; shape (n_samples,) [MPa]."""
         absent = parameters.copy()
-        names = dict(zip(self.parameter_names, range(len(parameters)), strict=True))
-        absent[names[cause.parameter_names[0]]] = 0.0
+        absent[self.amplitudes[self.causes.index(cause)]] = 0.0
         return self.residual(parameters) - self.residual(absent)
 
     def specimen(

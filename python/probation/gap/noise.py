@@ -17,6 +17,7 @@ from probation.gap.local_size import local_size
 from probation.gap.noise_model import Growth, NoiseModel
 from probation.gap.quantisation import quantisation_noise, quantisation_step
 from probation.gap.smooth_basis import WAVES, smooth_basis, waves
+from probation.gap.span import span_of
 from probation.gap.spikes import find_spikes, without_spikes
 from probation.records.noise import scatter
 
@@ -166,7 +167,7 @@ def _prepare(record: RecordResidual) -> _Prepared:
     if rough is None:
         return nothing
     smooth = smooth_basis(record.time, record.jumps).columns
-    basis = _orthonormal(np.hstack([record.tangent, smooth]))
+    basis = span_of(np.hstack([record.tangent, smooth]))
     whole = _whole(residual, basis, WAVES, profile)
     return replace(
         nothing, growth=growth, profile=profile, rough=rough, whole=whole, source="what no smooth curve takes"
@@ -219,14 +220,6 @@ def _whole(values: FloatArray, basis: FloatArray, lowest: int, profile: FloatArr
     keep = np.flatnonzero(weight > 0.3)
     keep = keep[keep >= lowest]
     return Periodogram(frequency[keep], power[keep] / weight[keep], weight[keep])
-
-
-def _orthonormal(columns: FloatArray) -> FloatArray:
-    size = np.linalg.norm(columns, axis=0)
-    size[size == 0.0] = 1.0
-    left, upper = np.linalg.qr(columns / size)
-    turned, singular, _ = np.linalg.svd(upper)
-    return np.asarray(left @ turned[:, singular > 1e-9 * singular[0]], dtype=np.float64)
 
 
 def _leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:

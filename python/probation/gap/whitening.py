@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.gap.noise import estimate_noise
+from probation.gap.span import span_of, without
 from probation.gap.spikes import without_spikes
+from probation.gap.whitener import Whitener
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.gap.noise_model import NoiseModel
     from probation.gap.record_residual import RecordResidual
-
-DEPENDENT = 1e-9
-"""Relative singular value below which a direction of the base parameters is taken as none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,21 +52,15 @@ class Whitened:
             At one base fit, whose parameters they share.
         noises : sequence of NoiseModel, optional
         """
-        known = tuple(noises) if noises is not None else estimate_noise(records)
-        borders = np.concatenate([[0], np.cumsum([len(record) for record in records])]).tolist()
-        slices = tuple(slice(first, last) for first, last in pairwise(borders))
-        residual = np.concatenate(
-            [
-                noise.whiten(without_spikes(record.residual, noise.spikes))
-                for record, noise in zip(records, known, strict=True)
-            ]
-        )
-        tangent = np.vstack([noise.whiten(record.tangent) for record, noise in zip(records, known, strict=True)])
-        size = np.linalg.norm(tangent, axis=0)
-        left, upper = np.linalg.qr(tangent / np.where(size > 0.0, size, 1.0))
-        turned, singular, _ = np.linalg.svd(upper)
-        span = left @ turned[:, singular > DEPENDENT * max(float(np.max(singular, initial=0.0)), 1e-300)]
-        return cls(tuple(records), known, slices, residual - span @ (span.T @ residual), span)
+        whitener = Whitener(tuple(noises) if noises is not None else estimate_noise(records))
+        residual = whitener.residual(np.concatenate([record.residual for record in records]))
+        span = span_of(whitener.columns(np.vstack([record.tangent for record in records])))
+        return cls(tuple(records), whitener.noises, whitener.slices, without(residual, span), span)
+
+    def beside(self, residual: FloatArray, jacobian: FloatArray) -> Whitened:
+        """The same records at another fit: its whitened residual (N,) and Jacobian (N, p), projected."""
+        span = span_of(jacobian)
+        return replace(self, residual=without(residual, span), span=span)
 
     def __len__(self) -> int:
         return len(self.residual)
@@ -79,11 +71,11 @@ class Whitened:
 
     def whiten(self, blocks: Sequence[FloatArray]) -> FloatArray:
         """One (n_r, m) block per record, all of the same m, whitened and stacked: shape (N, m)."""
-        return np.vstack([noise.whiten(block) for noise, block in zip(self.noises, blocks, strict=True)])
+        return Whitener(self.noises).columns(np.vstack(blocks))
 
     def project(self, matrix: FloatArray) -> FloatArray:
         """P times whitened columns: what a refit of the base parameters leaves of them."""
-        return np.asarray(matrix - self.span @ (self.span.T @ matrix), dtype=np.float64)
+        return without(matrix, self.span)
 
     def alone(self, index: int) -> Whitened:
         """One record with the base parameters refitted to it alone."""

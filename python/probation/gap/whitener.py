@@ -1,4 +1,4 @@
-"""Residuals and Jacobians of a campaign in coordinates in which the noise is white."""
+"""Residuals and Jacobians of several records in coordinates in which the noise is white."""
 
 from __future__ import annotations
 

@@ -1,0 +1,27 @@
+"""What columns span, and what noise along them takes off the rest."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+DEPENDENT = 1e-9
+"""Relative singular value below which a direction is taken as none."""
+
+
+def span_of(columns: FloatArray) -> FloatArray:
+    """Orthonormal basis of what columns (n, m) span, each counted at the same length; shape (n, rank)."""
+    size = np.linalg.norm(columns, axis=0)
+    left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
+    turned, singular, _ = np.linalg.svd(upper)
+    seen = singular > DEPENDENT * max(float(np.max(singular, initial=0.0)), 1e-300)
+    return np.asarray(left @ turned[:, seen], dtype=np.float64)
+
+
+def without(columns: FloatArray, span: FloatArray) -> FloatArray:
+    """What is left of columns (n,) or (n, m) beside an orthonormal basis (n, p)."""
+    return np.asarray(columns - span @ (span.T @ columns), dtype=np.float64)
