@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.diagnosis.evidence import Discrepancy
 from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
 from probation.excitation import excite
@@ -78,6 +80,11 @@ class BaseFit:
     def parameters(self) -> FloatArray:
         """Shape (n_base,)."""
         return self.refit.parameters
+
+    @cached_property
+    def discrepancy(self) -> Discrepancy:
+        """Smooth waves over the identify records, along which a form may be wrong."""
+        return Discrepancy.of(self.whitened)
 
     @property
     def whitener(self) -> Whitener:

@@ -62,6 +62,10 @@ class WhitenedColumns:
             matrix[column.rows, index] = column.slope
         return cls(columns, whitener.columns(matrix))
 
+    def and_(self, more: WhitenedColumns) -> WhitenedColumns:
+        """Both screens' columns."""
+        return WhitenedColumns([*self.columns, *more.columns], np.hstack([self.matrix, more.matrix]))
+
     def by_effect(self) -> dict[str, FloatArray]:
         """The columns of every effect that is not sharp: lines and steps have tests of their own."""
         places: dict[str, list[int]] = {}

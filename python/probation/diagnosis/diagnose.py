@@ -11,7 +11,6 @@ from probation._arrays import one_of
 from probation.diagnosis.base_fit import BaseFit, base_fit, fit_law, with_noise_beside
 from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.checks import checks
-from probation.diagnosis.evidence import Discrepancy
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
@@ -38,7 +37,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.result import Checks
     from probation.gap.effect import Effect
     from probation.gap.protocol import GapLaw
-    from probation.gap.screen import Column
     from probation.law import Scheme
     from probation.records import Campaign
 
@@ -104,24 +102,23 @@ def diagnose(
 
     base = base_fit(campaign, scheme, hold) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
-    at = base.parameters
-    screened = screen(base.model, at, considered, threads=workers)
+    screened = screen(base.model, base.parameters, considered, threads=workers)
     columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
     told(0.2)
     gap = with_sharp(GapTester(base.whitened, columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
     told(0.35)
     if gap.rejected:
-        base, found = _searched(base, considered, screened, workers, lambda part: told(0.35 + 0.45 * part))
+        base, found = _searched(base, considered, columns, workers, lambda part: told(0.35 + 0.45 * part))
         weighed = weigh(found, len(considered))
     else:
-        found = linear_hypotheses(base, columns, Discrepancy.of(base.whitened))
+        found = linear_hypotheses(base, columns)
         weighed = with_none_leading(weigh(found, len(considered)))
     chosen = answer_set(weighed)
     verdict: Verdict = "no_gap"
     judged: dict[tuple[str, ...], Checks] = {}
     if gap.rejected:
-        left, judged = _judged(weighed, chosen, base, Discrepancy.of(base.whitened), seed)
+        left, judged = _judged(weighed, chosen, base, seed)
         if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
             weighed = with_unknown_leading(weighed)
             chosen = answer_set(weighed)
@@ -165,14 +162,14 @@ def diagnose(
 
 
 def _judged(
-    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, discrepancy: Discrepancy, seed: int
+    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, seed: int
 ) -> tuple[bool, dict[tuple[str, ...], Checks]]:
     """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
     left, found = False, {}
     for index, each in enumerate(weighed[: len(chosen)]):
         if index and not each.hypothesis.causes:
             continue
-        after = remaining_gap(each.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed)
+        after = remaining_gap(each.hypothesis.refit, base, seed=seed)
         if index == 0:
             left = after.rejected
         if each.hypothesis.causes:
@@ -184,15 +181,13 @@ def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:
     """Whether what is left is more than the errors of the best explanation's forms, or nothing was explained."""
     if not best.hypothesis.causes:
         return True
-    discrepancy = Discrepancy.of(base.whitened)
-    left = remaining_gap(best.hypothesis.refit, base.refit, base.whitened, discrepancy, seed=seed, share=1.0)
-    return left.rejected
+    return remaining_gap(best.hypothesis.refit, base, seed=seed, share=1.0).rejected
 
 
 def _searched(
     base: BaseFit,
     considered: tuple[Effect, ...],
-    screened: list[Column],
+    columns: WhitenedColumns,
     threads: int,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
@@ -201,9 +196,8 @@ def _searched(
     sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
     residual = base.model.residual(base.parameters)
     more = screen(base.model, base.parameters, sharp, residual=residual, threads=threads)
-    columns = WhitenedColumns.of([*screened, *more], base.whitener, len(base.whitened))
-    search = Search(base, Discrepancy.of(base.whitened), considered, threads, progress)
-    found = search.run(columns)
+    search = Search(base, considered, threads, progress)
+    found = search.run(columns.and_(WhitenedColumns.of(more, base.whitener, len(base.whitened))))
     leading = search.ranked()
     if not leading:
         return base, found

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from probation.diagnosis.candidate import Key, cause_key
-from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.evidence import evidence
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refit import Coordinates, Refit, refit
 from probation.gap.span import without
@@ -23,7 +23,7 @@ SHARP_PLACES = 3
 """Forms and places of an effect with a frequency or an instant that are refitted, those with the best score."""
 
 
-def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Discrepancy) -> list[Hypothesis]:
+def linear_hypotheses(base: BaseFit, columns: WhitenedColumns) -> list[Hypothesis]:
     """The base law and every cause at its best start, in linearised form.
 
     Parameters
@@ -31,8 +31,8 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, discrepancy: Disc
     base : BaseFit
     columns : WhitenedColumns
         Of the screen at the base fit.
-    discrepancy : Discrepancy
     """
+    discrepancy = base.discrepancy
     found = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
     span = base.whitened.span
     left = without(base.refit.residual, span)

@@ -8,13 +8,11 @@ import numpy as np
 
 from probation.diagnosis.form_error import form_columns
 from probation.gap.gap_test import GapTest, GapTester
-from probation.gap.whitener import Whitener
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.diagnosis.evidence import Discrepancy
+    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.refit import Refit
-    from probation.gap.whitening import Whitened
 
 TOLERATED = 0.05
 """Relative error of an effect's form, record by record, that evidence takes for the effect's own."""
@@ -23,26 +21,23 @@ TOLD = 0.25
 """Part of what evidence lets pass beyond which a gap is told to be left: it is real, whatever its cause."""
 
 
-def remaining_gap(
-    found: Refit, base: Refit, whitened: Whitened, discrepancy: Discrepancy, *, seed: int, share: float = TOLD
-) -> GapTest:
+def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD) -> GapTest:
     """The gap test on what an explanation leaves, its parameters refitted, its form's error let pass.
 
     Parameters
     ----------
-    found, base : Refit
-        With and without the explanation's causes.
-    whitened : Whitened
-        At the base fit.
-    discrepancy : Discrepancy
+    found : Refit
+        With the explanation's causes.
+    base : BaseFit
     seed : int
     share : float
         Part of the errors of a form, as evidence takes them, that is let pass.
     """
-    energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.residual)
-    allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, Whitener(whitened.noises))])
+    discrepancy = base.discrepancy
+    energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
+    allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, base.whitener)])
     both = _whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
-    return GapTester(whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
+    return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
 
 
 def _whitened_beside(allowed: FloatArray, values: FloatArray) -> FloatArray:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
-from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.evidence import evidence
 from probation.diagnosis.form_error import form_columns
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.refit import Refit, refit
+from probation.diagnosis.refit import MOST_STEPS, Refit, refit
 from probation.errors import ConvergenceError, InputError
+from probation.gap.parallel import in_parallel
 from probation.gap.screen import screen
 from probation.gap.sharp import find_lines, find_steps
 from probation.gap.span import span_of
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit
     from probation.gap.effect import Effect
     from probation.gap.model import CampaignModel
-
-Item = TypeVar("Item")
 
 HEAT_STEPS = 4
 """Gauss-Newton steps of the race's first round."""
@@ -70,7 +68,6 @@ class Search:
     Attributes
     ----------
     base : BaseFit
-    discrepancy : Discrepancy
     effects : tuple of Effect
     threads : int
     found : list of Hypothesis
@@ -78,7 +75,6 @@ class Search:
     """
 
     base: BaseFit
-    discrepancy: Discrepancy
     effects: tuple[Effect, ...]
     threads: int = 2
     progress: Callable[[float], None] | None = None
@@ -86,11 +82,6 @@ class Search:
 
     def __post_init__(self) -> None:
         self.found.append(self._judged(self.base.refit, unknown=True))
-
-    @property
-    def none(self) -> Hypothesis:
-        """The base law."""
-        return self.found[0]
 
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
@@ -116,7 +107,7 @@ class Search:
 
     def reconsidered(self, base: BaseFit, count: int) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
-        again = Search(base, Discrepancy.of(base.whitened), self.effects, self.threads)
+        again = Search(base, self.effects, self.threads)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - HOPELESS
         leading = [each for each in leading if each.evidence.log_evidence > least]
@@ -143,7 +134,7 @@ class Search:
             columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
         )
         first = _promising(_first_of_each(candidates))
-        raced = self._refitted([], first, HEAT_STEPS)
+        raced = self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS)
         left = np.array([each.chi_square for each in raced])
         best, count = float(left.min(initial=np.inf)), len(self.base.whitened)
         # What is above the noise for certain; the noise itself is the same for all.
@@ -156,7 +147,7 @@ class Search:
         keys = {cause_key(each.model.causes[-1]) for each in running}
         others = _others(_promising(candidates), first, STARTS - 1)
         more = [each for each in others if cause_key(each.cause) in keys]
-        polished += self._refitted([], more, None)
+        polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += [self._judged(each) for each in polished]
 
     def _additions(self, leading: Hypothesis) -> None:
@@ -176,7 +167,7 @@ class Search:
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
         chosen = _first_of_each_effect([each for each in ranked if each.gain > WORTH], ADDITIONS)
-        self.found += [self._judged(each) for each in self._refitted([leading], chosen, None)]
+        self.found += [self._judged(each) for each in self._refitted(leading.refit, chosen)]
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes in records where nothing sharp is left."""
@@ -208,43 +199,40 @@ class Search:
                 self._additions(alone)
 
     def _refitted(
-        self, beside: Sequence[Hypothesis], candidates: Iterable[Candidate], steps: int | None
+        self,
+        before: Refit,
+        candidates: Iterable[Candidate],
+        other_starts: Sequence[FloatArray] = (),
+        steps: int = MOST_STEPS,
     ) -> list[Refit]:
-        """Refits of candidates beside a hypothesis, or of candidates alone, in parallel."""
-        before = beside[0].refit if beside else self.base.refit
+        """Refits of candidates beside the causes that are there, from where these are and from other starts."""
+        jobs = [
+            (
+                before.model.with_causes([*before.model.causes, candidate.cause]),
+                np.concatenate([start, candidate.values]),
+            )
+            for candidate in candidates
+            for start in (before.parameters, *other_starts)
+        ]
+        return self._solved(jobs, steps)
 
-        starts = [before.parameters]
-        if not beside:
-            starts += self.base.other_starts
+    def _polished(self, refits: Iterable[Refit]) -> list[Refit]:
+        return self._solved([(each.model, each.parameters) for each in refits], MOST_STEPS)
 
-        def one(job: tuple[Candidate, FloatArray]) -> Refit | None:
-            candidate, base = job
-            model = before.model.with_causes([*before.model.causes, candidate.cause])
-            return self._tried(model, np.concatenate([base, candidate.values]), steps)
+    def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray]], steps: int) -> list[Refit]:
+        """Refits from models and starts; without those that the law cannot follow from there."""
 
-        return self._in_parallel(one, [(candidate, base) for candidate in candidates for base in starts])
+        def one(job: tuple[CampaignModel, FloatArray]) -> Refit | None:
+            try:
+                return refit(*job, self.base.whitener, most_steps=steps)
+            except (ConvergenceError, InputError):
+                return None
 
-    def _polished(self, refits: Sequence[Refit]) -> list[Refit]:
-        return self._in_parallel(lambda each: self._tried(each.model, each.parameters, None), list(refits))
-
-    def _tried(self, model: CampaignModel, start: FloatArray, steps: int | None) -> Refit | None:
-        try:
-            whitener = self.base.whitener
-            return refit(model, start, whitener) if steps is None else refit(model, start, whitener, most_steps=steps)
-        except (ConvergenceError, InputError):
-            return None  # the law cannot follow this cause from here
-
-    def _in_parallel(self, work: Callable[[Item], Refit | None], items: Sequence[Item]) -> list[Refit]:
-        if self.threads > 1:
-            with ThreadPoolExecutor(self.threads) as pool:
-                found = list(pool.map(work, items))
-        else:
-            found = [work(item) for item in items]
-        return [each for each in found if each is not None]
+        return [each for each in in_parallel(one, jobs, self.threads) if each is not None]
 
     def _judged(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
         forms = form_columns(found, self.base.whitener)
-        return Hypothesis(found, evidence(found, self.base.refit, self.discrepancy, forms=forms, unknown=unknown))
+        return Hypothesis(found, evidence(found, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
 
     def _look_beside_the_leading(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""

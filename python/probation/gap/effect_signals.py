@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from probation.errors import ConvergenceError, InputError
 from probation.gap.cause import Cause
+from probation.gap.parallel import in_parallel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -109,11 +109,7 @@ def effect_signals(
         except InputError as unsolved:
             return str(unsolved)
 
-    if threads > 1:
-        with ThreadPoolExecutor(threads) as pool:
-            worked = list(pool.map(work, wanted))
-    else:
-        worked = [work(item) for item in wanted]
+    worked = in_parallel(work, wanted, threads)
     signals = [each for each in worked if isinstance(each, EffectSignal)]
     shown = {each.cause.effect.name for each in signals if each.usual}
     left_out = {}

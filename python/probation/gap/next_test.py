@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from probation.errors import ConvergenceError, InputError
 from probation.gap.foretold import Explanation, foretold, outcome
+from probation.gap.parallel import in_parallel
 from probation.gap.planned_tests import Laboratory, planned_tests
 
 if TYPE_CHECKING:
@@ -170,8 +170,7 @@ def next_test(
         return RankedTest(test, found.probability, rough.probability, found.information), found.pairwise
 
     tests = planned_tests(Laboratory.of(model, base))
-    with ThreadPoolExecutor(threads) as pool:
-        worked = [each for each in pool.map(work, tests) if each is not None]
+    worked = [each for each in in_parallel(work, tests, threads) if each is not None]
     if not worked:
         return None
     worked.sort(key=lambda each: -each[0].worth)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from probation.gap.cause import Cause
+from probation.gap.parallel import in_parallel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -99,11 +99,7 @@ def screen(
             found[_key(cause, values)] = view.sampled((stress - still) / size)
         return found
 
-    if threads > 1:
-        with ThreadPoolExecutor(threads) as pool:
-            found = dict(zip(model.views, pool.map(answers, model.views), strict=True))
-    else:
-        found = {view: answers(view) for view in model.views}
+    found = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
     columns = []
     for cause, values, views in wanted:
         slope = np.concatenate([found[view][_key(cause, values)] for view in views])
