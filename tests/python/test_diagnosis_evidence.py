@@ -9,7 +9,8 @@ from scipy.stats import truncnorm
 
 from campaigns import linear_problem as problem
 from probation.diagnosis import evidence as module
-from probation.diagnosis.evidence import Discrepancy, evidence
+from probation.diagnosis.discrepancy import Discrepancy
+from probation.diagnosis.evidence import evidence
 from probation.gap import Cause
 
 COUNT = 60

@@ -428,7 +428,7 @@ def test_with_its_own_rates_a_record_is_corrected_as_without():
     results = []
     for each in (record, rated):
         campaign = probation.Campaign(name="slip", records=(each,))
-        for values in ((0.01, 0.5), (0.0, 0.5)):
+        for values in ((0.01, 0.5, 0.0), (0.0, 0.5, 0.0)):
             model = gap.CampaignModel(gap.DnlrLaw(LAW), gap.views_of(campaign), [gap.cause("grip_slip", None, each.id)])
             results.append(model.predict(model.parameters(LAW.parameters, values))[each.id])
     slipped, still, slipped_rated, still_rated = results
@@ -444,7 +444,7 @@ def test_a_slip_is_a_step_of_the_bars_strain(form, factor):
         gap.views_of(probation.Campaign(name="slip", records=(record,))),
         [gap.cause("grip_slip", form, record.id)],
     )
-    found = model.predict(model.parameters(np.array([1000.0]), (0.01, 0.6)))[record.id]
+    found = model.predict(model.parameters(np.array([1000.0]), (0.01, 0.6, 0.0)))[record.id]
     later = record.time > 0.6 * record.time[-1] + 1.0
     earlier = record.time < 0.6 * record.time[-1] - 1.0
     np.testing.assert_allclose(found[later], factor * 1000.0 * (record.true_strain[later] - 0.01), rtol=1e-10)

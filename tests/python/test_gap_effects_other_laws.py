@@ -77,7 +77,7 @@ def test_residuals_tell_where_shapes_begin():
     """A wave of 0.0123 Hz in one record and a slip at 0.62 of another: the starts lie beside them."""
     wave, slip = gap.cause("periodic_disturbance", "stress", "at-0.001"), gap.cause("grip_slip", None, "at-0.005")
     truth = MODEL.with_causes([wave, slip])
-    parameters = truth.parameters(MODEL.start, (0.3, 0.0123, 1.0), (0.01, 0.62))
+    parameters = truth.parameters(MODEL.start, (0.3, 0.0123, 1.0), (0.01, 0.62, 0.0))
     residual = MODEL.residual(MODEL.start) - (truth.residual(parameters) - MODEL.residual(MODEL.start))
     columns = gap.screen(MODEL, MODEL.start, [wave.effect, slip.effect], residual=residual)
     frequencies = [c.values[1] for c in columns if c.cause.effect is wave.effect and c.cause.records == wave.records]

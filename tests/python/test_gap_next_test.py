@@ -208,7 +208,7 @@ def test_a_fault_of_one_record_may_come_back_and_a_slip_may_not():
     explained = []
     for cause, values in (
         (gap.cause("force_offset", None, "fast"), (2.0,)),
-        (gap.cause("grip_slip", None, "fast"), (0.01, 0.5)),
+        (gap.cause("grip_slip", None, "fast"), (0.01, 0.5, 0.0)),
         (gap.cause("force_offset"), (2.0,)),
     ):
         extended = model.with_causes([cause])

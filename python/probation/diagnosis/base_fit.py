@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.diagnosis.evidence import Discrepancy
+from probation.diagnosis.candidate import WhitenedColumns
+from probation.diagnosis.discrepancy import Discrepancy
 from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
 from probation.excitation import excite
 from probation.gap.dnlr_law import DnlrLaw
-from probation.gap.drift import estimate_drift, with_drift
+from probation.gap.drift import LIKE_AN_EFFECT, estimate_drift, with_drift
 from probation.gap.model import CampaignModel
 from probation.gap.noise import carried_strain_noise, estimate_noise
 from probation.gap.record_view import views_of
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from probation.gap.protocol import GapLaw
     from probation.gap.record_residual import RecordResidual
     from probation.gap.record_view import RecordView
+    from probation.gap.screen import Column
     from probation.identify import Fit
     from probation.law import Scheme
     from probation.records import Campaign, Record
@@ -63,6 +65,8 @@ class BaseFit:
         The same as the statistics see it.
     other_starts : tuple of ndarray, shape (n_base,)
         Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
+    signals : tuple of Column
+        Of the effects that are considered, by `gap.screen`.
     """
 
     law: GapLaw
@@ -70,6 +74,7 @@ class BaseFit:
     refit: Refit
     whitened: Whitened
     other_starts: tuple[FloatArray, ...] = ()
+    signals: tuple[Column, ...] = ()
 
     @property
     def model(self) -> CampaignModel:
@@ -84,7 +89,12 @@ class BaseFit:
     @cached_property
     def discrepancy(self) -> Discrepancy:
         """Smooth waves over the identify records, along which a form may be wrong."""
-        return Discrepancy.of(self.whitened)
+        return Discrepancy.of(self.whitened, self.columns.smooth)
+
+    @cached_property
+    def columns(self) -> WhitenedColumns:
+        """The signals in white coordinates."""
+        return WhitenedColumns.of(self.signals, self.whitener, len(self.whitened))
 
     @property
     def whitener(self) -> Whitener:
@@ -232,7 +242,8 @@ def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    return tuple(with_drift(noise, drift) for noise in noises)
+    alike = min(drift, LIKE_AN_EFFECT)
+    return tuple(with_drift(noise, alike, drift - alike) for noise in noises)
 
 
 def _carried(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray | None:

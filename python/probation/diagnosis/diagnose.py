@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -102,17 +103,16 @@ def diagnose(
 
     base = base_fit(campaign, scheme, hold) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
-    screened = screen(base.model, base.parameters, considered, threads=workers)
-    columns = WhitenedColumns.of(screened, base.whitener, len(base.whitened))
+    base = replace(base, signals=tuple(screen(base.model, base.parameters, considered, threads=workers)))
     told(0.2)
-    gap = with_sharp(GapTester(base.whitened, columns.by_effect(), seed=seed)(), base.whitened)
+    gap = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
     told(0.35)
     if gap.rejected:
-        base, found = _searched(base, considered, columns, workers, lambda part: told(0.35 + 0.45 * part))
+        base, found = _searched(base, considered, workers, lambda part: told(0.35 + 0.45 * part))
         weighed = weigh(found, len(considered))
     else:
-        found = linear_hypotheses(base, columns)
+        found = linear_hypotheses(base, base.columns)
         weighed = with_none_leading(weigh(found, len(considered)))
     chosen = answer_set(weighed)
     verdict: Verdict = "no_gap"
@@ -187,7 +187,6 @@ def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:
 def _searched(
     base: BaseFit,
     considered: tuple[Effect, ...],
-    columns: WhitenedColumns,
     threads: int,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
@@ -197,7 +196,7 @@ def _searched(
     residual = base.model.residual(base.parameters)
     more = screen(base.model, base.parameters, sharp, residual=residual, threads=threads)
     search = Search(base, considered, threads, progress)
-    found = search.run(columns.and_(WhitenedColumns.of(more, base.whitener, len(base.whitened))))
+    found = search.run(base.columns.and_(WhitenedColumns.of(more, base.whitener, len(base.whitened))))
     leading = search.ranked()
     if not leading:
         return base, found

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.form_error import form_columns
+from probation.gap.beside import whitened_beside
 from probation.gap.gap_test import GapTest, GapTester
 
 if TYPE_CHECKING:
-    from probation._arrays import FloatArray
     from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.refit import Refit
 
@@ -36,15 +36,5 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD
     discrepancy = base.discrepancy
     energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
     allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, base.whitener)])
-    both = _whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
+    both = whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
-
-
-def _whitened_beside(allowed: FloatArray, values: FloatArray) -> FloatArray:
-    """(I + U U^T)^(-1/2) times whitened columns (N, m), U of shape (N, k)."""
-    squares, turned = np.linalg.eigh(allowed.T @ allowed)
-    seen = squares > 1e-9 * max(float(squares.max(initial=0.0)), 1e-300)
-    size = np.sqrt(squares[seen])
-    directions = allowed @ (turned[:, seen] / size)
-    shrink = 1.0 - 1.0 / np.sqrt(1.0 + size**2)
-    return np.asarray(values - directions @ (shrink[:, None] * (directions.T @ values)))

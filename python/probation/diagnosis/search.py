@@ -38,6 +38,10 @@ BEHIND, FRACTION, STRONG = 14.0, 0.02, 100.0
 CREDIBLE = 0.01
 """p-value of a line or a step, over all records, below which causes that make them are sought there."""
 
+AHEAD = 30.0
+"""Linearised gain over the best smooth cause's from which on a step is sought where none is sharp: chance among all
+instants makes half of it."""
+
 STARTS = 3
 """Starts per form and place that a cause in the running is given."""
 
@@ -170,22 +174,21 @@ class Search:
         self.found += [self._judged(each) for each in self._refitted(leading.refit, chosen)]
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
-        """Without sharp causes in records where nothing sharp is left."""
+        """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
         left = self.base.whitened.beside(before.residual, before.jacobian)
         places = {
             "line": {line.record for line in find_lines(left) if line.p_value < CREDIBLE},
             "step": {step.record for step in find_steps(left, size=500) if step.p_value < CREDIBLE},
         }
-        return [
-            each
-            for each in candidates
-            if each.cause.form.sharp is None
-            or (
-                places[each.cause.form.sharp]
-                if each.cause.records is None
-                else places[each.cause.form.sharp] & {*each.cause.records}
-            )
-        ]
+        smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
+
+        def credible(each: Candidate) -> bool:
+            sharp = each.cause.form.sharp
+            if sharp is None or (sharp == "step" and each.gain > smooth + AHEAD):
+                return True
+            return bool(places[sharp] if each.cause.records is None else places[sharp] & {*each.cause.records})
+
+        return [each for each in candidates if credible(each)]
 
     def _swaps(self) -> None:
         """The best pair with one of its causes given up for another: the first may have stood in for both."""

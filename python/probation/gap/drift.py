@@ -29,6 +29,9 @@ SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
 USUAL = 5.0
 """Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
 
+LIKE_AN_EFFECT = 0.5
+"""Of these as much as may go along with an effect: a slow wandering that is more like one is told as that effect."""
+
 BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
 """The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
 
@@ -87,16 +90,19 @@ def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
     return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
 
 
-def with_drift(noise: NoiseModel, size: float) -> NoiseModel:
+def with_drift(noise: NoiseModel, size: float, harmless: float = 0.0) -> NoiseModel:
     """The noise with a drift of that relative variance at the first half period on top.
 
     Parameters
     ----------
     noise : NoiseModel
     size : float
-        From `estimate_drift`.
+        In all directions.
+    harmless : float
+        More of it, that is like no effect.
     """
     columns = waves(len(noise), min(MODELLED, len(noise) // HIGHEST))
     order = np.maximum(np.arange(columns.shape[1]), 1)
-    slow: FloatArray = noise.long_run[:, None] * columns * np.sqrt(size / order)
-    return replace(noise, drift=slow)
+    slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
+    more = np.sqrt(harmless) * slow if harmless > 0.0 else None
+    return replace(noise, drift=np.sqrt(size) * slow, harmless_drift=more)

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.gap.beside import whitened_beside
 from probation.gap.smooth_basis import WAVES, smooth_basis
+from probation.gap.span import span_of, without
 from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
 
 if TYPE_CHECKING:
@@ -95,9 +97,6 @@ class GapTester:
     directions : dict of str to ndarray, shape (N,) or (N, m), optional
         Whitened, unprojected sensitivities of the model along effects' amplitudes; several columns are tried one by
         one (the shapes that an effect may have).
-    drift : float
-        Variance, relative to the estimated noise, that slow directions may have on top of it without a gap: noise like
-        1/f rises where nothing can be measured of it.
     size : int
         Draws.
     seed : int
@@ -108,23 +107,19 @@ class GapTester:
         whitened: Whitened,
         directions: Mapping[str, FloatArray] | None = None,
         *,
-        drift: float = 0.0,
         size: int = 4000,
         seed: int = 0,
     ) -> None:
         self.whitened = whitened
-        self.inflation = float(np.sqrt(1.0 + drift))
         self._spread = whitened.scale_spread
         waves, order, owner = _smooth_columns(whitened)
         given = {name: np.reshape(columns, (len(whitened), -1)) for name, columns in (directions or {}).items()}
         self._reduced = whitened.reduced(np.hstack([waves, *given.values()]))
         span = self._reduced.of(whitened.span)
-
-        def visible(columns: FloatArray) -> FloatArray:
-            return np.asarray(columns - span @ (span.T @ columns), dtype=np.float64)
-
-        waves = self._reduced.of(waves)
-        smooth, kept = _orthonormal(visible(waves))
+        # No wave is a sign of an effect that the rest of the drift makes, too.
+        waves = self._beside_drift(self._reduced.of(waves))
+        waves = without(waves, span_of(self._beside_drift(span)))
+        smooth, kept = _orthonormal(waves)
         full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
         for most in ORDERS:  # nested: the smoother columns come first
@@ -136,14 +131,14 @@ class GapTester:
         if len(whitened.records) > 1:
             for index, record in enumerate(whitened.records):
                 ours = waves[:, (owner == index) & (full_order < RECORD_ORDER)]
-                columns = _orthonormal(visible(ours))[0]
+                columns = _orthonormal(ours)[0]
                 parts.append(columns)
                 self._families.append((f"record {record.name}", slice(at, at + columns.shape[1])))
                 at += columns.shape[1]
         self._effects: list[str] = []
         for name, whole in given.items():
             size_of = np.sum(whole**2, axis=0)
-            columns = visible(self._reduced.of(whole))
+            columns = without(self._reduced.of(whole), span)
             norm = np.sum(columns**2, axis=0)
             seen = norm > ABSORBED * np.maximum(size_of, 1e-300)
             parts.append(columns[:, seen] / np.sqrt(norm[seen]))
@@ -172,7 +167,9 @@ class GapTester:
         """
         whitened = self.whitened
         z = whitened.residual if residual is None else residual
-        products = (self._features.T @ self._reduced.of(z) / self.inflation)[None]
+        seen = self._reduced.of(z)
+        smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
+        products = np.concatenate([smooth.T @ self._beside_drift(seen), directed.T @ seen])[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
@@ -192,6 +189,17 @@ class GapTester:
         return GapTest(
             p[0], p[1], p[2], level, statistics, values, scores, dict(zip(names, share.tolist(), strict=True))
         )
+
+    def _beside_drift(self, values: FloatArray) -> FloatArray:
+        """Reduced coordinates in which the rest of the drift is white, too."""
+        found = values.copy()
+        first = 0
+        for frame, noise in zip(self._reduced.frames, self.whitened.noises, strict=True):
+            part = slice(first, first + frame.shape[1])
+            first = part.stop
+            if noise.harmless_drift is not None:
+                found[part] = whitened_beside(frame.T @ noise.whiten(noise.harmless_drift), values[part])
+        return found
 
     def _p_values(self, products: FloatArray) -> dict[str, FloatArray]:
         return {
@@ -218,13 +226,12 @@ def gap_test(
     whitened: Whitened,
     directions: Mapping[str, FloatArray] | None = None,
     *,
-    drift: float = 0.0,
     level: float = LEVEL,
     size: int = 4000,
     seed: int = 0,
 ) -> GapTest:
     """Whether the campaign's residual is more than noise, gap-method section 2; see `GapTester`."""
-    return GapTester(whitened, directions, drift=drift, size=size, seed=seed)(level=level)
+    return GapTester(whitened, directions, size=size, seed=seed)(level=level)
 
 
 def _smooth_columns(whitened: Whitened) -> tuple[FloatArray, NDArray[np.intp], NDArray[np.intp]]:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation.gap.beside import directions_beside
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.gap.arma import Arma
@@ -46,6 +48,9 @@ class NoiseModel:
         Where the estimate is from, in words.
     drift : ndarray, shape (n, k) [MPa], optional
         Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
+    harmless_drift : ndarray, shape (n, k) [MPa], optional
+        Slow noise on top that is like no effect: what is like one is told as that effect. Only tests of waves that
+        belong to no effect have it.
     """
 
     name: str
@@ -61,6 +66,7 @@ class NoiseModel:
     spikes: tuple[int, ...]
     source: str
     drift: FloatArray | None = None
+    harmless_drift: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.profile)
@@ -104,6 +110,7 @@ class NoiseModel:
             white=self.white * factor,
             carried=self.carried * factor,
             drift=None if self.drift is None else self.drift * factor,
+            harmless_drift=None if self.harmless_drift is None else self.harmless_drift * factor,
         )
 
     @property
@@ -116,6 +123,4 @@ class NoiseModel:
         slow = self._slow
         if not slow.shape[1]:
             return np.zeros((len(self), 0)), np.zeros(0)
-        whitened = self.arma.whiten(slow / self.profile[:, None])
-        directions, size, _ = np.linalg.svd(whitened, full_matrices=False)
-        return directions, 1.0 - 1.0 / np.sqrt(1.0 + size**2)
+        return directions_beside(self.arma.whiten(slow / self.profile[:, None]))

@@ -23,6 +23,18 @@ def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     return np.clip(stress, -limit, limit)
 
 
+def _bend(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The reading bends into its limit along a hyperbola: (s + L - sqrt((s - L)^2 + (w L)^2)) / 2, less its zero."""
+    if values[0] <= 0.0:
+        return stress
+    used = np.abs(stress) * values[0] / view.stretch
+
+    def bent(part: FloatArray | float) -> FloatArray:
+        return np.asarray(0.5 * (part + 1.0 - np.hypot(part - 1.0, values[1])))
+
+    return np.asarray(np.sign(stress) * (bent(used) - bent(0.0)) * view.stretch / values[0])
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Just below, and well below, the largest force that was recorded."""
     largest = max(float(np.max(np.abs(view.nominal_data))) for view in views)
@@ -49,6 +61,28 @@ EFFECT = Effect(
             ),
             recorded_stress=_saturate,
             starts=_starts,
+            threshold=True,
+        ),
+        Form(
+            "bend",
+            (
+                EffectParameter(
+                    "inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress"
+                ),
+                EffectParameter(
+                    name="rounding",
+                    unit="",
+                    lower=1e-3,
+                    upper=0.3,
+                    centre=0.02,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.02,),
+                    reason="an amplifier is linear up to some per cent of its range",
+                ),
+            ),
+            recorded_stress=_bend,
+            starts=lambda views, residuals: [(*start, 0.02) for start in _starts(views, residuals)],
             threshold=True,
         ),
     ),

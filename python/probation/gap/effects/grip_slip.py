@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from probation.gap.record_view import RecordView
 
 _INSTANTS = tuple(np.linspace(0.05, 0.95, 19).tolist())
+_DURATION = 0.004
 _PARAMETERS = (
     EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm"),
     EffectParameter(
@@ -27,14 +28,24 @@ _PARAMETERS = (
         starts=_INSTANTS,
         reason="at any time",
     ),
+    EffectParameter(
+        name="duration_of_record",
+        unit="",
+        lower=0.0,
+        upper=0.04,
+        centre=0.0,
+        scale=0.008,
+        starts=(_DURATION,),
+        reason="jaws let go at once, but the channels follow within some samples",
+    ),
 )
 
 
 def _slip(view: RecordView, values: Values) -> FloatArray:
-    """From the instant on (a fraction of the record) the specimen sees a less than is recorded; within one sample."""
-    width = view.stride * float(np.median(np.diff(view.time)))
-    slipped = np.clip((view.elapsed - values[1] * view.duration) / width + 0.5, 0.0, 1.0)
-    return view.true_strain - values[0] * slipped
+    """Around the instant (a fraction of the record) the specimen loses a; within its duration, a sample at least."""
+    width = view.stride * float(np.median(np.diff(view.time))) + values[2] * view.duration
+    passed = np.clip((view.elapsed - values[1] * view.duration) / width + 0.5, 0.0, 1.0)
+    return view.true_strain - values[0] * passed**2 * (3.0 - 2.0 * passed)
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -49,7 +60,7 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
             instant = view.sampled(view.elapsed)[best + window] / view.duration
             found.append(float(np.clip(instant, 0.0, 1.0)))
             jump[max(best - 2 * window, 0) : best + 2 * window] = 0.0
-    return [(instant,) for instant in found]
+    return [(instant, _DURATION) for instant in found]
 
 
 EFFECT = Effect(

@@ -18,6 +18,12 @@ def _slack(view: RecordView, values: Values) -> FloatArray:
     return np.maximum(view.true_strain - values[0], np.minimum(view.true_strain, 0.0))
 
 
+def _toe(view: RecordView, values: Values) -> FloatArray:
+    """Slack that is taken up gradually: the specimen misses a tanh(e / e_t), and never moves back."""
+    reach = max(values[1], values[0])
+    return view.true_strain - values[0] * np.tanh(np.maximum(view.true_strain, 0.0) / reach)
+
+
 def _shift(view: RecordView, values: Values) -> FloatArray:
     """The zero of the strain is wrong: the specimen, relaxed at the start, saw a less than was recorded."""
     return view.true_strain - values[0]
@@ -38,6 +44,24 @@ EFFECT = Effect(
             "slack",
             (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),),
             driving_strain=_slack,
+        ),
+        Form(
+            "toe",
+            (
+                EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),
+                EffectParameter(
+                    name="take_up_strain",
+                    unit="",
+                    lower=0.001,
+                    upper=0.5,
+                    centre=0.02,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.01, 0.04),
+                    reason="grips bite and specimens straighten over some times the slack",
+                ),
+            ),
+            driving_strain=_toe,
         ),
         Form(
             "shift",
