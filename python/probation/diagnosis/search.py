@@ -38,9 +38,9 @@ BEHIND, FRACTION, STRONG = 14.0, 0.02, 100.0
 CREDIBLE = 0.01
 """p-value of a line or a step, over all records, below which causes that make them are sought there."""
 
-AHEAD = 30.0
-"""Linearised gain over the best smooth cause's from which on a step is sought where none is sharp: chance among all
-instants makes half of it."""
+HARDLY, AHEAD, PLAIN = 0.1, 30.0, 2.0
+"""A soft step is hardly a step; it is sought from this p-value on, too, if its linearised gain is so far above that of
+the best smooth cause; and where that is so many times as much, whatever the steps say."""
 
 STARTS = 3
 """Starts per form and place that a cause in the running is given."""
@@ -176,17 +176,18 @@ class Search:
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
         left = self.base.whitened.beside(before.residual, before.jacobian)
-        places = {
-            "line": {line.record for line in find_lines(left) if line.p_value < CREDIBLE},
-            "step": {step.record for step in find_steps(left, size=500) if step.p_value < CREDIBLE},
-        }
+        lines = {line.record for line in find_lines(left) if line.p_value < CREDIBLE}
+        steps = {step.record: step.p_value for step in find_steps(left, size=500)}
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
 
         def credible(each: Candidate) -> bool:
-            sharp = each.cause.form.sharp
-            if sharp is None or (sharp == "step" and each.gain > smooth + AHEAD):
+            places = {*steps} if each.cause.records is None else {*each.cause.records}
+            if each.cause.form.sharp == "line":
+                return bool(places & lines)
+            level = HARDLY if each.gain > smooth + AHEAD else CREDIBLE
+            if each.gain > PLAIN * (smooth + AHEAD):
                 return True
-            return bool(places[sharp] if each.cause.records is None else places[sharp] & {*each.cause.records})
+            return each.cause.form.sharp is None or min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
         return [each for each in candidates if credible(each)]
 

@@ -1,10 +1,11 @@
-"""The gap test with what is sharp in frequency or in time."""
+"""The gap test with what is sharp in frequency, in time or in the period of the strain."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.gap.ripples import find_ripples
 from probation.gap.sharp import find_lines, find_steps
 
 if TYPE_CHECKING:
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     from probation.gap.whitening import Whitened
 
 SHARP_SHARE = 0.1
-"""Part of the level that is spent on lines, and on steps."""
+"""Part of the level that is spent on lines, on steps, and on ripples."""
 
 
 def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
-    """The test's p-value with lines of one frequency and steps at one instant in the family.
+    """The test's p-value with lines of one frequency, steps at one instant and ripples of one period in the family.
 
     A test along smooth curves and known effects sees a wave of any frequency, or a slip at any instant, only as far as
     they resemble the few that were put into it.
@@ -27,13 +28,13 @@ def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
         Along smooth curves and effects.
     whitened : Whitened
     """
-    lines, steps = find_lines(whitened), find_steps(whitened, size=500)
     sharp = {
-        "lines": min((line.p_value for line in lines), default=1.0),
-        "steps": min((step.p_value for step in steps), default=1.0),
+        "lines": min((line.p_value for line in find_lines(whitened)), default=1.0),
+        "steps": min((step.p_value for step in find_steps(whitened, size=500)), default=1.0),
+        "ripples": min((ripple.p_value for ripple in find_ripples(whitened)), default=1.0),
     }
     least = min(sharp.values()) / SHARP_SHARE
-    share = 1.0 - 2.0 * SHARP_SHARE
+    share = 1.0 - len(sharp) * SHARP_SHARE
 
     def family(p_value: float) -> float:
         return min(p_value / share, least, 1.0)

@@ -87,7 +87,7 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         count = len(record)
         if count < 8 * SLOWEST:
             continue
-        left, white = _left(whitened, index, SLOWEST)
+        left, white = left_beside_slow_waves(whitened, index, SLOWEST)
         duration = float(record.time[-1] - record.time[0]) * count / (count - 1)
         # By sample: where samples are uneven, so is their phase; the exact sums are then taken in time.
         frequency = np.arange(OVERSAMPLING * SLOWEST // 2, OVERSAMPLING * count // 2) / (OVERSAMPLING * duration)
@@ -96,8 +96,8 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
             power = np.abs(np.fft.rfft(left, OVERSAMPLING * count)) ** 2 / count
             power = power[OVERSAMPLING * SLOWEST // 2 : OVERSAMPLING * count // 2]
         else:
-            power = _uneven_power(record.time, left, frequency)
-        level = np.maximum(_running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
+            power = uneven_power(record.time, left, frequency)
+        level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best] * np.exp(-2.0 * whitened.scale_spread)))
         tried = len(power) * len(whitened.records)
@@ -128,7 +128,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         count = len(record)
         if count < 4 * SLOWEST:
             continue
-        left, white = _left(whitened, index, None)
+        left, white = left_beside_slow_waves(whitened, index, None)
         stride = -(-count // CANDIDATES)
         coarse = np.arange(max(stride, 3), count - 2, stride)
         steps, norm = _steps(whitened, index, white, coarse)
@@ -167,7 +167,7 @@ def _loudness(left: FloatArray, place: int) -> float:
     return found
 
 
-def _left(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
+def left_beside_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
     """Whitened residual of a record without slow waves and its own refit, and the orthonormal columns taken out."""
     record, noise = whitened.records[index], whitened.noises[index]
     smooth = smooth_basis(record.time, () if waves else record.jumps, waves or SLOWEST)
@@ -176,7 +176,7 @@ def _left(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray
     left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
     turned, singular, _ = np.linalg.svd(upper)
     white = left @ turned[:, singular > 1e-8 * singular[0]]
-    residual = noise.whiten(whitened.clean(index))
+    residual = whitened.residual[whitened.slices[index]]
     return residual - white @ (white.T @ residual), white
 
 
@@ -191,7 +191,8 @@ def _steps(
     return columns / norm, norm
 
 
-def _uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:
+def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:
+    """|sum v e^(-2 pi i f t)|^2 / n at every frequency."""
     power = np.empty(len(frequency))
     for first in range(0, len(frequency), 256):
         part = slice(first, first + 256)
@@ -199,7 +200,7 @@ def _uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -
     return power
 
 
-def _running_median(values: FloatArray, window: int) -> FloatArray:
+def running_median(values: FloatArray, window: int) -> FloatArray:
     """Median over blocks of `window`, interpolated between their centres."""
     pieces = max(len(values) // window, 1)
     parts = np.array_split(np.arange(len(values)), pieces)
