@@ -20,7 +20,8 @@ from probation.blind.scores.intervals import Rate
 from probation.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
 from probation.blind.scores.where import overlap
 from probation.blind.seal import open_truth, read_truth, seal_truth
-from probation.blind.solve import solve_split, solver_named
+from probation.blind.solve import solve_split
+from probation.blind.solvers import solver_named
 from probation.cli import main
 from probation.errors import InputError
 

@@ -46,9 +46,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     solve.add_argument("folder", metavar="DIR", help="as make left it")
     solve.add_argument(
         "--solver",
-        metavar="MODULE:FUNCTION",
-        default="probation.blind.solve:diagnosed",
-        help="from a campaign's folder to an answer (probation diagnose)",
+        metavar="NAME",
+        help="diagnose (default), no-gap, a baseline, or MODULE:FUNCTION from a campaign's folder to an answer",
+    )
+    solve.add_argument(
+        "--baselines",
+        action="store_true",
+        help="answer by nearest-signature, bic-argmin and score-screen, too, into DIR/baselines",
     )
     solve.add_argument("--answers", metavar="DIR", help="folder for the answers (answers/ in DIR)")
     solve.add_argument("--again", action="store_true", help="answer anew what has an answer")
@@ -97,14 +101,17 @@ def _make(options: argparse.Namespace) -> None:
 
 
 def _solve(options: argparse.Namespace) -> None:
-    from probation.blind.solve import solve_split, solver_named  # noqa: PLC0415
+    from probation.blind.solve import solve_split  # noqa: PLC0415
+    from probation.blind.solvers import BASELINES, solver_named  # noqa: PLC0415
 
-    solver = solver_named(options.solver)
+    named = [options.solver] if options.solver in BASELINES and options.answers is None else []
+    solver = None if named else solver_named(options.solver or "diagnose")
     with shown("solving") as advance, _cluster(options.scheduler) as executor:
         solved = solve_split(
             options.folder,
             solver,
             answers=options.answers,
+            baselines=list(BASELINES) if options.baselines else named,
             processes=options.processes,
             executor=executor,
             progress=advance,
