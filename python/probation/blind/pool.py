@@ -15,7 +15,7 @@ Key = TypeVar("Key", bound=Hashable)
 Result = TypeVar("Result")
 
 _WAITING = 4
-"""Jobs handed out at a time, per process: few are lost by an interruption."""
+"""Jobs handed out at a time, per process."""
 
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -41,7 +41,7 @@ def run_all(
     processes : int, optional
         As many as processors if left out; 1 stays in this process.
     executor : Executor, optional
-        Instead of processes of its own, such as that of a cluster's client.
+        Instead of processes of its own, such as that of a cluster's client; it is handed all jobs at once.
 
     Raises
     ------
@@ -70,9 +70,10 @@ def run_all(
     own = executor or ProcessPoolExecutor(min(count, len(arguments) or 1), multiprocessing.get_context("spawn"))
     left = iter(arguments.items())
     waiting: dict[Future[Result], Key] = {}
+    most = len(arguments) if executor is not None else _WAITING * count
     try:
         while True:
-            while len(waiting) < _WAITING * count and (item := next(left, None)) is not None:
+            while len(waiting) < most and (item := next(left, None)) is not None:
                 waiting[own.submit(job, *item[1])] = item[0]
             if not waiting:
                 return
