@@ -11,6 +11,7 @@ from probation.answers import json_answer
 from probation.blind.layout import Layout
 from probation.blind.opening import handed_in, record_opening
 from probation.blind.origin import origin
+from probation.blind.scores.aims import aims
 from probation.blind.seal import open_truth, read_json
 from probation.errors import InputError
 
@@ -110,20 +111,20 @@ def score_split(
         "answered_by": handed[0].commits,
         "answers_after_opening": late,
         "failed": failed,
-        "scores": {},
     }
-    return Score(split, content | {"scores": _scores(opened, found, places)})
+    scores = _scores(opened, found, places)
+    return Score(split, content | {"aims": aims(scores["answers"]), "scores": scores})
 
 
 def _scores(
     truths: dict[str, dict[str, object]], answers: dict[str, Answer], places: Mapping[str, Layout]
-) -> dict[str, object]:
+) -> dict[str, dict[str, object]]:
     from probation.blind.scores.baselines import BASELINES  # noqa: PLC0415 - scipy.stats is slow to load
     from probation.blind.scores.board import board  # noqa: PLC0415
     from probation.blind.scores.case import Case  # noqa: PLC0415
 
     cases: list[Case] = [Case(name, truth, answers[name]) for name, truth in truths.items()]
-    boards: dict[str, object] = {"answers": board(cases)}
+    boards = {"answers": board(cases)}
     boards |= {name: board(baseline(cases)) for name, baseline in BASELINES.items()}
     for name, place in places.items():
         if name in boards:

@@ -69,6 +69,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     score.add_argument(
         "--after-opening", action="store_true", help="score answers given after the opening, too; not of a test split"
     )
+    score.add_argument(
+        "--require", metavar="FILE.json", help="exit with status 1 where a figure is beyond its threshold there"
+    )
     add_delivery(score)
     return parser
 
@@ -77,11 +80,10 @@ def run(options: argparse.Namespace) -> int:
     """Run the command."""
     if options.step is None:
         raise InputError("blind: found no step, expected make, solve or score; see probation blind --help")
-    {"make": _make, "solve": _solve, "score": _score}[options.step](options)
-    return 0
+    return {"make": _make, "solve": _solve, "score": _score}[options.step](options)
 
 
-def _make(options: argparse.Namespace) -> None:
+def _make(options: argparse.Namespace) -> int:
     from probation.blind.make import make_split  # noqa: PLC0415 - see the package
 
     with shown(f"making {options.split}") as advance, _cluster(options.scheduler) as executor:
@@ -98,9 +100,10 @@ def _make(options: argparse.Namespace) -> None:
     said("campaigns", layout.campaigns)
     said("seals", layout.folder / "seals.json")
     said("truths", layout.truths)
+    return 0
 
 
-def _solve(options: argparse.Namespace) -> None:
+def _solve(options: argparse.Namespace) -> int:
     from probation.blind.solve import solve_split  # noqa: PLC0415
     from probation.blind.solvers import BASELINES, solver_named  # noqa: PLC0415
 
@@ -120,10 +123,14 @@ def _solve(options: argparse.Namespace) -> None:
     tell(f"{solved.now} answered now, {solved.before} before, {len(solved.failed)} failed\n", sys.stdout)
     for name, failure in solved.failed.items():
         warn(f"{name}: {failure}")
+    return 0
 
 
-def _score(options: argparse.Namespace) -> None:
+def _score(options: argparse.Namespace) -> int:
     from probation.blind.score import score_split  # noqa: PLC0415
+    from probation.blind.thresholds import failures, read_thresholds  # noqa: PLC0415
+
+    thresholds = read_thresholds(options.require) if options.require else ()
 
     beside: dict[str, str] = {}
     for entry in options.beside:
@@ -140,6 +147,10 @@ def _score(options: argparse.Namespace) -> None:
     )
     deliver(score, options)
     deliver_report(score, options)
+    fallen_short = failures(score.content, thresholds)
+    for failure in fallen_short:
+        print(f"failed: {failure}", file=sys.stderr)
+    return 1 if fallen_short else 0
 
 
 @contextmanager
@@ -151,6 +162,12 @@ def _cluster(address: str | None) -> Iterator[Executor | None]:
     try:
         distributed = importlib.import_module("distributed")
     except ImportError:
-        raise InputError("--scheduler: found no distributed; pip install distributed, or leave it out") from None
-    with distributed.Client(address) as client, client.get_executor() as executor:
+        raise InputError(
+            "--scheduler: found no distributed; pip install 'probation[cluster]', or leave it out"
+        ) from None
+    try:
+        client = distributed.Client(address)
+    except (OSError, ValueError) as failure:
+        raise InputError(f"--scheduler: found nobody at {address}: {failure}") from None
+    with client, client.get_executor() as executor:
         yield executor
