@@ -52,9 +52,9 @@ class Aim:
 
     @property
     def certain(self) -> bool:
-        """Whether the whole interval says so."""
+        """Whether the whole interval says so; where there is none, the aim allows for chance itself."""
         if self.met is None or self.interval is None:
-            return False
+            return self.met is not None
         if self.met:
             return self.by_bound or all(self._within(end) for end in self.interval)
         low, high = self.interval
@@ -88,7 +88,7 @@ class Aim:
 
     def _wanted(self) -> str:
         if self.low is not None and self.high is not None:
-            return f"{self._text(self.low)} to {self._text(self.high)}"
+            return self._text(self.low, self.high)
         if self.low is not None:
             return f"{'lower bound' if self.by_bound else 'at least'} {self._text(self.low)}"
         return "–" if self.high is None else f"at most {self._text(self.high)}"
@@ -96,11 +96,11 @@ class Aim:
     def _reached(self) -> str:
         if self.value is None:
             return "nothing to score"
-        ends = "" if self.interval is None else f" ({self._text(self.interval[0])} to {self._text(self.interval[1])})"
-        return self._text(self.value) + ends
+        return self._text(self.value) + ("" if self.interval is None else f" ({self._text(*self.interval)})")
 
-    def _text(self, value: float) -> str:
-        return f"{100.0 * value:.1f} %" if self.percent else f"{value:.3f}"
+    def _text(self, *values: float) -> str:
+        numbers = "\u00a0to\u00a0".join(f"{100.0 * each:.1f}" if self.percent else f"{each:.3f}" for each in values)
+        return numbers.replace("-", "−") + ("\u00a0%" if self.percent else "")
 
 
 def aims(board: Plain) -> list[dict[str, object]]:

@@ -20,7 +20,7 @@ def closure(cases: Sequence[Case]) -> dict[str, object]:
     Returns
     -------
     dict
-        By role: "median" of what is said; "over_oracle", of resolvable causes of the catalogue, the median of the
+        By role: "median" of what is said; "over_oracle", of causes of the catalogue, the median of the
         closure over that of a refit that was told the cause (the noise's floor cancels: (before^2 - after^2)/(before^2
         - told^2)), and "good", how often it is 0.95 or more; "interval_holds", how often the interval of 90 % holds
         the closure over the noise that was drawn.
@@ -37,7 +37,7 @@ def closure(cases: Sequence[Case]) -> dict[str, object]:
             drawn, told = (case.squares(each, role) for each in ("noise_drawn_MPa", "left_when_told_MPa"))
             if drawn is not None and shrink.before**2 > drawn and shrink.interval is not None:
                 held.append(shrink.interval[0] <= closed / (shrink.before**2 - drawn) <= shrink.interval[1])
-            if told is not None and shrink.before**2 > told and case.resolvable and case.stratum in ("single", "pair"):
+            if told is not None and shrink.before**2 > told and case.stratum in ("single", "pair"):
                 over.append(closed / (shrink.before**2 - told))
         found[name] = {
             "median": Average.median(said).plain(),

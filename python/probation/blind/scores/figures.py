@@ -103,7 +103,9 @@ def confusion_figure(board: Mapping[str, object]) -> Figure:
         axes.xaxis.tick_top()
         axes.xaxis.set_label_position("top")
         axes.set_yticks(range(len(rows)), [_words(each) for each in rows], fontsize=7.5)
-        axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(len(rows) - 0.5, -0.5), xlabel="answer", ylabel="truth")
+        axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(len(rows) - 0.5, -0.5), ylabel="truth")
+        axes.set_xlabel("answer", labelpad=8)
+        axes.grid(visible=False)
         axes.tick_params(length=0)
         axes.spines[["left", "bottom"]].set_visible(False)
     return figure

@@ -15,17 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
 
-_HEADINGS = (
-    "campaigns",
-    "right [%]",
-    "oracle [%]",
-    "P(truth)",
-    "covered [%]",
-    "set size",
-    "oracle's size",
-    "mean ln P",
-    "Brier",
-)
+_HEADINGS = ("n", "right [%]", "oracle [%]", "P(truth)", "covered [%]", "size", "oracle's", "ln P", "Brier")
 
 
 def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -> None:
@@ -73,7 +63,8 @@ def _strata(board: Mapping[str, object]) -> Section:
     groups = {**_groups(board, "by_stratum"), "resolvable": cast("Mapping[str, object]", board["resolvable"])}
     note = (
         "Resolvable: an oracle that knows every form, prior and the noise is right in 95 % of noise draws (nulls and "
-        "mimics are left out). Covered: the answer set holds the truth, or of a mimic what it looks like."
+        "mimics are left out). Covered: the answer set holds the truth, or of a mimic what it looks like. Size: of the "
+        "answer set, and of the oracle's. ln P: mean of the logarithm of P(truth)."
     )
     return Section("By stratum", (_table("stratum", groups), note))
 
@@ -176,7 +167,7 @@ def _percent(rate: Mapping[str, object]) -> str:
 
 def _rate(plain: object) -> str:
     rate = cast("Mapping[str, int]", plain)
-    return str(Rate(rate["k"], rate["n"]))
+    return str(Rate(rate["k"], rate["n"])).replace(" %", "\u00a0%")
 
 
 def _average(plain: object) -> str:

@@ -24,7 +24,7 @@ def aims_table(content: Mapping[str, object]) -> Table:
         (str(each["aim"]), str(each["wanted"]), str(each["reached"]), str(each["n"]), str(each["verdict"]))
         for each in cast("list[Mapping[str, object]]", content["aims"])
     )
-    return Table(("aim", "wanted", "reached (95 % interval)", "cases", "met?"), rows, left=3)
+    return Table(("aim", "wanted", "reached (interval)", "cases", "met?"), rows, left=3)
 
 
 def score_text(content: Mapping[str, object]) -> str:
