@@ -6,6 +6,7 @@ import multiprocessing
 import os
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from threading import Thread
 from typing import TypeAlias, TypeVar
 
 from probation.errors import InputError
@@ -67,7 +68,9 @@ def run_all(
         return
     for name in _THREADS:  # the jobs are many; processes that are started from here have one thread each
         os.environ.setdefault(name, "1")
-    own = executor or ProcessPoolExecutor(min(count, len(arguments) or 1), multiprocessing.get_context("spawn"))
+    own = executor or ProcessPoolExecutor(
+        min(count, len(arguments) or 1), multiprocessing.get_context("spawn"), initializer=_end_with_parent
+    )
     left = iter(arguments.items())
     waiting: dict[Future[Result], Key] = {}
     most = len(arguments) if executor is not None else _WAITING * count
@@ -84,6 +87,18 @@ def run_all(
             future.cancel()
         if executor is None:
             own.shutdown(wait=True, cancel_futures=True)
+
+
+def _end_with_parent() -> None:
+    """Let this process end when the one that started it is killed: nobody is left to take its results."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    Thread(target=watch, daemon=True).start()
 
 
 def _processors() -> int:

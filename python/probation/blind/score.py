@@ -11,6 +11,7 @@ from probation.answers import json_answer
 from probation.blind.layout import Layout
 from probation.blind.opening import handed_in, record_opening
 from probation.blind.origin import origin
+from probation.blind.release import shortfall
 from probation.blind.scores.aims import aims
 from probation.blind.seal import open_truth, read_json
 from probation.errors import InputError
@@ -113,6 +114,9 @@ def score_split(
         "failed": failed,
     }
     scores = _scores(opened, found, places)
+    if split == "test":
+        nulls = sum(truth["stratum"] == "none" for truth in opened.values())
+        content["too_small"] = shortfall(len(seals), nulls)
     return Score(split, content | {"aims": aims(scores["answers"]), "scores": scores})
 
 

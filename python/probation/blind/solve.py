@@ -88,6 +88,8 @@ def solve_split(
     places |= {layout.baseline(name).answers: solver_named(name) for name in baselines}
     for place in places:
         place.mkdir(parents=True, exist_ok=True)
+        for half_written in place.glob(".*.json-*"):  # by a run that was killed
+            half_written.unlink()
     jobs: dict[str, tuple[object, ...]] = {}
     left = 0
     for name in seals:

@@ -7,7 +7,7 @@ import importlib
 import sys
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
 from probation.commands.progress import shown
@@ -26,7 +26,8 @@ The sealed benchmark: campaigns of a virtual laboratory whose cause is withheld,
   probation blind score split/ --report score.html             opens the truths, checks the seals, scores
 
 An interrupted run goes on where it stopped. The truths are in split/truths unless --truths says otherwise: keep them
-from whoever answers. Answers given after the truths were first opened are refused.
+from whoever answers. Answers given after the truths were first opened are refused. The test split is scored once per
+release: at least 600 campaigns with at least 250 nulls, of a seed that was not used before.
 """
 
 
@@ -85,8 +86,13 @@ def run(options: argparse.Namespace) -> int:
 
 def _make(options: argparse.Namespace) -> int:
     from probation.blind.make import make_split  # noqa: PLC0415 - see the package
+    from probation.blind.release import LEAST_CAMPAIGNS, LEAST_NULLS  # noqa: PLC0415
 
-    with shown(f"making {options.split}") as advance, _cluster(options.scheduler) as executor:
+    if options.split == "test" and options.count < LEAST_CAMPAIGNS:
+        warn(
+            f"--count: found {options.count}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them"
+        )
+    with shown(f"making {options.split}", lines=True) as advance, _cluster(options.scheduler) as executor:
         layout = make_split(
             options.out,
             seed=options.seed,
@@ -109,7 +115,7 @@ def _solve(options: argparse.Namespace) -> int:
 
     named = [options.solver] if options.solver in BASELINES and options.answers is None else []
     solver = None if named else solver_named(options.solver or "diagnose")
-    with shown("solving") as advance, _cluster(options.scheduler) as executor:
+    with shown("solving", lines=True) as advance, _cluster(options.scheduler) as executor:
         solved = solve_split(
             options.folder,
             solver,
@@ -127,6 +133,7 @@ def _solve(options: argparse.Namespace) -> int:
 
 
 def _score(options: argparse.Namespace) -> int:
+    from probation.blind.release import SEEDS_FILE, spend_seed  # noqa: PLC0415
     from probation.blind.score import score_split  # noqa: PLC0415
     from probation.blind.thresholds import failures, read_thresholds  # noqa: PLC0415
 
@@ -147,6 +154,10 @@ def _score(options: argparse.Namespace) -> int:
     )
     deliver(score, options)
     deliver_report(score, options)
+    if score.split == "test":
+        for seed in cast("list[int]", score.content["seeds"]):
+            if spend_seed(seed, cast("int", score.content["campaigns"])):
+                said(f"seed {seed}, which is spent: commit", SEEDS_FILE)
     fallen_short = failures(score.content, thresholds)
     for failure in fallen_short:
         print(f"failed: {failure}", file=sys.stderr)

@@ -37,7 +37,8 @@ def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -
         mood="bad" if missed else "good",
         lead=f"{content['campaigns']} campaigns whose cause was withheld, seeds {_list(content['seeds'])}; answered by "
         f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed, "
-        f"{content['answers_after_opening']} answered after the truths were opened. Intervals are exact, of 95 %.",
+        f"{content['answers_after_opening']} answered after the truths were opened. Intervals are exact, of 95 %. "
+        f"{content.get('too_small') or ''}".rstrip(),
         sections=(
             _aims(content),
             _strata(answers),

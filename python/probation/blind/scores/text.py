@@ -36,6 +36,7 @@ def score_text(content: Mapping[str, object]) -> str:
         f"{content['split']}: {content['campaigns']} campaigns, seeds {_list(content['seeds'])}; answered by "
         f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed; "
         f"{content['answers_after_opening']} after the opening",
+        *([str(content["too_small"])] if content.get("too_small") else []),
         "",
         aims_table(content).text(),
         "",
