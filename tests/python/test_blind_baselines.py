@@ -61,13 +61,14 @@ def test_a_baseline_says_none_of_a_null_and_names_a_plain_fault_and_its_record(c
 
 
 def test_probabilities_are_in_proportion_to_the_weights(campaigns):
-    """ln 6, ln 3, ln 1: 0.6, 0.3, 0.1; 0.95 needs all three."""
+    """ln 6, ln 3, ln 1: 0.6, 0.3, 0.1; 0.95 needs all three. Of one effect the best place counts."""
     found = survey(campaigns.campaigns / "develop-0000")
-    said = answer(found, {"": np.log(6.0), "damage": np.log(3.0), "prestress": 0.0}, {"damage": ("slow",)})
+    damage = [("damage", 0.5, ("fast",)), ("damage", np.log(3.0), ("slow",)), ("damage", 0.1, None)]
+    said = answer(found, [("prestress", 0.0, None), *damage, ("", np.log(6.0), None)])
     assert [each["probability"] for each in said["causes"]] == pytest.approx([0.6, 0.3, 0.1, 0.0])
     assert said["causes"][1]["records"] == ["slow"]
     assert said["answer_set"] == [[], ["damage"], ["prestress"]]
-    assert answer(found, {"": 10.0, "damage": 0.0}, {})["answer_set"] == [[]]
+    assert answer(found, [("", 10.0, None), ("damage", 0.0, None)])["answer_set"] == [[]]
 
 
 def _sealed(folder, tmp_path):

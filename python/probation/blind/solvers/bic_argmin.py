@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.blind.solvers.survey import Survey, answer, survey
+from probation.blind.solvers.survey import Scored, Survey, answer, survey
 from probation.diagnosis.candidate import Candidate, cause_key
 from probation.diagnosis.refit import refit
 from probation.errors import ConvergenceError, InputError
@@ -28,19 +28,16 @@ def bic_argmin(folder: Path) -> dict[str, object]:
     found = survey(folder)
     base = found.base
     price = 0.5 * float(np.log(len(base.whitened)))
-    weight: dict[str, float] = {"": -0.5 * base.refit.chi_square}
-    place: dict[str, tuple[str, ...] | None] = {}
+    scored: list[Scored] = [("", -0.5 * base.refit.chi_square, None)]
     for candidate in _candidates(found):
         model = base.model.with_causes([candidate.cause])
         try:
             fitted = refit(model, np.concatenate([base.parameters, candidate.values]), base.whitener, most_steps=STEPS)
         except (ConvergenceError, InputError):
             continue
-        name = candidate.cause.effect.name
-        each = -0.5 * fitted.chi_square - price * len(candidate.values)
-        if each > weight.get(name, -np.inf):
-            weight[name], place[name] = each, candidate.cause.records
-    return answer(found, weight, place)
+        log_weight = -0.5 * fitted.chi_square - price * len(candidate.values)
+        scored.append((candidate.cause.effect.name, log_weight, candidate.cause.records))
+    return answer(found, scored)
 
 
 def _candidates(found: Survey) -> list[Candidate]:

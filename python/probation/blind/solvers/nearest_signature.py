@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.blind.solvers.survey import answer, survey
+from probation.blind.solvers.survey import NONE, Scored, answer, survey
 from probation.gap.effect_signals import EffectSignal, effect_signals
 from probation.gap.registry import effects
 from probation.gap.span import without
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
 
 
 def nearest_signature(folder: Path) -> dict[str, object]:
@@ -26,12 +30,11 @@ def nearest_signature(folder: Path) -> dict[str, object]:
     """
     found = survey(folder)
     if not found.gap:
-        return answer(found, {"": 0.0}, {})
+        return answer(found, [NONE])
     base = found.base
     wanted = -base.whitened.residual  # model minus data: what is missing in the model
     signals = [each for each in effect_signals(base.model, base.parameters, effects())[0] if each.usual]
-    best: dict[str, float] = {}
-    place: dict[str, tuple[str, ...] | None] = {}
+    scored: list[Scored] = []
     white = base.whitener.columns(np.stack([each.stress for each in signals], axis=1))
     parts = dict(zip((view.id for view in base.model.views), base.whitened.slices, strict=True))
     for each, column in zip(signals, white.T, strict=True):
@@ -42,21 +45,19 @@ def nearest_signature(folder: Path) -> dict[str, object]:
                 continue
             along = float(left @ wanted) / size
             along = max(along, 0.0) if each.one_sided else abs(along)
-            name = each.cause.effect.name
-            if 0.5 * along**2 > best.get(name, -1.0):
-                best[name], place[name] = 0.5 * along**2, records
-    return answer(found, best, place)
+            scored.append((each.cause.effect.name, 0.5 * along**2, records))
+    return answer(found, scored)
 
 
 def _placed(
-    signal: EffectSignal, column: np.ndarray, parts: dict[str, slice]
-) -> list[tuple[tuple[str, ...] | None, np.ndarray]]:
+    signal: EffectSignal, column: FloatArray, parts: dict[str, slice]
+) -> list[tuple[tuple[str, ...] | None, FloatArray]]:
     """The signal where it may sit: as it is, and what it does in each record alone."""
     cause = signal.cause
     if cause.records is not None:
         return [(cause.records, column)]
     possible = cause.effect.placements(cause.form)
-    found: list[tuple[tuple[str, ...] | None, np.ndarray]] = [(None, column)] if "all" in possible else []
+    found: list[tuple[tuple[str, ...] | None, FloatArray]] = [(None, column)] if "all" in possible else []
     if "one" in possible:
         for record, part in parts.items():
             alone = np.zeros_like(column)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.blind.solvers.survey import answer, survey
+from probation.blind.solvers.survey import NONE, answer, survey
 from probation.gap.span import without
 
 
@@ -20,16 +20,11 @@ def score_screen(folder: Path) -> dict[str, object]:
     """
     found = survey(folder)
     if not found.gap:
-        return answer(found, {"": 0.0}, {})
+        return answer(found, [NONE])
     whitened = found.base.whitened
     seen = without(found.columns.matrix, whitened.span)
     size = np.sum(seen**2, axis=0)
     whole = np.sum(found.columns.matrix**2, axis=0)
     score = (seen.T @ whitened.residual) ** 2 / np.where(size > 1e-8 * whole, size, np.inf)
-    best: dict[str, float] = {}
-    place: dict[str, tuple[str, ...] | None] = {}
-    for column, each in zip(found.columns.columns, score.tolist(), strict=True):
-        name = column.cause.effect.name
-        if 0.5 * each > best.get(name, -np.inf):
-            best[name], place[name] = 0.5 * each, column.cause.records
-    return answer(found, best, place)
+    causes = [column.cause for column in found.columns.columns]
+    return answer(found, ((c.effect.name, each, c.records) for c, each in zip(causes, 0.5 * score, strict=True)))

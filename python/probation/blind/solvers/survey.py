@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
@@ -17,6 +18,10 @@ from probation.diagnosis.thinning import thin
 from probation.gap.gap_test import GapTester
 from probation.gap.registry import effects
 from probation.gap.screen import screen
+
+Scored: TypeAlias = "tuple[str, float, tuple[str, ...] | None]"
+
+NONE: Scored = ("", 0.0, None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,19 +65,21 @@ def survey(folder: Path) -> Survey:
     return Survey(campaign.name, base, columns.and_(WhitenedColumns.of(more, base.whitener, count)), gap)
 
 
-def answer(
-    found: Survey, log_weight: Mapping[str, float], records: Mapping[str, tuple[str, ...] | None]
-) -> dict[str, object]:
+def answer(found: Survey, scored: Iterable[Scored]) -> dict[str, object]:
     """What a baseline has to say, as the contract has it.
 
     Parameters
     ----------
     found : Survey
-    log_weight : mapping
-        Of every single effect, and of "" for none; probabilities are in proportion to its exponential.
-    records : mapping
-        Where each effect was placed; None for all records.
+    scored : iterable of Scored
+        Name of a single effect ("" for none), the logarithm of its weight, and where it was placed (None for all
+        records); the best of each name counts. Probabilities are in proportion to the weights.
     """
+    log_weight: dict[str, float] = {}
+    records: dict[str, tuple[str, ...] | None] = {}
+    for name, each, placed in scored:
+        if each > log_weight.get(name, -np.inf):
+            log_weight[name], records[name] = each, placed
     names = sorted(log_weight, key=lambda name: -log_weight[name])
     weight = np.exp(np.array([log_weight[name] for name in names]) - log_weight[names[0]])
     probability = weight / weight.sum()
