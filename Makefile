@@ -26,7 +26,7 @@ engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROB
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench lint format sanitize wheel clean
+.PHONY: help demo test bench blind lint format sanitize wheel clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -40,6 +40,12 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py
+
+blind: $(VENV)/.engine  ## make, solve and score a small sealed split; fails beyond the thresholds of tests/blind
+	@rm -rf build/blind
+	@$(BIN)/probation blind make --seed 21 --count 48 --out build/blind
+	@$(BIN)/probation blind solve build/blind
+	@$(BIN)/probation blind score build/blind --report build/blind/score.html --require tests/blind/thresholds.json
 
 lint: $(VENV)/.engine-tests $(VENV)/.lint  ## ruff, mypy, clang-format, clang-tidy
 	@$(BIN)/ruff check --quiet .

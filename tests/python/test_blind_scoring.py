@@ -20,7 +20,8 @@ from probation.blind.scores.intervals import Rate
 from probation.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
 from probation.blind.scores.where import overlap
 from probation.blind.seal import open_truth, read_truth, seal_truth
-from probation.blind.solve import solve_split, solver_named
+from probation.blind.solve import solve_split
+from probation.blind.solvers import solver_named
 from probation.cli import main
 from probation.errors import InputError
 
@@ -328,11 +329,17 @@ def test_made_solved_and_scored_on_the_command_line(tmp_path, capsys):
     page = tmp_path / "score.html"
     score = ["blind", "score", str(folder), "--truths", str(tmp_path / "kept"), "--report", str(page)]
     assert main([*score, "--json", "-"]) == 0
-    score = json.loads(capsys.readouterr().out)
-    assert score["schema"] == "probation.blind.score/1"
-    assert score["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
-    assert score["seeds"] == [1]
+    told = json.loads(capsys.readouterr().out)
+    assert told["schema"] == "probation.blind.score/1"
+    assert told["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
+    assert told["seeds"] == [1]
+    assert told["aims"][0]["aim"] == "false alarms on nulls"
     assert "By detectability" in page.read_text()
+    for bound, status, said in (("at_most", 0, ""), ("at_least", 1, "failed: campaigns: found 2, required at least 3")):
+        required = tmp_path / "thresholds.json"
+        required.write_text(json.dumps({"require": {"campaigns": {bound: 3}}}))
+        assert main([*score, "--require", str(required)]) == status
+        assert said in capsys.readouterr().err
 
 
 def test_another_plan_in_the_same_folder_is_refused(tmp_path):

@@ -40,6 +40,15 @@ class Layout:
         """One file per campaign."""
         return self.answer_folder or self.folder / "answers"
 
+    @property
+    def baselines(self) -> list[str]:
+        """Names of the baselines that have answered."""
+        return sorted(path.name for path in (self.folder / "baselines").glob("*") if path.is_dir())
+
+    def baseline(self, name: str) -> Layout:
+        """The same split with a baseline's answers."""
+        return Layout(self.folder, self.truth_folder, self.folder / "baselines" / name)
+
     def published(self) -> tuple[dict[str, object], dict[str, str]]:
         """What seals.json says, and the seal of every campaign.
 

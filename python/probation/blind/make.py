@@ -7,15 +7,18 @@ import shutil
 import tempfile
 from concurrent.futures import Executor
 from pathlib import Path
+from typing import cast
 
 from probation._files import write_whole
 from probation.blind.layout import Layout
 from probation.blind.origin import origin
 from probation.blind.pool import Progress, run_all
+from probation.blind.release import check_seed
 from probation.blind.seal import SEALS_FILE, SEALS_SCHEMA, read_json, read_truth, seal_truth
 from probation.errors import InputError
 
 _PLAN_FILE = "plan.json"
+_MAKING = ".making-"
 
 
 def make_split(
@@ -50,7 +53,7 @@ def make_split(
     Raises
     ------
     InputError
-        For bad arguments, or a folder that holds another split.
+        For bad arguments, a folder that holds another split, or the seed of a test split that was scored before.
     """
     from probation.blind.laboratory import SPLITS  # noqa: PLC0415 - scipy is slow to load
 
@@ -62,6 +65,8 @@ def make_split(
     layout.campaigns.mkdir(parents=True, exist_ok=True)
     layout.truths.mkdir(parents=True, exist_ok=True)
     _check_plan(layout, {"split": split, "seed": seed, "count": count})
+    for left in layout.campaigns.glob(f"{_MAKING}*"):  # of a run that was killed
+        shutil.rmtree(left)
     jobs = {index: (str(layout.campaigns), str(layout.truths), split, seed, index) for index in range(count)}
     run_all(_make_one, jobs, processes=processes, executor=executor, progress=progress, on_done=None)
     names = sorted(path.stem for path in layout.truths.glob(f"{split}-*.json"))
@@ -72,13 +77,15 @@ def make_split(
 
 
 def _check_plan(layout: Layout, plan: dict[str, object]) -> None:
-    """The plan is kept with the truths: the seed would give them away."""
+    """The plan is kept with the truths: the seed would give them away. What was begun may be finished."""
     path = layout.truths / _PLAN_FILE
     if path.exists():
         found = {key: value for key, value in read_json(path).items() if key in plan}
         if found != plan:
             raise InputError(f"{layout.folder}: found a split made with {found}, expected {plan} or an empty folder")
         return
+    if plan["split"] == "test":
+        check_seed(cast("int", plan["seed"]))
     write_whole(path, json.dumps(plan) + "\n")
 
 
@@ -94,7 +101,7 @@ def _make_one(campaigns: str, truths: str, split: str, seed: int, index: int) ->
     sealed = make(seed, index, split)
     if not kept.is_file():
         seal_truth(sealed.truth.to_json()).write(kept)
-    with tempfile.TemporaryDirectory(dir=campaigns, prefix=".making-") as place:
+    with tempfile.TemporaryDirectory(dir=campaigns, prefix=_MAKING) as place:
         made = sealed.write(Path(place) / name)
         shutil.rmtree(target, ignore_errors=True)
         made.replace(target)

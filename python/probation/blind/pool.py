@@ -6,6 +6,7 @@ import multiprocessing
 import os
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from threading import Thread
 from typing import TypeAlias, TypeVar
 
 from probation.errors import InputError
@@ -15,7 +16,7 @@ Key = TypeVar("Key", bound=Hashable)
 Result = TypeVar("Result")
 
 _WAITING = 4
-"""Jobs handed out at a time, per process: few are lost by an interruption."""
+"""Jobs handed out at a time, per process."""
 
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -41,7 +42,7 @@ def run_all(
     processes : int, optional
         As many as processors if left out; 1 stays in this process.
     executor : Executor, optional
-        Instead of processes of its own, such as that of a cluster's client.
+        Instead of processes of its own, such as that of a cluster's client; it is handed all jobs at once.
 
     Raises
     ------
@@ -67,12 +68,15 @@ def run_all(
         return
     for name in _THREADS:  # the jobs are many; processes that are started from here have one thread each
         os.environ.setdefault(name, "1")
-    own = executor or ProcessPoolExecutor(min(count, len(arguments) or 1), multiprocessing.get_context("spawn"))
+    own = executor or ProcessPoolExecutor(
+        min(count, len(arguments) or 1), multiprocessing.get_context("spawn"), initializer=_end_with_parent
+    )
     left = iter(arguments.items())
     waiting: dict[Future[Result], Key] = {}
+    most = len(arguments) if executor is not None else _WAITING * count
     try:
         while True:
-            while len(waiting) < _WAITING * count and (item := next(left, None)) is not None:
+            while len(waiting) < most and (item := next(left, None)) is not None:
                 waiting[own.submit(job, *item[1])] = item[0]
             if not waiting:
                 return
@@ -83,6 +87,18 @@ def run_all(
             future.cancel()
         if executor is None:
             own.shutdown(wait=True, cancel_futures=True)
+
+
+def _end_with_parent() -> None:
+    """Let this process end when the one that started it is killed: nobody is left to take its results."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    Thread(target=watch, daemon=True).start()
 
 
 def _processors() -> int:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from probation._files import write_whole
 from probation.answers import json_answer
 from probation.blind.layout import Layout
-from probation.blind.origin import now, origin
+from probation.blind.opening import handed_in, record_opening
+from probation.blind.origin import origin
+from probation.blind.release import shortfall
+from probation.blind.scores.aims import aims
 from probation.blind.seal import open_truth, read_json
-from probation.blind.solve import folder_sha256
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -83,7 +81,8 @@ def score_split(
     truths, answers : path, optional
         Where they are, if not in `folder`.
     beside : mapping, optional
-        Folders of other answers to the same split, by name: further baselines.
+        Folders of other answers to the same split, by name: further baselines. Those in baselines/ are found alone.
+        All are held to the same checks.
     after_opening : bool
         Score later answers, too, and say so; never for the test split.
 
@@ -97,80 +96,46 @@ def score_split(
     split = str(published["split"])
     if after_opening and split == "test":
         raise InputError("after_opening: found the test split, expected develop or calibrate; it is scored once")
+    places = {name: Layout(layout.folder, answer_folder=Path(each)) for name, each in (beside or {}).items()}
+    places |= {name: layout.baseline(name) for name in layout.baselines if name not in places}
+    names = list(seals)
+    handed = [handed_in(each, names) for each in (layout, *places.values())]
+    late = record_opening(layout, handed, after_opening=after_opening)
     opened = {name: open_truth(layout.truths / f"{name}.json", seal) for name, seal in seals.items()}
-    files, commits = _answer_files(layout, list(seals))
-    late = _late(layout, files, after_opening=after_opening)
-    found, failed = _answers(layout, list(seals))
+    found, failed = _answers(layout, names)
     content: dict[str, object] = {
         "split": split,
         "campaigns": len(seals),
         "made": published.get("made"),
         "seeds": sorted({cast("int", truth["seed"]) for truth in opened.values()}),
         "scored": origin(),
-        "answered_by": commits,
-        "answers_after_opening": len(late),
+        "answered_by": handed[0].commits,
+        "answers_after_opening": late,
         "failed": failed,
-        "scores": {},
     }
-    return Score(split, content | {"scores": _scores(opened, found, beside or {}, layout)})
+    scores = _scores(opened, found, places)
+    if split == "test":
+        nulls = sum(truth["stratum"] == "none" for truth in opened.values())
+        content["too_small"] = shortfall(len(seals), nulls)
+    return Score(split, content | {"aims": aims(scores["answers"]), "scores": scores})
 
 
 def _scores(
-    truths: dict[str, dict[str, object]], answers: dict[str, Answer], beside: Mapping[str, str | Path], layout: Layout
-) -> dict[str, object]:
+    truths: dict[str, dict[str, object]], answers: dict[str, Answer], places: Mapping[str, Layout]
+) -> dict[str, dict[str, object]]:
     from probation.blind.scores.baselines import BASELINES  # noqa: PLC0415 - scipy.stats is slow to load
     from probation.blind.scores.board import board  # noqa: PLC0415
     from probation.blind.scores.case import Case  # noqa: PLC0415
 
     cases: list[Case] = [Case(name, truth, answers[name]) for name, truth in truths.items()]
-    boards: dict[str, object] = {"answers": board(cases)}
+    boards = {"answers": board(cases)}
     boards |= {name: board(baseline(cases)) for name, baseline in BASELINES.items()}
-    for name, folder in beside.items():
+    for name, place in places.items():
         if name in boards:
             raise InputError(f"beside: found the name {name!r}, expected none of {', '.join(boards)}")
-        others, _ = _answers(Layout(layout.folder, answer_folder=Path(folder)), list(truths))
+        others, _ = _answers(place, list(truths))
         boards[name] = board([Case(case.name, case.truth, others[case.name]) for case in cases])
     return boards
-
-
-def _answer_files(layout: Layout, names: list[str]) -> tuple[dict[str, str], dict[str, int]]:
-    """SHA-256 of every answer, and how many each version and commit gave."""
-    digests: dict[str, str] = {}
-    commits: Counter[str] = Counter()
-    missing = [name for name in names if not (layout.answers / f"{name}.json").is_file()]
-    if missing:
-        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-        raise InputError(f"{layout.answers}: found no answer to {missing[0]}{more}; run probation blind solve first")
-    for name in names:
-        path = layout.answers / f"{name}.json"
-        answer = read_json(path)
-        if answer.get("campaign_sha256") != folder_sha256(layout.campaigns / name):
-            raise InputError(f"{path}: found an answer to other data than {layout.campaigns / name} holds")
-        by = cast("Mapping[str, str]", answer.get("answered") or {})
-        commits[f"{by.get('version', '?')} {by.get('commit', '')}".strip()] += 1
-        digests[name] = hashlib.sha256(path.read_bytes()).hexdigest()
-    return digests, dict(commits)
-
-
-def _late(layout: Layout, digests: dict[str, str], *, after_opening: bool) -> list[str]:
-    """Answers that were not there when the truths were opened first."""
-    record = layout.folder / "opened.json"
-    if not record.exists():
-        write_whole(record, json.dumps({"at": now(), "answers": {}}, indent=1) + "\n")
-    opening = read_json(record)
-    known = cast("dict[str, dict[str, str]]", opening["answers"])
-    place = str(layout.answers.resolve())
-    if not known:
-        known[place] = digests
-        write_whole(record, json.dumps(opening, indent=1) + "\n")
-    there = set().union(*(each.items() for each in known.values()))
-    late = [name for name, digest in digests.items() if (name, digest) not in there]
-    if late and not after_opening:
-        raise InputError(
-            f"{layout.answers}: found an answer to {late[0]} that was not there when the truths were opened "
-            f"({opening['at']}); such answers are refused"
-        )
-    return late
 
 
 def _answers(layout: Layout, names: list[str]) -> tuple[dict[str, Answer], dict[str, str]]:

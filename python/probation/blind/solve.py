@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
 import json
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +18,7 @@ from probation.blind.layout import Layout
 from probation.blind.origin import origin
 from probation.blind.pool import Progress, run_all
 from probation.blind.seal import read_json
-from probation.errors import InputError
+from probation.blind.solvers import solver_named
 
 Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
 """From a campaign's folder to the answer of ``probation diagnose --json``."""
@@ -29,7 +28,7 @@ ANSWER_SCHEMA = "probation.blind.answer/1"
 
 @dataclass(frozen=True)
 class Solved:
-    """What a run did: campaigns answered before, answered now, and failed (name and what went wrong)."""
+    """What a run did: answers given before and now, and what failed (campaign and what went wrong)."""
 
     before: int
     now: int
@@ -49,44 +48,30 @@ def diagnosed(folder: Path) -> dict[str, object]:
     return answer
 
 
-def solver_named(name: str) -> Solver:
-    """The solver ``module:function``.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    module, colon, function = name.partition(":")
-    try:
-        found = getattr(importlib.import_module(module), function) if colon else None
-    except (ImportError, AttributeError, ValueError) as failure:
-        raise InputError(f"solver: found {name!r}, which cannot be loaded: {failure}") from None
-    if not callable(found):
-        raise InputError(f"solver: found {name!r}, expected MODULE:FUNCTION of a function of a campaign's folder")
-    return found  # type: ignore[no-any-return]
-
-
 def solve_split(
     folder: str | Path,
-    solve: Solver = diagnosed,
+    solve: Solver | None = diagnosed,
     *,
     answers: str | Path | None = None,
+    baselines: Iterable[str] = (),
     processes: int | None = None,
     executor: Executor | None = None,
     progress: Progress | None = None,
     again: bool = False,
 ) -> Solved:
-    """Answer every campaign of a split that has no answer yet.
+    """Answer every campaign of a split that has no answer yet; each answer is kept as soon as it is there.
 
     Parameters
     ----------
     folder : path
         As `make_split` left it; only campaigns/ and seals.json are read.
-    solve : callable
-        From a campaign's folder to the answer, as the contract has it; a module's own function.
+    solve : callable, optional
+        From a campaign's folder to the answer, as the contract has it; a module's own function. None for baselines
+        only.
     answers : path, optional
         answers/ in `folder` if left out.
+    baselines : iterable of str
+        Names of `probation.blind.solvers.BASELINES` that answer, too, in baselines/NAME.
     processes, executor, progress
         As in `make_split`.
     again : bool
@@ -99,25 +84,41 @@ def solve_split(
     """
     layout = Layout(Path(folder), answer_folder=None if answers is None else Path(answers))
     _, seals = layout.published()
-    layout.answers.mkdir(parents=True, exist_ok=True)
-    open_ones = [name for name in seals if again or not _is_answered(layout.answers / f"{name}.json")]
+    places: dict[Path, Solver] = {} if solve is None else {layout.answers: solve}
+    places |= {layout.baseline(name).answers: solver_named(name) for name in baselines}
+    for place in places:
+        place.mkdir(parents=True, exist_ok=True)
+        for half_written in place.glob(".*.json-*"):  # by a run that was killed
+            half_written.unlink()
+    jobs: dict[str, tuple[object, ...]] = {}
+    left = 0
+    for name in seals:
+        waiting = {place: each for place, each in places.items() if again or not _is_answered(place / f"{name}.json")}
+        left += len(waiting)
+        if waiting:
+            jobs[name] = waiting, str(layout.campaigns / name), name
     failed: dict[str, str] = {}
 
-    def keep(name: str, answer: dict[str, object]) -> None:
-        write_whole(layout.answers / f"{name}.json", json.dumps(answer, ensure_ascii=False, indent=1) + "\n")
-        if "error" in answer:
-            failed[name] = str(answer["error"])
+    def keep(name: str, given: dict[Path, dict[str, object]]) -> None:
+        for place, answer in given.items():
+            write_whole(place / f"{name}.json", json.dumps(answer, ensure_ascii=False, indent=1) + "\n")
+            if "error" in answer:
+                failed[name if place == layout.answers else f"{place.name}/{name}"] = str(answer["error"])
 
-    jobs = {name: (solve, str(layout.campaigns / name), name) for name in open_ones}
     run_all(_solve_one, jobs, processes=processes, executor=executor, progress=progress, on_done=keep)
-    return Solved(len(seals) - len(open_ones), len(open_ones) - len(failed), failed)
+    return Solved(len(seals) * len(places) - left, left - len(failed), failed)
 
 
 def _is_answered(path: Path) -> bool:
     return path.is_file() and "error" not in read_json(path)
 
 
-def _solve_one(solve: Solver, folder: str, name: str) -> dict[str, object]:
+def _solve_one(solvers: Mapping[Path, Solver], folder: str, name: str) -> dict[Path, dict[str, object]]:
+    """Answers of several solvers, by where they are kept."""
+    return {place: _answered(solve, folder, name) for place, solve in solvers.items()}
+
+
+def _answered(solve: Solver, folder: str, name: str) -> dict[str, object]:
     """One answer; a failure is one, too, and is tried again next time."""
     begun = time.perf_counter()
     answer: dict[str, object] = {"schema": ANSWER_SCHEMA, "campaign": name, "campaign_sha256": folder_sha256(folder)}

@@ -7,7 +7,7 @@ import importlib
 import sys
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
 from probation.commands.progress import shown
@@ -26,7 +26,8 @@ The sealed benchmark: campaigns of a virtual laboratory whose cause is withheld,
   probation blind score split/ --report score.html             opens the truths, checks the seals, scores
 
 An interrupted run goes on where it stopped. The truths are in split/truths unless --truths says otherwise: keep them
-from whoever answers. Answers given after the truths were first opened are refused.
+from whoever answers. Answers given after the truths were first opened are refused. The test split is scored once per
+release: at least 600 campaigns with at least 250 nulls, of a seed that was not used before.
 """
 
 
@@ -46,9 +47,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     solve.add_argument("folder", metavar="DIR", help="as make left it")
     solve.add_argument(
         "--solver",
-        metavar="MODULE:FUNCTION",
-        default="probation.blind.solve:diagnosed",
-        help="from a campaign's folder to an answer (probation diagnose)",
+        metavar="NAME",
+        help="diagnose (default), no-gap, a baseline, or MODULE:FUNCTION from a campaign's folder to an answer",
+    )
+    solve.add_argument(
+        "--baselines",
+        action="store_true",
+        help="answer by nearest-signature, bic-argmin and score-screen, too, into DIR/baselines",
     )
     solve.add_argument("--answers", metavar="DIR", help="folder for the answers (answers/ in DIR)")
     solve.add_argument("--again", action="store_true", help="answer anew what has an answer")
@@ -65,6 +70,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     score.add_argument(
         "--after-opening", action="store_true", help="score answers given after the opening, too; not of a test split"
     )
+    score.add_argument(
+        "--require", metavar="FILE.json", help="exit with status 1 where a figure is beyond its threshold there"
+    )
     add_delivery(score)
     return parser
 
@@ -73,14 +81,18 @@ def run(options: argparse.Namespace) -> int:
     """Run the command."""
     if options.step is None:
         raise InputError("blind: found no step, expected make, solve or score; see probation blind --help")
-    {"make": _make, "solve": _solve, "score": _score}[options.step](options)
-    return 0
+    return {"make": _make, "solve": _solve, "score": _score}[options.step](options)
 
 
-def _make(options: argparse.Namespace) -> None:
+def _make(options: argparse.Namespace) -> int:
     from probation.blind.make import make_split  # noqa: PLC0415 - see the package
+    from probation.blind.release import LEAST_CAMPAIGNS, LEAST_NULLS  # noqa: PLC0415
 
-    with shown(f"making {options.split}") as advance, _cluster(options.scheduler) as executor:
+    if options.split == "test" and options.count < LEAST_CAMPAIGNS:
+        warn(
+            f"--count: found {options.count}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them"
+        )
+    with shown(f"making {options.split}", lines=True) as advance, _cluster(options.scheduler) as executor:
         layout = make_split(
             options.out,
             seed=options.seed,
@@ -94,17 +106,21 @@ def _make(options: argparse.Namespace) -> None:
     said("campaigns", layout.campaigns)
     said("seals", layout.folder / "seals.json")
     said("truths", layout.truths)
+    return 0
 
 
-def _solve(options: argparse.Namespace) -> None:
-    from probation.blind.solve import solve_split, solver_named  # noqa: PLC0415
+def _solve(options: argparse.Namespace) -> int:
+    from probation.blind.solve import solve_split  # noqa: PLC0415
+    from probation.blind.solvers import BASELINES, solver_named  # noqa: PLC0415
 
-    solver = solver_named(options.solver)
-    with shown("solving") as advance, _cluster(options.scheduler) as executor:
+    named = [options.solver] if options.solver in BASELINES and options.answers is None else []
+    solver = None if named else solver_named(options.solver or "diagnose")
+    with shown("solving", lines=True) as advance, _cluster(options.scheduler) as executor:
         solved = solve_split(
             options.folder,
             solver,
             answers=options.answers,
+            baselines=list(BASELINES) if options.baselines else named,
             processes=options.processes,
             executor=executor,
             progress=advance,
@@ -113,10 +129,15 @@ def _solve(options: argparse.Namespace) -> None:
     tell(f"{solved.now} answered now, {solved.before} before, {len(solved.failed)} failed\n", sys.stdout)
     for name, failure in solved.failed.items():
         warn(f"{name}: {failure}")
+    return 0
 
 
-def _score(options: argparse.Namespace) -> None:
+def _score(options: argparse.Namespace) -> int:
+    from probation.blind.release import SEEDS_FILE, spend_seed  # noqa: PLC0415
     from probation.blind.score import score_split  # noqa: PLC0415
+    from probation.blind.thresholds import failures, read_thresholds  # noqa: PLC0415
+
+    thresholds = read_thresholds(options.require) if options.require else ()
 
     beside: dict[str, str] = {}
     for entry in options.beside:
@@ -133,6 +154,14 @@ def _score(options: argparse.Namespace) -> None:
     )
     deliver(score, options)
     deliver_report(score, options)
+    if score.split == "test":
+        for seed in cast("list[int]", score.content["seeds"]):
+            if spend_seed(seed, cast("int", score.content["campaigns"])):
+                said(f"seed {seed}, which is spent: commit", SEEDS_FILE)
+    fallen_short = failures(score.content, thresholds)
+    for failure in fallen_short:
+        print(f"failed: {failure}", file=sys.stderr)
+    return 1 if fallen_short else 0
 
 
 @contextmanager
@@ -144,6 +173,12 @@ def _cluster(address: str | None) -> Iterator[Executor | None]:
     try:
         distributed = importlib.import_module("distributed")
     except ImportError:
-        raise InputError("--scheduler: found no distributed; pip install distributed, or leave it out") from None
-    with distributed.Client(address) as client, client.get_executor() as executor:
+        raise InputError(
+            "--scheduler: found no distributed; pip install 'probation[cluster]', or leave it out"
+        ) from None
+    try:
+        client = distributed.Client(address)
+    except (OSError, ValueError) as failure:
+        raise InputError(f"--scheduler: found nobody at {address}: {failure}") from None
+    with client, client.get_executor() as executor:
         yield executor

@@ -1,4 +1,4 @@
-"""Progress of long work, on a terminal only."""
+"""Progress of long work: a bar on a terminal, lines in a log."""
 
 from __future__ import annotations
 
@@ -11,8 +11,14 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
+def shown(title: str, *, lines: bool = False) -> Iterator[Callable[[int, int, str], None]]:
     """Show a bar on standard error while the block runs; it vanishes at the end.
+
+    Parameters
+    ----------
+    title : str
+    lines : bool
+        Whether to print a line at every tenth where standard error is no terminal; else nothing is printed there.
 
     Yields
     ------
@@ -20,7 +26,7 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
         ``advance(done, total, what)``.
     """
     if not sys.stderr.isatty():
-        yield lambda done, total, what: None
+        yield _tenths(title) if lines else lambda done, total, what: None
         return
     from rich.console import Console  # noqa: PLC0415 - not every command shows progress
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
@@ -33,3 +39,13 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
             progress.update(task, completed=done, total=total, description=f"{title}: {what}" if what else title)
 
         yield advance
+
+
+def _tenths(title: str) -> Callable[[int, int, str], None]:
+    """Prints at every tenth."""
+
+    def advance(done: int, total: int, what: str) -> None:
+        if 10 * done // total > 10 * (done - 1) // total:
+            print(f"{title}: {done} of {total}", file=sys.stderr, flush=True)
+
+    return advance

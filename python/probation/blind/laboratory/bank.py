@@ -59,6 +59,12 @@ class Bench:
             self.reference_rate,
         )
 
+    def base_and_tangent(self, k: int) -> tuple[FloatArray, FloatArray]:
+        """The base law's stress in a record (n,) [MPa], and its slopes along its log parameters (n, 3)."""
+        laws = [self.law, *(self.law.shifted(which, _PARAMETER_STEP) for which in range(3))]
+        base, *moved = recorded_stress([(self.trial(k, law=law), ()) for law in laws])
+        return base, np.stack([each - base for each in moved], axis=1) / _PARAMETER_STEP
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -111,15 +117,13 @@ class Bank:
         self.base: dict[int, FloatArray] = {}
         tangent = np.zeros((self.size, 3))
         for k in bench.identified:
-            laws = [bench.law, *(bench.law.shifted(which, _PARAMETER_STEP) for which in range(3))]
-            stress = recorded_stress([(bench.trial(k, law=law), ()) for law in laws])
-            self.base[k] = stress[0]
-            moved = np.stack([each - stress[0] for each in stress[1:]], axis=1) / _PARAMETER_STEP
-            tangent[self._rows[k]] = self._whitened(k, moved)
+            self.base[k], moved = bench.base_and_tangent(k)
+            tangent[self._rows[k]] = self.whitened(k, moved)
         self._tangent = np.linalg.qr(tangent)[0]
         self.signals: list[Signal] = []
 
-    def _whitened(self, k: int, samples: FloatArray) -> FloatArray:
+    def whitened(self, k: int, samples: FloatArray) -> FloatArray:
+        """Samples or columns of one record [MPa] in units of its noise, and without its correlation."""
         return np.asarray(solve_triangular(self._noises[k].factor, samples, lower=True, check_finite=False))
 
     def column(self, stresses: dict[int, FloatArray]) -> FloatArray:
@@ -127,7 +131,7 @@ class Bank:
         column = np.zeros(self.size)
         for k, added in stresses.items():
             if k in self._rows:
-                column[self._rows[k]] = self._whitened(k, added)
+                column[self._rows[k]] = self.whitened(k, added)
         return self.projected(column)
 
     def projected(self, column: FloatArray) -> FloatArray:
@@ -206,7 +210,7 @@ class Bank:
         if not added:
             return []
         usual = np.array([cause.scale for cause, _ in causes]) / np.array(size)
-        return list(self._whitened(k, np.stack(added, axis=1) * usual).T)
+        return list(self.whitened(k, np.stack(added, axis=1) * usual).T)
 
     def added(self, k: int, causes: Sequence[Sequence[Acting]]) -> list[FloatArray]:
         """What sets of causes add to the recorded stress of a record, on the samples' grid."""

@@ -23,13 +23,18 @@ from probation.blind.laboratory.placing import (
     plant,
 )
 from probation.blind.laboratory.recording import record_all, run_undisturbed
+from probation.blind.laboratory.told import left_when_told
 from probation.blind.laboratory.truth import Truth, campaign_name
 from probation.blind.laboratory.withheld import describe
 from probation.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.random import Generator
 
+    from probation.blind.laboratory.bank import Bench
+    from probation.blind.laboratory.material import FloatArray
     from probation.blind.laboratory.recording import Recorded, Undisturbed
 
 SPLITS = ("develop", "calibrate", "test")
@@ -194,6 +199,7 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
                 "history": test.schedule.kind,
                 "role": "held-out" if out else "identify",
                 "duration_s": float(test.time[-1]),
+                "samples": len(test.time),
             }
             for name, test, out in zip(bench.ids, bench.tests, bench.held_out, strict=True)
         },
@@ -206,6 +212,8 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
             "answer_set": [list(names) for names in oracle.answer_set],
         },
         added_stress=dict(zip(bench.ids, recorded.added_rms, strict=True)),
+        noise_drawn=_by_record(bench, recorded.noise),
+        left_when_told=_by_record(bench, left_when_told(bank, planted, recorded.noise)),
     )
     declared = run.design.noise.strain > 0.0 and run.random.uniform() < 0.5
     noise = {"strain": float(f"{run.design.noise.strain:.2g}")} if declared else {}
@@ -224,6 +232,11 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
         )
     )
     return SealedCampaign(truth.name, records, bench.law.companion, truth)
+
+
+def _by_record(bench: Bench, samples: Sequence[FloatArray]) -> dict[str, float]:
+    """Root mean squares by record."""
+    return {name: float(np.sqrt(np.mean(each**2))) for name, each in zip(bench.ids, samples, strict=True)}
 
 
 def _signal_of(bank: Bank, planted: Planted) -> Signal:

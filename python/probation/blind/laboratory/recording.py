@@ -37,6 +37,8 @@ class Recorded:
         The same of the recorded stress less the base law along the recorded strain.
     added_rms : list of float [MPa]
         What the causes add to each record.
+    noise : list of ndarray, each (n,) [MPa]
+        What the true law with its causes leaves of each record, along the recorded strain.
     drift_detectability : float
         See `Truth`.
     """
@@ -46,6 +48,7 @@ class Recorded:
     clean: FloatArray
     observed: FloatArray
     added_rms: list[float]
+    noise: list[FloatArray]
     drift_detectability: float
 
 
@@ -59,7 +62,7 @@ def record_all(
 ) -> Recorded:
     """Run every test on the fine grid and record it."""
     drifts, drift_left = _harmless_drifts(bank, noises)
-    strains, stresses, added_rms = [], [], []
+    strains, stresses, added_rms, left = [], [], [], []
     clean, residual = {}, {}
     for k, each in enumerate(noises):
         causes = [one.acting for one in planted if one.record is None or one.record == k]
@@ -70,15 +73,17 @@ def record_all(
         stress = _converted(truth + each.rough + drifts[k], noise.quantum)
         strains.append(_as_written(strain))
         stresses.append(_as_written(stress))
+        beside_base = stresses[k] - _base_stress(bench, k, strains[k])
+        left.append(beside_base - (truth - plain))
         if k in bench.identified:
-            clean[k] = truth - plain
-            residual[k] = stresses[k] - _base_stress(bench, k, strains[k])
+            clean[k], residual[k] = truth - plain, beside_base
     return Recorded(
         strain=strains,
         stress=stresses,
         clean=bank.column(clean),
         observed=bank.column(residual),
         added_rms=added_rms,
+        noise=left,
         drift_detectability=drift_left,
     )
 

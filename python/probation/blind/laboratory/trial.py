@@ -116,6 +116,11 @@ class Trial:
         return np.asarray(np.diff(self.strain) / np.diff(self.time))
 
     @property
+    def log_rate(self) -> FloatArray:
+        """Logarithm of its size over the reference rate, shape (n - 1,)."""
+        return np.asarray(np.log(np.maximum(np.abs(self.rate), 1e-12) / self.reference_rate))
+
+    @property
     def largest(self) -> FloatArray:
         """Largest strain so far, shape (n,)."""
         return np.maximum.accumulate(self.strain)

@@ -6,7 +6,12 @@ import json
 from dataclasses import asdict, dataclass, field
 
 SCHEMA = "probation.blind.truth/1"
-_OUTSIDE_NAMES = {"noise_level": "noise_MPa", "added_stress": "added_MPa"}
+_OUTSIDE_NAMES = {
+    "noise_level": "noise_MPa",
+    "added_stress": "added_MPa",
+    "noise_drawn": "noise_drawn_MPa",
+    "left_when_told": "left_when_told_MPa",
+}
 
 
 @dataclass(frozen=True)
@@ -96,7 +101,7 @@ class Truth:
     noise : dict
         Its make.
     records : dict
-        Kind, role and duration of every record's history.
+        Kind, role and duration of every record's history, and its number of samples.
     sampling_detectability : float
         What sampling and filtering alone make of the base law's stress.
     drift_detectability : float
@@ -105,6 +110,10 @@ class Truth:
         Posterior, part of repeats in which it is right, answer set, whether the truth is resolvable.
     added_stress : dict
         Root mean square of what the causes add to every record [MPa].
+    noise_drawn : dict
+        Root mean square of what the true law with its causes leaves of every record, along the recorded strain [MPa].
+    left_when_told : dict
+        The same of that law refitted to the identified records; see `probation.blind.laboratory.told`.
     """
 
     split: str
@@ -119,11 +128,13 @@ class Truth:
     base: dict[str, float]
     noise_level: dict[str, float]
     noise: dict[str, float]
-    records: dict[str, dict[str, str | float]]
+    records: dict[str, dict[str, str | float | int]]
     sampling_detectability: float
     drift_detectability: float
     oracle: dict[str, object]
     added_stress: dict[str, float] = field(default_factory=dict)
+    noise_drawn: dict[str, float] = field(default_factory=dict)
+    left_when_told: dict[str, float] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

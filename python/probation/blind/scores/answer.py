@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias, cast
 
 from probation.errors import InputError
@@ -27,10 +27,12 @@ class Region:
 
 @dataclass(frozen=True)
 class Shrink:
-    """A closure and its interval; None where it cannot be said."""
+    """A closure and its interval, and the residual's root mean square before and after [MPa]; None where not said."""
 
-    closure: float | None
-    interval: tuple[float, float] | None
+    closure: float | None = None
+    interval: tuple[float, float] | None = None
+    before: float | None = None
+    after: float | None = None
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,8 @@ class Answer:
     base : dict
         Value and standard error of the base law's parameters.
     identify, held_out : Shrink
+    parameters : mapping
+        Value and standard error of the most probable entry's parameters, where known.
     """
 
     probability: dict[Names, float]
@@ -59,8 +63,9 @@ class Answer:
     gap: bool
     where: tuple[Region, ...] = ()
     base: dict[str, tuple[float, float]] | None = None
-    identify: Shrink = Shrink(None, None)
-    held_out: Shrink = Shrink(None, None)
+    identify: Shrink = Shrink()
+    held_out: Shrink = Shrink()
+    parameters: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def top(self) -> Names:
@@ -100,7 +105,7 @@ def read_answer(diagnosis: Mapping[str, object], source: str) -> Answer:
 
 def _read(diagnosis: Mapping[str, object]) -> Answer:
     probability: dict[Names, float] = {}
-    best: dict[Names, tuple[float, frozenset[str]]] = {}
+    best: dict[Names, tuple[float, frozenset[str], Mapping[str, Mapping[str, object]]]] = {}
     for each in _mappings(diagnosis["causes"]):
         names = _names(each["effects"])
         value = _number(each["probability"])
@@ -108,7 +113,8 @@ def _read(diagnosis: Mapping[str, object]) -> Answer:
             raise ValueError(f"probability {value}")
         probability[names] = probability.get(names, 0.0) + value
         if names not in best or value > best[names][0]:
-            best[names] = value, frozenset(str(record) for record in cast("list[object]", each.get("records") or []))
+            records = frozenset(str(record) for record in cast("list[object]", each.get("records") or []))
+            best[names] = value, records, cast("Mapping[str, Mapping[str, object]]", each.get("parameters") or {})
     if not probability or abs(sum(probability.values()) - 1.0) > _SUM_TOLERANCE:
         raise ValueError(f"probabilities that sum to {sum(probability.values())}")
     verdict = diagnosis["verdict"]
@@ -118,13 +124,14 @@ def _read(diagnosis: Mapping[str, object]) -> Answer:
     shrink = cast("Mapping[str, object]", diagnosis.get("shrink") or {})
     return Answer(
         probability=probability,
-        records={names: records for names, (_, records) in best.items()},
+        records={names: records for names, (_, records, _) in best.items()},
         answer_set=tuple(_names(each) for each in cast("list[object]", diagnosis["answer_set"])),
         gap=verdict != "no_gap",
         where=tuple(_region(each) for each in _mappings(diagnosis.get("where") or [])),
-        base=_base(cast("Mapping[str, Mapping[str, object]]", base.get("parameters") or {})),
+        base=_with_errors(cast("Mapping[str, Mapping[str, object]]", base.get("parameters") or {})),
         identify=_shrink(shrink.get("identify")),
         held_out=_shrink(shrink.get("held_out")),
+        parameters=_with_errors(best[max(probability, key=lambda names: probability[names])][2]),
     )
 
 
@@ -151,14 +158,15 @@ def _region(each: Mapping[str, object]) -> Region:
     return Region(str(each["record"]), _number(start), _number(end))
 
 
-def _base(parameters: Mapping[str, Mapping[str, object]]) -> dict[str, tuple[float, float]]:
+def _with_errors(parameters: Mapping[str, Mapping[str, object]]) -> dict[str, tuple[float, float]]:
     known = {name: each for name, each in parameters.items() if each.get("se") is not None}
     return {name: (_number(each["value"]), _number(each["se"])) for name, each in known.items()}
 
 
 def _shrink(value: object) -> Shrink:
     if not isinstance(value, Mapping) or value.get("closure") is None:
-        return Shrink(None, None)
+        return Shrink()
     interval = value.get("interval")
     bounds = None if interval is None else tuple(_number(each) for each in cast("list[object]", interval))
-    return Shrink(_number(value["closure"]), cast("tuple[float, float] | None", bounds))
+    before, after = (None if value.get(name) is None else _number(value[name]) for name in ("before_MPa", "after_MPa"))
+    return Shrink(_number(value["closure"]), cast("tuple[float, float] | None", bounds), before, after)

@@ -98,6 +98,15 @@ class Case:
         """Given to the truth."""
         return self.answer.probability.get(self.explanation, 0.0)
 
+    def squares(self, name: str, role: str) -> float | None:
+        """Mean square [MPa^2] over the records of a role of what the truth says of each; None where it does not."""
+        known = cast("Mapping[str, float]", self.truth.get(name) or {})
+        records = cast("Mapping[str, Mapping[str, object]]", self.truth["records"])
+        ours = {record: cast("int", each.get("samples", 1)) for record, each in records.items() if each["role"] == role}
+        if not known or not ours:
+            return None
+        return sum(count * known[record] ** 2 for record, count in ours.items()) / sum(ours.values())
+
     @property
     def durations(self) -> dict[str, float]:
         """Of the records [s]."""

@@ -1,11 +1,12 @@
-"""Parts of a whole with exact intervals."""
+"""Parts of a whole, means and medians, each with its interval of 95 %."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from scipy.stats import beta
+import numpy as np
+from scipy.stats import beta, binom, t
 
 
 @dataclass(frozen=True)
@@ -42,3 +43,44 @@ class Rate:
             return "none to score"
         low, high = self.interval
         return f"{100 * self.k / self.n:.1f} % ({self.k} of {self.n}; {100 * low:.1f} to {100 * high:.1f} %)"
+
+
+@dataclass(frozen=True)
+class Average:
+    """A mean or a median of n numbers, with an interval of 95 %; None where there are too few."""
+
+    n: int
+    value: float | None
+    interval: tuple[float, float] | None
+
+    @classmethod
+    def mean(cls, numbers: Sequence[float]) -> Average:
+        """The mean, with Student's interval; of two or more."""
+        n = len(numbers)
+        if not n:
+            return cls(0, None, None)
+        value = float(np.mean(numbers))
+        if n < 2:
+            return cls(n, value, None)
+        reach = float(t.ppf(0.975, n - 1) * np.std(numbers, ddof=1) / np.sqrt(n))
+        return cls(n, value, (value - reach, value + reach))
+
+    @classmethod
+    def median(cls, numbers: Sequence[float]) -> Average:
+        """The median, between order statistics that hold it with 95 % or more whatever the distribution; of six on."""
+        n = len(numbers)
+        if not n:
+            return cls(0, None, None)
+        ranked = np.sort(numbers)
+        below = int(binom.ppf(0.025, n, 0.5))  # so many lie below the lower end: P(fewer below the median) <= 2.5 %
+        ends = (float(ranked[below - 1]), float(ranked[n - below])) if below else None
+        return cls(n, float(np.median(ranked)), ends)
+
+    @property
+    def ends(self) -> list[float] | None:
+        """The interval as JSON has it."""
+        return None if self.interval is None else list(self.interval)
+
+    def plain(self) -> dict[str, object]:
+        """As JSON has it."""
+        return {"n": self.n, "value": self.value, "interval95": self.ends}

@@ -6,16 +6,39 @@ from collections.abc import Mapping
 from typing import cast
 
 from probation.blind.scores.intervals import Rate
+from probation.report.table import Table
+
+_COUNTS = ("yes", "no", "too few")
+
+
+def aims_sentence(content: Mapping[str, object]) -> str:
+    """How many aims are met."""
+    verdicts = [str(each["verdict"]) for each in cast("list[Mapping[str, object]]", content["aims"])]
+    met, missed, few = (sum(verdict.startswith(each) for verdict in verdicts) for each in _COUNTS)
+    return f"{met} of {len(verdicts)} aims met, {missed} missed, {few} not told by so few campaigns"
+
+
+def aims_table(content: Mapping[str, object]) -> Table:
+    """Aim, what was reached, whether it is met."""
+    rows = tuple(
+        (str(each["aim"]), str(each["wanted"]), str(each["reached"]), str(each["n"]), str(each["verdict"]))
+        for each in cast("list[Mapping[str, object]]", content["aims"])
+    )
+    return Table(("aim", "wanted", "reached (interval)", "cases", "met?"), rows, left=3)
 
 
 def score_text(content: Mapping[str, object]) -> str:
-    """The main scores, the baselines beside them."""
+    """The aims, the main scores, the baselines beside them."""
     boards = cast("Mapping[str, Mapping[str, object]]", content["scores"])
     answers = boards["answers"]
     lines = [
-        f"{content['split']}: {content['campaigns']} campaigns, seeds {content['seeds']}",
-        f"answered by {content['answered_by']}; {len(cast('dict[str, str]', content['failed']))} failed; "
+        f"{aims_sentence(content)}.",
+        f"{content['split']}: {content['campaigns']} campaigns, seeds {_list(content['seeds'])}; answered by "
+        f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed; "
         f"{content['answers_after_opening']} after the opening",
+        *([str(content["too_small"])] if content.get("too_small") else []),
+        "",
+        aims_table(content).text(),
         "",
         f"false alarms on nulls       {_rate(answers['false_alarms'])}",
     ]
@@ -30,6 +53,7 @@ def score_text(content: Mapping[str, object]) -> str:
         f"calibration error           {_number(curve['ece'])}; calibrated stays below {_number(curve['ece_limit95'])}",
         f"overlap of at least 0.6     {_rate(where['overlap_of_0.6'])}",
         f"right record                {_rate(where['right_record'])}",
+        f"amplitude in its interval   {_rate(answers['amplitudes'])}",
         "",
     ]
     heading = (
@@ -62,3 +86,7 @@ def _number(value: object) -> str:
 def _rate(plain: object) -> str:
     rate = cast("Mapping[str, int]", plain)
     return str(Rate(rate["k"], rate["n"]))
+
+
+def _list(value: object) -> str:
+    return ", ".join(str(each) for each in cast("list[object]", value))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,14 +21,10 @@ _DIFFUSIVITY = 1.5e-7  # m^2/s, of polymers
 _HARDENING_LOSS = 0.005  # 1/K
 
 
-def _log_rate(trial: Trial) -> FloatArray:
-    return np.log(np.maximum(np.abs(trial.rate), 1e-12) / trial.reference_rate)
-
-
 def _bounded(trial: Trial, amplitude: float, shape: Shape) -> None:
     """A power of the rate that levels off on both sides: w tanh(ln(r / r_ref) / w)."""
     width = shape["width"]
-    trial.log_factor -= amplitude * width * np.tanh(_log_rate(trial) / width)
+    trial.log_factor -= amplitude * width * np.tanh(trial.log_rate / width)
 
 
 def _carreau(trial: Trial, amplitude: float, shape: Shape) -> None:
@@ -57,16 +54,19 @@ def _slab(trial: Trial, amplitude: float, shape: Shape) -> None:
     trial.heating = Heating(amplitude, tuple(rate), tuple(weight), shape["hardening_loss_per_K"])
 
 
+def _age(trial: Trial, shape: Shape) -> FloatArray:
+    """Lost around a strain, once: (1 + (e / e_s)^2)^(-m)."""
+    return np.asarray((1.0 + (trial.largest / shape["strain"]) ** 2) ** -shape["sharpness"])
+
+
 def _rejuvenation(trial: Trial, amplitude: float, shape: Shape) -> None:
-    """Age is lost around a strain, once: a (1 + (e / e_s)^2)^(-m)."""
-    age = (1.0 + (trial.largest / shape["strain"]) ** 2) ** -shape["sharpness"]
-    trial.log_factor += amplitude * on_steps(age)
+    """Age of the relaxation times."""
+    trial.log_factor += amplitude * on_steps(_age(trial, shape))
 
 
 def _stiff_rejuvenation(trial: Trial, amplitude: float, shape: Shape) -> None:
-    """The same of the modulus."""
-    age = (1.0 + (trial.largest / shape["strain"]) ** 2) ** -shape["sharpness"]
-    trial.modulus_factor *= np.exp(amplitude * on_steps(age))
+    """Age of the modulus."""
+    trial.modulus_factor *= np.exp(amplitude * on_steps(_age(trial, shape)))
 
 
 def _warmed(trial: Trial, rise: FloatArray) -> None:
@@ -112,6 +112,8 @@ def _ageing(random: Generator, setting: Setting) -> Shape:
     return {"strain": 10.0 ** random.uniform(-1.7, -0.7), "sharpness": random.uniform(0.7, 2.0)}
 
 
+_room = partial(Cause, "temperature_drift", 2.0, signed=True, draws=2)
+
 CAUSES = (
     Cause("rate_dependent_relaxation", 0.5, _width, change=_bounded, signed=True, draws=2),
     Cause("rate_dependent_relaxation", 0.5, _critical, change=_carreau, signed=True, draws=2),
@@ -122,30 +124,9 @@ CAUSES = (
     Cause("self_heating", 0.3, _plate, change=_slab),
     Cause("structural_softening", 0.5, _ageing, change=_rejuvenation),
     Cause("structural_softening", 0.3, _ageing, change=_stiff_rejuvenation),
-    Cause(
-        "temperature_drift",
-        2.0,
-        lambda r, s: {"time_over_record": 10.0 ** r.uniform(-0.5, 0.7)},
-        change=_room_within,
-        signed=True,
-        placements=("all", "one"),
-        draws=2,
+    _room(
+        lambda r, s: {"time_over_record": 10.0 ** r.uniform(-0.5, 0.7)}, change=_room_within, placements=("all", "one")
     ),
-    Cause(
-        "temperature_drift",
-        2.0,
-        lambda r, s: {"part_of_quarter_day": r.uniform(0.2, 1.0)},
-        change=_room_between,
-        signed=True,
-        draws=2,
-    ),
-    Cause(
-        "temperature_drift",
-        2.0,
-        lambda r, s: {"recovery": r.uniform(0.0, 0.3)},
-        change=_other_room,
-        signed=True,
-        placements=("one",),
-        draws=2,
-    ),
+    _room(lambda r, s: {"part_of_quarter_day": r.uniform(0.2, 1.0)}, change=_room_between),
+    _room(lambda r, s: {"recovery": r.uniform(0.0, 0.3)}, change=_other_room, placements=("one",)),
 )

@@ -23,6 +23,12 @@ def _inverse_langevin(y: FloatArray) -> FloatArray:
     return np.asarray(y * (3.0 - 2.6 * y + 0.7 * y**2) / ((1.0 - y) * (1.0 + 0.1 * y)))
 
 
+def _over_network(trial: Trial, what: FloatArray, *, at_rest: float) -> FloatArray:
+    """Over the network's measure of strain; `at_rest` where that vanishes."""
+    plain = trial.network
+    return np.divide(what, plain, out=np.full_like(plain, at_rest), where=np.abs(plain) > 1e-9)
+
+
 def _three_chains(trial: Trial, amplitude: float, shape: Shape) -> None:
     """Chains along the three axes, N = 1 / a links: (sqrt(N) / 3) (l L^-1(l / sqrt(N)) - ...)."""
     if amplitude <= 0.0:
@@ -37,8 +43,7 @@ def _three_chains(trial: Trial, amplitude: float, shape: Shape) -> None:
     small = np.array([1.0 + 1e-4])
     slope = float(((pull(small) - pull(1.0 / np.sqrt(small))) / (small**2 - 1.0 / small))[0])
     locked = (pull(stretch) - pull(across)) / slope
-    plain = trial.network
-    trial.network_factor *= np.divide(locked, plain, out=np.ones_like(plain), where=np.abs(plain) > 1e-9)
+    trial.network_factor *= _over_network(trial, locked, at_rest=1.0)
 
 
 def _warner(trial: Trial, amplitude: float, shape: Shape) -> None:
@@ -48,15 +53,14 @@ def _warner(trial: Trial, amplitude: float, shape: Shape) -> None:
     def pull(squared: FloatArray) -> FloatArray:
         return squared * (1.0 - amplitude) / (1.0 - np.minimum(amplitude * squared, _NEARLY_LOCKED))
 
-    at_rest = 1.0 / (1.0 - min(amplitude, 0.5))
-    locked = (pull(stretch**2) - pull(1.0 / stretch)) / at_rest
-    plain = trial.network
-    trial.network_factor *= np.divide(locked, plain, out=np.ones_like(plain), where=np.abs(plain) > 1e-9)
+    unloaded = 1.0 / (1.0 - min(amplitude, 0.5))
+    locked = (pull(stretch**2) - pull(1.0 / stretch)) / unloaded
+    trial.network_factor *= _over_network(trial, locked, at_rest=1.0)
 
 
 def _remembered(trial: Trial, amplitude: float, shape: Shape) -> None:
     """The network keeps ln(r / r_ref) of the last strains; what it makes of it levels off."""
-    log_rate = np.log(np.maximum(np.abs(trial.rate), 1e-12) / trial.reference_rate)
+    log_rate = trial.log_rate
     kept = np.empty(len(trial.time))
     kept[0] = log_rate[np.argmax(trial.strain[1:] > 1e-3)]
     fade = np.exp(-np.abs(np.diff(trial.strain)) / shape["memory_strain"])
@@ -73,10 +77,7 @@ def _delayed(trial: Trial, amplitude: float, shape: Shape) -> None:
     for part in (shape["balance"], 1.0 - shape["balance"]):
         follower = low_pass(trial.elapsed, follower, shape["time_s"] * part)
     lagging = amplitude * (follower - whole)
-    plain = trial.network
-    trial.network_factor = trial.network_factor + np.divide(
-        lagging, plain, out=np.zeros_like(plain), where=np.abs(plain) > 1e-9
-    )
+    trial.network_factor = trial.network_factor + _over_network(trial, lagging, at_rest=0.0)
 
 
 def _short_of_locking(setting: Setting) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,8 +14,6 @@ if TYPE_CHECKING:
 
     from probation.blind.laboratory.material import FloatArray
     from probation.blind.laboratory.trial import Setting, Shape, Trial
-
-
 _TURN = 1e-3
 
 
@@ -49,9 +48,14 @@ def _since_reversal(strain: FloatArray) -> FloatArray:
     return way
 
 
+def _since(trial: Trial, shape: Shape) -> FloatArray:
+    """Time since the shape's instant in units of its length."""
+    return np.asarray((trial.elapsed / trial.elapsed[-1] - shape["instant_of_record"]) / shape["length_of_record"])
+
+
 def _open_door(trial: Trial, amplitude: float, shape: Shape) -> None:
     """The room cools for a while and recovers."""
-    x = (trial.elapsed / trial.elapsed[-1] - shape["instant_of_record"]) / shape["length_of_record"]
+    x = _since(trial, shape)
     dip = np.where(x > 0.0, x * np.exp(1.0 - np.maximum(x, 0.0)), 0.0)
     trial.log_factor += 0.1 * amplitude * on_steps(dip)
 
@@ -93,7 +97,7 @@ def _crystals(trial: Trial, amplitude: float, shape: Shape) -> None:
 
 def _blade_slip(trial: Trial, amplitude: float, shape: Shape) -> None:
     """The extensometer's blade creeps forth and springs back: recorded strain that comes and goes."""
-    x = (trial.elapsed / trial.elapsed[-1] - shape["instant_of_record"]) / shape["length_of_record"]
+    x = _since(trial, shape)
     trial.strain = trial.strain - amplitude * np.exp(-(x**2))
 
 
@@ -113,61 +117,30 @@ def _band(random: Generator, setting: Setting) -> Shape:
     return {"strain": strain, "width": random.uniform(0.1, 0.3) * strain, "skew": random.uniform(-1.0, 1.0)}
 
 
+def _pitch(random: Generator, setting: Setting) -> Shape:
+    return {
+        "pitch_strain": setting.end_strain / random.uniform(6.0, 25.0),
+        "onset_strain": random.uniform(0.0, 0.4) * setting.end_strain,
+    }
+
+
+def _growth(random: Generator, setting: Setting) -> Shape:
+    return {"onset_strain": random.uniform(0.3, 0.7) * setting.end_strain, "power": random.uniform(1.0, 2.0)}
+
+
+_outside = partial(Cause, outside=True)
+_local = partial(_outside, localised=True)
+_reversed = partial(_local, needs_unloading=True, draws=2)
+
 CAUSES = (
-    Cause(
-        "mullins_softening",
-        0.1,
-        lambda r, s: {"strain": r.uniform(0.02, 0.08)},
-        change=_mullins,
-        outside=True,
-        localised=True,
-        needs_unloading=True,
-        draws=2,
-    ),
-    Cause("yield_band", 1.0, _band, change=_yield_band, outside=True, localised=True),
-    Cause(
-        "bauschinger",
-        1.0,
-        lambda r, s: {"strain": r.uniform(0.01, 0.05)},
-        change=_bauschinger,
-        outside=True,
-        localised=True,
-        needs_unloading=True,
-        draws=2,
-    ),
-    Cause("open_door", 3.0, _somewhere, change=_open_door, outside=True, placements=("one",), localised=True, draws=2),
-    Cause("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, outside=True, placements=("all", "one")),
-    Cause("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, outside=True, draws=2),
-    Cause(
-        "serrations",
-        1.0,
-        lambda r, s: {
-            "pitch_strain": s.end_strain / r.uniform(6.0, 25.0),
-            "onset_strain": r.uniform(0.0, 0.4) * s.end_strain,
-        },
-        record=_serrations,
-        outside=True,
-        placements=("all", "one"),
-    ),
-    Cause(
-        "cell_hysteresis",
-        0.03,
-        lambda r, s: {"width": r.uniform(0.05, 0.3)},
-        record=_cell_hysteresis,
-        outside=True,
-        placements=("all",),
-        localised=True,
-        needs_unloading=True,
-        draws=2,
-    ),
-    Cause(
-        "strain_crystallisation",
-        5.0,
-        lambda r, s: {"onset_strain": r.uniform(0.3, 0.7) * s.end_strain, "power": r.uniform(1.0, 2.0)},
-        change=_crystals,
-        outside=True,
-    ),
-    Cause(
-        "blade_slip", 0.005, _somewhere, strain=_blade_slip, outside=True, placements=("one",), localised=True, draws=2
-    ),
+    _reversed("mullins_softening", 0.1, lambda r, s: {"strain": r.uniform(0.02, 0.08)}, change=_mullins),
+    _local("yield_band", 1.0, _band, change=_yield_band),
+    _reversed("bauschinger", 1.0, lambda r, s: {"strain": r.uniform(0.01, 0.05)}, change=_bauschinger),
+    _local("open_door", 3.0, _somewhere, change=_open_door, placements=("one",), draws=2),
+    _outside("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, placements=("all", "one")),
+    _outside("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, draws=2),
+    _outside("serrations", 1.0, _pitch, record=_serrations, placements=("all", "one")),
+    _reversed("cell_hysteresis", 0.03, lambda r, s: {"width": r.uniform(0.05, 0.3)}, record=_cell_hysteresis),
+    _outside("strain_crystallisation", 5.0, _growth, change=_crystals),
+    _local("blade_slip", 0.005, _somewhere, strain=_blade_slip, placements=("one",), draws=2),
 )
