@@ -104,7 +104,7 @@ def _slack(
     """
     if elongation[0] > 10.0 * _scatter(elongation):
         return time, elongation + done.size, force
-    step, few = float(np.median(np.diff(time))), max(len(time) // 50, 5)
+    step, few = float(np.median(np.diff(time))), max(len(time) // 100, 5)
     speed = (elongation[few] - elongation[0]) / (time[few] - time[0])
     count = max(round(done.size / (speed * step)), 1)
     rng = np.random.default_rng(done.seed)

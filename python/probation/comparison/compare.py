@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from math import log
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import logsumexp
@@ -14,7 +14,7 @@ from probation._arrays import one_of
 from probation.comparison.evidence import Tangent
 from probation.comparison.faults import considered
 from probation.comparison.measured_law import MeasuredLaw
-from probation.comparison.noise import change_noise, own_residual, record_noises, strain_noise
+from probation.comparison.noise import change_noise, missed_by_smoother, own_residual, record_noises
 from probation.comparison.pairing import pair
 from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
@@ -38,9 +38,10 @@ NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
 """Probabilities beforehand: nothing changed, one cause, two, something unknown, that beside one cause."""
 
 COVERED = 0.95
-Z95 = 1.959963984540054
+TOLD = 1e-4
+"""Probability from which on sizes are told."""
 
-Specimens = Literal["same", "others"]
+Z95 = 1.959963984540054
 
 
 def compare(
@@ -49,14 +50,15 @@ def compare(
     scheme: Scheme = "sa3",
     *,
     pairs: Mapping[str, str | Sequence[str]] | None = None,
-    specimens: Specimens = "same",
     effects: Iterable[str] | None = None,
     threads: int | None = None,
 ) -> Comparison:
     """Ask what changed between two campaigns of the same material: nothing, which fault of the rig, the material.
 
     The base law need not describe the material: what it leaves unexplained on the reference is carried over to the
-    other campaign at the same point of every specimen's way.
+    other campaign at the same point of every specimen's way. By how much specimens differ is not allowed for: hold the
+    same specimens against themselves (another channel, another export, a repeat that changes nothing in them), or take
+    the answer for that of these specimens.
 
     Parameters
     ----------
@@ -66,8 +68,6 @@ def compare(
     scheme : {"be2", "sa2", "sa3"}
     pairs : dict of str to str or sequence of str, optional
         Reference records by record id; those of the same id if left out.
-    specimens : {"same", "others"}
-        Whether the same specimens were recorded twice (another channel, another export, an elastic repeat), or others.
     effects : iterable of str, optional
         Names of the changes that are considered.
     threads : int, optional
@@ -104,7 +104,6 @@ def compare(
         verdict=verdict,
         headline=headline(shown[0], len(kept.records), against.name),
         pairs=together,
-        specimens=specimens,
         explanations=shown,
         answer_set=answers,
         rms_MPa={name: float(np.sqrt(np.mean(each.change**2))) for name, each in curves.items()},
@@ -134,9 +133,10 @@ def _prepared(
             noise,
             law,
             [reference.noises[other] for other in together[view.id]],
-            strain_noise(law, view, excitations[view.id]),
+            excitations[view.id],
+            missed_by_smoother(record, excitations[view.id]),
         )
-        for view, noise in zip(model.views, own, strict=True)
+        for view, noise, record in zip(model.views, own, campaign.records, strict=True)
     )
     raw = model.residual(law.start)
     residuals = tuple(residual_of(view, raw[part], np.zeros((len(view.data), 0))) for view, part in model.parts)
@@ -174,7 +174,8 @@ def _weighed(
     for (effects, records), forms in merged.items():
         found = max(forms, key=lambda form: form[0])[1]
         probability = float(np.exp(logsumexp([score for score, _ in forms]) - total))
-        result.append((ChangeExplanation(effects, records, probability, _parameters(found)), found))
+        sizes = _parameters(search, found) if probability > TOLD else ()
+        result.append((ChangeExplanation(effects, records, probability, sizes), found))
     return sorted(result, key=lambda each: -each[0].probability)
 
 
@@ -188,13 +189,14 @@ def _place(found: Found, ids: tuple[str, ...]) -> float:
     return total
 
 
-def _parameters(found: Found | None) -> tuple[ChangedParameter, ...]:
+def _parameters(search: ChangeSearch, found: Found | None) -> tuple[ChangedParameter, ...]:
     """Sizes with their intervals, that of a logarithm's exponential."""
     if found is None:
         return ()
     result = []
     for refit in found.refits:
         at = 0
+        whole = search.interval(refit) if len(refit.parameters) == 1 else None
         x = refit.coordinates.of(refit.parameters)
         deviation = np.sqrt(np.diag(Tangent.of(refit).covariance))
         everywhere = tuple(view.id for view in refit.model.views)
@@ -202,7 +204,7 @@ def _parameters(found: Found | None) -> tuple[ChangedParameter, ...]:
             for parameter in cause.form.parameters:
                 ends = [x[at] - Z95 * deviation[at], x[at] + Z95 * deviation[at]]
                 ends = [float(np.exp(end)) if parameter.log else float(end) for end in ends]
-                interval = (max(ends[0], parameter.lower), min(ends[1], parameter.upper))
+                ends = [max(ends[0], parameter.lower), min(ends[1], parameter.upper)]
                 result.append(
                     ChangedParameter(
                         cause.effect.name,
@@ -210,7 +212,7 @@ def _parameters(found: Found | None) -> tuple[ChangedParameter, ...]:
                         parameter.unit,
                         cause.records or everywhere,
                         float(refit.parameters[at]),
-                        interval,
+                        whole or (ends[0], ends[1]),
                     )
                 )
                 at += 1

@@ -88,8 +88,6 @@ def _as_a_change(known: Effect, force: float, elongation: float, duration: float
         forms = {"over_record": replace(over_record, placements=("one",)), "in_time": in_time}
     elif known.name in ("force_offset", "prestress"):
         forms = {name: _sized(form, PART * force, bounded=True) for name, form in forms.items()}
-    elif known.name == "force_saturation":
-        forms = {name: _sized(form, 1.0 / force) for name, form in forms.items()}
     else:
         forms = {name: _sized(form, WIDER * form.amplitude.scale) for name, form in forms.items()}
     if known.name == "strain_offset":
@@ -101,8 +99,9 @@ def _as_a_change(known: Effect, force: float, elongation: float, duration: float
 def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) -> tuple[Effect, ...]:
     """What a change is explained by: the catalogue's faults of the rig, and another material.
 
-    Left out are waves and steps, which a diagnosis finds in either campaign by itself; the growth of the volume, since
-    both campaigns made their true stress in one way; and the temperature, which is another material to a comparison.
+    Left out are waves, steps and plateaus, which a diagnosis finds in either campaign by itself; the growth of the
+    volume, since both campaigns made their true stress in one way; and the temperature, which is another material to a
+    comparison.
 
     Parameters
     ----------
@@ -119,7 +118,7 @@ def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) 
     force = max(float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views)
     elongation = max(float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views)
     duration = max(view.duration for view in views)
-    left_out = {"temperature_drift", "volume_change"}
+    left_out = {"temperature_drift", "volume_change", "force_saturation"}
     rig = (each for each in effects() if each.kind == "rig" and each.name not in left_out)
     sized = [
         _as_a_change(each, force, elongation, duration)

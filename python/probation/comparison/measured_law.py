@@ -31,6 +31,12 @@ KNOTS = 24
 GRADED, SHRINK = 3, 0.7
 """Intervals at the start of a branch that get finer towards it, by this factor: onsets are steep."""
 
+BEYOND = 1e-9
+"""Rounding, by which a way may be longer than the reference's."""
+
+ENDS = 3
+"""Samples at the ends of a branch that are taken as they are: a corner, or a relaxed start, is no smooth curve."""
+
 LEAST_SAMPLES, LEAST_AT_START = 4, 1.5
 """Samples per interval."""
 
@@ -71,8 +77,9 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
     for part in branches(view):
         frame = followed(view.time[part])
         smooth = frame @ (frame.T @ left[part])
-        missing = np.where(sharp[part], left[part], smooth)
-        found.append(Branch(progress(view, part), missing, frame, sharp[part]))
+        kept = sharp[part].copy()
+        kept[:ENDS] = kept[-ENDS:] = True
+        found.append(Branch(progress(view, part), np.where(kept, left[part], smooth), frame, sharp[part]))
     return tuple(found)
 
 
@@ -153,11 +160,13 @@ class MeasuredLaw:
         return total / len(references)
 
     def undecided(self, view: RecordView) -> NDArray[np.bool_]:
-        """Instants at which a reference has something sharp, shape (n,)."""
+        """Instants at which a reference has something sharp, or nothing: beyond its end; shape (n,)."""
         found = np.zeros(len(view), dtype=bool)
         for each in self.references[view.id]:
             for part, branch in zip(branches(view), each, strict=False):
-                found[part] |= np.interp(progress(view, part), branch.progress, branch.sharp) > 0.0
+                here = progress(view, part)
+                found[part] |= np.interp(here, branch.progress, branch.sharp) > 0.0
+                found[part] |= here > branch.progress[-1] * (1.0 + BEYOND)
         return found
 
     def frames(self, view: RecordView) -> list[FloatArray]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.comparison.measured_law import followed
+from probation.comparison.measured_law import ENDS, followed
 from probation.comparison.strain_path import branches
 from probation.gap.drift import LEAST, with_drift
 from probation.gap.noise import carried_strain_noise, estimate_noise
@@ -16,6 +16,8 @@ from probation.gap.view_residual import residual_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from probation._arrays import FloatArray
     from probation.comparison.measured_law import MeasuredLaw
     from probation.excitation import Excitation
@@ -23,9 +25,10 @@ if TYPE_CHECKING:
     from probation.gap.noise_model import NoiseModel
     from probation.gap.record_residual import RecordResidual
     from probation.gap.record_view import RecordView
+    from probation.records import Record
 
-TURN = 3
-"""Samples on either side of a turn, and after the start, where the sampling decides and not the rig."""
+FAR = 8.0
+"""Medians of what a smoother takes off the strain, beyond which it is no noise."""
 
 OUTLYING = 100
 """One in so many samples, the worst, is not asked how large the noise is."""
@@ -60,7 +63,12 @@ def record_noises(records: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
 
 
 def change_noise(
-    view: RecordView, own: NoiseModel, law: MeasuredLaw, references: Sequence[NoiseModel], strain: FloatArray | None
+    view: RecordView,
+    own: NoiseModel,
+    law: MeasuredLaw,
+    references: Sequence[NoiseModel],
+    excitation: Excitation,
+    missed: NDArray[np.bool_],
 ) -> NoiseModel:
     """The noise of a record minus what its references foretell.
 
@@ -75,26 +83,36 @@ def change_noise(
     law : MeasuredLaw
     references : sequence of NoiseModel
         Of each reference of that record.
-    strain : ndarray, shape (n, k) [MPa], optional
-        What the noise of a smoothed strain does to the stress.
+    excitation : Excitation
+        The record's: a smoothed strain's noise makes stress.
+    missed : ndarray of bool, shape (n,)
+        Samples whose strain the smoother did not follow.
     """
     followed = law.frames(view)
     columns = [
         float(np.sqrt(np.mean(noise.long_run**2))) / len(followed) * frame
         for frame, noise in zip(followed, references, strict=True)
     ]
-    columns.append(_undecided(view, law))
+    columns.append(_undecided(view, law, missed))
+    strain = strain_noise(law, view, excitation)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
     return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())
 
 
-def _undecided(view: RecordView, law: MeasuredLaw) -> FloatArray:
-    """Single samples, of any size: next to turns and to the start, and where the reference is sharp."""
-    at = set(np.flatnonzero(law.undecided(view)).tolist())
+def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:
+    """Samples whose strain a smoother did not follow, and their neighbours; shape (n,)."""
+    missed = np.abs(record.true_strain - excitation.true_strain)
+    far = missed > FAR * float(np.median(missed)) if excitation.operators is not None else np.zeros(len(record), bool)
+    return np.asarray(np.convolve(far, np.ones(2 * ENDS + 1), mode="same") > 0.0)
+
+
+def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) -> FloatArray:
+    """Single samples, of any size: next to turns and the start, where a smoother or the reference does not follow."""
+    at = set(np.flatnonzero(law.undecided(view) | missed).tolist())
     for part in branches(view):
-        first = part.start if part.start == 0 else part.start - TURN
-        at.update(range(max(first, 0), min(part.start + TURN, len(view))))
+        first = part.start if part.start == 0 else part.start - ENDS
+        at.update(range(max(first, 0), min(part.start + ENDS, len(view))))
     columns = np.zeros((len(view), len(at)))
     columns[sorted(at), np.arange(len(at))] = float(np.max(np.abs(view.data)))
     return columns

@@ -88,7 +88,6 @@ class Comparison:
     headline : str
     pairs : dict of str to tuple of str
         Reference records of each record.
-    specimens : {"same", "others"}
     explanations : tuple of ChangeExplanation
         By probability, which sums to 1.
     answer_set : tuple of ChangeExplanation
@@ -104,7 +103,6 @@ class Comparison:
     verdict: Verdict
     headline: str
     pairs: Mapping[str, tuple[str, ...]]
-    specimens: str
     explanations: tuple[ChangeExplanation, ...]
     answer_set: tuple[ChangeExplanation, ...]
     rms_MPa: Mapping[str, float]  # noqa: N815 - as it leaves the program
@@ -124,7 +122,6 @@ class Comparison:
             "against": self.reference,
             "verdict": self.verdict,
             "headline": self.headline,
-            "specimens": self.specimens,
             "records": {
                 name: {"references": list(others), "rms_MPa": self.rms_MPa[name], "noise_MPa": self.noise_MPa[name]}
                 for name, others in self.pairs.items()

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.optimize import brentq
 
 from probation.comparison.evidence import SmoothChange, Tangent
 from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
@@ -31,6 +32,10 @@ STARTS = 2
 
 WORTH = 1.0
 """Linearised gain below which a cause is judged where it starts: the refit would not move."""
+
+LEVEL, FARTHEST = 3.841458820694124, 20.0
+"""Rise of the objective at the ends of a 95 % interval (chi-square, one degree of freedom); most deviations looked at.
+"""
 
 LEADING, ADDITIONS = 3, 6
 """Changes beside which a second one in the same records is sought, and how many are tried."""
@@ -179,6 +184,34 @@ class ChangeSearch:
         score = Tangent.of(found.refits[0]).log_integral_beside_unknown(self.smooth[at])
         score += 0.5 * float(self.still[at] @ self.still[at])
         return Found(found.causes, found.records, found.refits, found.log_evidence, score)
+
+    def interval(self, done: Refit) -> tuple[float, float]:
+        """95 % interval of the only parameter of a refit, by the profile of the objective."""
+        parameter, whitener = done.model.effect_parameters[0], Whitener(self._noises_of(done.model))
+        coordinates = done.coordinates
+        centre = float(coordinates.of(done.parameters)[0])
+        least = done.chi_square + coordinates.penalty(np.array([centre]))
+        deviation = float(np.sqrt(Tangent.of(done).covariance[0, 0]))
+
+        def excess(coordinate: float) -> float:
+            x = np.array([coordinate])
+            residual = whitener.residual(done.model.residual(coordinates.parameters(x)))
+            return float(residual @ residual) + coordinates.penalty(x) - least - LEVEL
+
+        ends = []
+        for side, bound in ((-1.0, coordinates.lower[0]), (1.0, coordinates.upper[0])):
+            inside, step = centre, 2.0 * deviation
+            outside = float(np.clip(centre + side * step, coordinates.lower[0], coordinates.upper[0]))
+            while outside != bound and excess(outside) < 0.0 and step < FARTHEST * deviation:
+                inside, step = outside, 1.6 * step
+                outside = float(np.clip(centre + side * step, coordinates.lower[0], coordinates.upper[0]))
+            if outside == bound and excess(outside) < 0.0:
+                ends.append(float(bound))
+            elif excess(inside) >= 0.0 or excess(outside) <= 0.0:  # no smooth valley: what the curvature says
+                ends.append(float(np.clip(centre + side * np.sqrt(LEVEL) * deviation, *sorted((bound, centre)))))
+            else:
+                ends.append(float(brentq(excess, inside, outside, xtol=0.02 * deviation, disp=False)))
+        return parameter.from_search(ends[0]), parameter.from_search(ends[1])
 
     def _log_evidence(self, done: Refit) -> float:
         none = sum(0.5 * float(self.still[at] @ self.still[at]) for at in (self._index(v.id) for v in done.model.views))
