@@ -38,6 +38,8 @@ NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
 """Probabilities beforehand: nothing changed, one cause, two, something unknown, that beside one cause."""
 
 COVERED = 0.95
+SPECIMENS = "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs"
+
 TOLD = 1e-4
 """Probability from which on sizes are told."""
 
@@ -109,7 +111,7 @@ def compare(
         rms_MPa={name: float(np.sqrt(np.mean(each.change**2))) for name, each in curves.items()},
         noise_MPa={name: float(np.sqrt(np.mean(each.noise**2))) for name, each in curves.items()},
         curves=curves,
-        warnings=thinned,
+        warnings=(*thinned, SPECIMENS),
     )
 
 
