@@ -5,6 +5,7 @@ from probation.calibration import CalibratedCompanion, Calibration, RateTable, c
 from probation.certificate import Certificate, certify
 from probation.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from probation.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
+from probation.comparison import Comparison, Reference, compare
 from probation.creep import creep
 from probation.crosscheck import CrossCheck, crosscheck
 from probation.diagnosis import Diagnosis, diagnose
@@ -25,6 +26,7 @@ __all__ = [
     "Campaign",
     "Certificate",
     "Change",
+    "Comparison",
     "ConvergenceError",
     "CrossCheck",
     "Diagnosis",
@@ -41,6 +43,7 @@ __all__ = [
     "RateFunction",
     "RateTable",
     "Record",
+    "Reference",
     "SelfHeating",
     "Simulation",
     "Spectrum",
@@ -50,6 +53,7 @@ __all__ = [
     "__version__",
     "calibrate_companion",
     "certify",
+    "compare",
     "creep",
     "crosscheck",
     "diagnose",

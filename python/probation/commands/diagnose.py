@@ -7,7 +7,14 @@ import sys
 from typing import TYPE_CHECKING
 
 from probation._files import write_whole
-from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
+from probation.commands.campaign_options import (
+    add_campaign,
+    add_control,
+    add_held_out,
+    campaign_at,
+    campaign_from,
+    with_held_out,
+)
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, said
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -33,6 +40,7 @@ and which test would settle what is still open.
   probation diagnose hdpe-2020/ --effects self_heating,damage,machine_compliance --json -
   probation diagnose --list-effects                     every effect that is known: physics, parameters, bounds
   probation diagnose hdpe-2020/ --isolability           what these tests could tell apart, whatever they show
+  probation diagnose may/ --against march/              what changed since: the rig, the material, or nothing
 
 In a first reading: the headline, the starred explanations, and "gap closed" of the held-out records.
 """
@@ -49,6 +57,19 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--isolability",
         action="store_true",
         help="say which effects these tests could tell apart, from strain histories and noise alone",
+    )
+    instead.add_argument(
+        "--against",
+        metavar="REFERENCE",
+        action="append",
+        help="say what changed since that campaign of the same tests; a folder, or data files, given several times",
+    )
+    parser.add_argument(
+        "--pair",
+        metavar="ID=REFERENCE_ID",
+        action="append",
+        default=[],
+        help="with --against: the reference of a record whose id is another there; may be given several times",
     )
     add_held_out(parser)
     parser.add_argument(
@@ -75,6 +96,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     names = [name for group in options.effects or () for name in group] or None
+    if options.pair and not options.against:
+        raise InputError("found --pair without --against, expected both or neither")
+    if options.against:
+        return _change(options, names)
     _known(names)
     if options.list_effects:
         return _list_effects(options, names)
@@ -98,6 +123,29 @@ def run(options: argparse.Namespace) -> int:
         )
     deliver(answer, options)
     deliver_report(answer, options)
+    return 0
+
+
+def _change(options: argparse.Namespace, names: list[str] | None) -> int:
+    for name in ("report", "hold", "held_out"):
+        if getattr(options, name):
+            raise InputError(f"found --{name.replace('_', '-')} with --against, expected neither or one of them")
+    if not options.campaign:
+        raise InputError("found no campaign, expected CAMPAIGN beside --against")
+    pairs: dict[str, list[str]] = {}
+    for entry in options.pair:
+        record, equals, other = (part.strip() for part in entry.partition("="))
+        if not equals or not record or not other:
+            raise InputError(f"--pair: found {entry!r}, expected ID=REFERENCE_ID")
+        pairs.setdefault(record, []).append(other)
+    from probation.comparison import compare  # noqa: PLC0415 - see the package
+
+    campaign, reference = campaign_from(options), campaign_at(options.against, options.control)
+    with shown(f"{campaign.name} against {reference.name}"):
+        answer = compare(
+            campaign, reference, options.scheme, pairs=pairs or None, effects=names, threads=options.threads
+        )
+    deliver(answer, options)
     return 0
 
 

@@ -40,7 +40,7 @@ def quantisation_step(values: FloatArray) -> float:
     step = float(gaps.min())
     reach = distinct - distinct[0]
     for limit in (4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0, np.inf):  # a small error of the step grows with the distance
-        near = reach[(reach <= limit * step) & (reach > 0.0)]
+        near = reach[(reach <= limit * step) & (reach > 0.5 * step)]  # nearer ones differ by rounding
         if near.size == 0:
             continue
         steps = np.round(near / step)

@@ -1,0 +1,134 @@
+"""What may have changed between two campaigns: faults of the rig, come or gone, and the material itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.errors import InputError
+from probation.gap.alteration import Alteration
+from probation.gap.effect import Effect, EffectParameter, Form, Values
+from probation.gap.registry import effects
+from probation.records.complaint import suggestion
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.gap.record_view import RecordView
+
+_USUAL = 0.1
+"""Natural logarithm by which a law's constants may differ from batch to batch."""
+
+
+def _crosshead_slack(view: RecordView, values: Values) -> FloatArray:
+    """The crosshead travels by a gauge lengths before the specimen sees anything: elongations differ by that."""
+    elongation = np.expm1(view.true_strain)
+    seen = np.maximum(elongation - values[0], np.minimum(elongation, 0.0))
+    return np.asarray(np.log1p(seen))
+
+
+def _other_material(view: RecordView, values: Values) -> Alteration:
+    """Other constants of the base law."""
+    modulus, time, hardening = (np.full(1, np.exp(value)) for value in values)
+    return Alteration(unrelaxed_modulus_factor=modulus, relaxation_time_factor=time, hardening_factor=hardening)
+
+
+def _logarithm(name: str) -> EffectParameter:
+    return EffectParameter(f"ln_{name}_ratio", "", -1.0, 1.0, _USUAL, "batches differ by some per cent, rarely by tens")
+
+
+MATERIAL = Effect(
+    name="material_change",
+    title="another material",
+    physics=(
+        "The constants of the base law are others: another batch, another age, another temperature of the room.\n"
+        "Parameters: logarithm of each constant over the reference's."
+    ),
+    source="ISO 527-1, section 10 (number of test specimens)",
+    shows_in="every record",
+    kind="material",
+    forms=(
+        Form(
+            "constants",
+            (_logarithm("unrelaxed_modulus"), _logarithm("relaxation_time"), _logarithm("hardening_modulus")),
+            law_change=_other_material,
+        ),
+    ),
+)
+
+
+PART, TRAVEL = 0.05, 0.03
+"""Usual size of a fault: of the force as part of the largest force, of the compliance as part of the travel."""
+
+WIDER, MOST = 10.0, 10.0
+"""Prior scales of the others over the catalogue's, which says what a sound rig has and not what went wrong with this
+one; and bounds over prior scales."""
+
+
+def _sized(form: Form, scale: float, *, bounded: bool = False) -> Form:
+    """The same form with another prior of its amplitude, of either sign if `bounded`."""
+    known = form.amplitude
+    low, high = (-MOST * scale, MOST * scale) if bounded else (known.lower, known.upper)
+    amplitude = replace(known, lower=low, upper=high, scale=min(scale, max(-low, high)), starts=())
+    return replace(form, parameters=(amplitude, *form.parameters[1:]))
+
+
+def _as_a_change(known: Effect, force: float, elongation: float, duration: float) -> Effect:
+    """A fault of the rig as it may come, or go, between two campaigns of that largest nominal stress and elongation."""
+    forms = {form.name: form for form in known.forms}
+    if known.name == "machine_compliance":
+        forms = {"crosshead": _sized(known.form("crosshead"), TRAVEL * elongation / force, bounded=True)}
+    elif known.name == "force_drift":
+        # Within one record both forms are the same.
+        over_record = _sized(known.form("over_record"), PART * force, bounded=True)
+        in_time = _sized(known.form("in_time"), PART * force / duration, bounded=True)
+        forms = {"over_record": replace(over_record, placements=("one",)), "in_time": in_time}
+    elif known.name in ("force_offset", "prestress"):
+        forms = {name: _sized(form, PART * force, bounded=True) for name, form in forms.items()}
+    else:
+        forms = {name: _sized(form, WIDER * form.amplitude.scale) for name, form in forms.items()}
+    if known.name == "strain_offset":
+        # What the crosshead travels in vain is an elongation, and so is not quite a constant true strain.
+        forms["slack"] = replace(forms["slack"], driving_strain=_crosshead_slack)
+    return replace(known, forms=tuple(forms.values()))
+
+
+def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) -> tuple[Effect, ...]:
+    """What a change is explained by: the catalogue's faults of the rig, and another material.
+
+    Left out are waves, steps and plateaus, which a diagnosis finds in either campaign by itself; the growth of the
+    volume, since both campaigns made their true stress in one way; and the temperature, which is another material to a
+    comparison.
+
+    Parameters
+    ----------
+    views : sequence of RecordView
+        Of the records: faults are as large as these make them.
+    names : iterable of str, optional
+        Only these.
+
+    Raises
+    ------
+    InputError
+        For a name that is none of them, suggesting the nearest.
+    """
+    force = max(float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views)
+    elongation = max(float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views)
+    duration = max(view.duration for view in views)
+    left_out = {"temperature_drift", "volume_change", "force_saturation"}
+    rig = (each for each in effects() if each.kind == "rig" and each.name not in left_out)
+    sized = [
+        _as_a_change(each, force, elongation, duration)
+        for each in rig
+        if all(form.sharp is None for form in each.forms)
+    ]
+    known = {each.name: each for each in (*sized, MATERIAL)}
+    if names is None:
+        return tuple(known.values())
+    for name in (chosen := list(names)):
+        if name not in known:
+            raise InputError(f"found no change named {name!r}; {suggestion(name, known)}")
+    return tuple(known[name] for name in chosen)

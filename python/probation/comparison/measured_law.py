@@ -1,0 +1,184 @@
+"""A base law put right by what it left unexplained on reference records of the same tests.
+
+The law's own error on a material is no change of the rig. So what it leaves on the reference is taken for known and
+carried over to the same point of the specimen's way: at a strain that is seen later, or less of, it comes later, or
+less of it. The response to a change of the strain is then the measured one; the law only corrects for a history that
+is not quite the reference's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.comparison.strain_path import branches, progress
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.gap.alteration import Alteration
+    from probation.gap.dnlr_law import DnlrLaw
+    from probation.gap.record_view import RecordView
+
+KNOTS = 24
+"""Intervals of a branch along which the reference is followed."""
+
+GRADED, SHRINK = 3, 0.7
+"""Intervals at the start of a branch that get finer towards it, by this factor: onsets are steep."""
+
+BEYOND = 1e-9
+"""Rounding, by which a way may be longer than the reference's."""
+
+ENDS = 3
+"""Samples at the ends of a branch that are taken as they are: a corner, or a relaxed start, is no smooth curve."""
+
+LEAST_SAMPLES, LEAST_AT_START = 4, 1.5
+"""Samples per interval."""
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """What the law leaves on one branch of a reference record.
+
+    Attributes
+    ----------
+    progress : ndarray, shape (n,)
+        See `strain_path.progress`.
+    missing : ndarray, shape (n,) [MPa]
+        Data minus law; smoothed, but where it is sharp.
+    frame : ndarray, shape (n, k)
+        Orthonormal curves that the smoothing follows: the reference's own noise along them stays in `missing`.
+    sharp : ndarray of bool, shape (n,)
+        Where the reference has what such curves cannot follow.
+    """
+
+    progress: FloatArray
+    missing: FloatArray
+    frame: FloatArray
+    sharp: NDArray[np.bool_]
+
+
+def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.bool_]) -> tuple[Branch, ...]:
+    """The branches of a reference record.
+
+    Parameters
+    ----------
+    view : RecordView
+    left : ndarray, shape (n,) [MPa]
+        Data minus law.
+    sharp : ndarray of bool, shape (n,)
+    """
+    found = []
+    for part in branches(view):
+        frame = followed(view.time[part])
+        smooth = frame @ (frame.T @ left[part])
+        kept = sharp[part].copy()
+        kept[:ENDS] = kept[-ENDS:] = True
+        found.append(Branch(progress(view, part), np.where(kept, left[part], smooth), frame, sharp[part]))
+    return tuple(found)
+
+
+def followed(time: FloatArray) -> FloatArray:
+    """Orthonormal basis of cubic splines in time, dense at the start; shape (n, k)."""
+    from scipy.interpolate import BSpline  # noqa: PLC0415 - slow to load
+
+    count = len(time)
+    intervals = max(min(KNOTS, count // LEAST_SAMPLES), 1)
+    inner = np.arange(1, intervals) / intervals
+    if intervals > GRADED:
+        finest = LEAST_AT_START / (count - 1) / (1.0 - SHRINK)
+        graded = (GRADED / intervals) * SHRINK ** np.arange(1, 40)
+        inner = np.concatenate([graded[graded > finest][::-1], inner[GRADED - 1 :]])
+    place = (time - time[0]) / (time[-1] - time[0])
+    knots = np.concatenate([np.zeros(4), inner, np.ones(4)])
+    design = BSpline.design_matrix(place, knots, 3).toarray()
+    return np.asarray(np.linalg.qr(design)[0])
+
+
+class MeasuredLaw:
+    """`GapLaw`: the base law, all held, plus what it left on the references.
+
+    Parameters
+    ----------
+    law : DnlrLaw
+        With nothing to identify.
+    references : dict of str to sequence of (Branch, ...)
+        By record id: the branches of each reference of that record.
+
+    Notes
+    -----
+    Beyond the end of a reference its last value is kept.
+    """
+
+    def __init__(self, law: DnlrLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]]) -> None:
+        self.law = law
+        self.references = dict(references)
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """None: the reference has settled them."""
+        return self.law.parameter_names
+
+    @property
+    def start(self) -> FloatArray:
+        """Shape (0,)."""
+        return self.law.start
+
+    @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Each of shape (0,)."""
+        return self.law.bounds
+
+    @property
+    def understands(self) -> frozenset[str]:
+        """What the base law does."""
+        return self.law.understands
+
+    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+        """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
+        return np.asarray(self.law.stress(view, parameters, alteration) + self.carried_over(view))
+
+    def sensitivity(
+        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """True stress (n,) [MPa] and no derivatives (n, 0); as in `GapLaw`."""
+        stress, slopes = self.law.sensitivity(view, parameters, alteration)
+        return stress + self.carried_over(view), slopes
+
+    def carried_over(self, view: RecordView) -> FloatArray:
+        """What the law left on the references, at the same points of the way; their mean, shape (n,) [MPa]."""
+        references = self.references[view.id]
+        total = np.zeros(len(view))
+        for each in references:
+            for part, branch in zip(branches(view), each, strict=False):
+                total[part] += np.interp(progress(view, part), branch.progress, branch.missing)
+        return total / len(references)
+
+    def undecided(self, view: RecordView) -> NDArray[np.bool_]:
+        """Instants at which a reference has something sharp, or nothing: beyond its end; shape (n,)."""
+        found = np.zeros(len(view), dtype=bool)
+        for each in self.references[view.id]:
+            for part, branch in zip(branches(view), each, strict=False):
+                here = progress(view, part)
+                found[part] |= np.interp(here, branch.progress, branch.sharp) > 0.0
+                found[part] |= here > branch.progress[-1] * (1.0 + BEYOND)
+        return found
+
+    def frames(self, view: RecordView) -> list[FloatArray]:
+        """The curves of every reference, carried over in the same way; each of shape (n, k)."""
+        found = []
+        for each in self.references[view.id]:
+            columns = []
+            for part, branch in zip(branches(view), each, strict=False):
+                own = np.zeros((len(view), branch.frame.shape[1]))
+                here = progress(view, part)
+                for index, curve in enumerate(branch.frame.T):
+                    own[part, index] = np.interp(here, branch.progress, curve)
+                columns.append(own)
+            found.append(np.hstack(columns))
+        return found

@@ -1,0 +1,135 @@
+"""The noise of a change: that of the record, that of its reference along the curves by which this is followed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.comparison.measured_law import ENDS, followed
+from probation.comparison.strain_path import branches
+from probation.gap.drift import LEAST, with_drift
+from probation.gap.noise import carried_strain_noise, estimate_noise
+from probation.gap.view_residual import residual_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.comparison.measured_law import MeasuredLaw
+    from probation.excitation import Excitation
+    from probation.gap.dnlr_law import DnlrLaw
+    from probation.gap.noise_model import NoiseModel
+    from probation.gap.record_residual import RecordResidual
+    from probation.gap.record_view import RecordView
+    from probation.records import Record
+
+FAR = 8.0
+"""Medians of what a smoother takes off the strain, beyond which it is no noise."""
+
+OUTLYING = 100
+"""One in so many samples, the worst, is not asked how large the noise is."""
+
+STRAIN_STEP = 1e-6
+
+
+def own_residual(view: RecordView, law: DnlrLaw) -> RecordResidual:
+    """A record by itself, all that is slow in it set aside: what is left is its noise."""
+    left = law.stress(view, law.start) - view.data
+    frames = []
+    for part in branches(view):
+        frame = followed(view.time[part])
+        left[part] -= frame @ (frame.T @ left[part])
+        whole = np.zeros((len(view), frame.shape[1]))
+        whole[part] = frame
+        frames.append(whole)
+    return residual_of(view, left, np.hstack(frames))
+
+
+def record_noises(records: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
+    """The noise of records by themselves, their slow course (`tangent`) apart, with the least drift that is likely.
+
+    Never less than what is left of them: a corner that no smooth curve follows is no better known than noise.
+    """
+    noises = []
+    for record, noise in zip(records, estimate_noise(records), strict=True):
+        rough = np.sort(noise.whiten(record.residual) ** 2)[: -max(len(record) // OUTLYING, 1)]
+        excess = float(np.sum(rough)) / max(len(record) - record.tangent.shape[1], 1)
+        noises.append(with_drift(noise.scaled(max(np.sqrt(excess), 1.0)), LEAST))
+    return tuple(noises)
+
+
+def change_noise(
+    view: RecordView,
+    own: NoiseModel,
+    law: MeasuredLaw,
+    references: Sequence[NoiseModel],
+    excitation: Excitation,
+    missed: NDArray[np.bool_],
+) -> NoiseModel:
+    """The noise of a record minus what its references foretell.
+
+    The reference is another measurement: its noise is let be independent of the record's, and along the curves by
+    which it was followed it is part of what is foretold.
+
+    Parameters
+    ----------
+    view : RecordView
+    own : NoiseModel
+        The record's.
+    law : MeasuredLaw
+    references : sequence of NoiseModel
+        Of each reference of that record.
+    excitation : Excitation
+        The record's: a smoothed strain's noise makes stress.
+    missed : ndarray of bool, shape (n,)
+        Samples whose strain the smoother did not follow.
+    """
+    followed = law.frames(view)
+    columns = [
+        float(np.sqrt(np.mean(noise.long_run**2))) / len(followed) * frame
+        for frame, noise in zip(followed, references, strict=True)
+    ]
+    columns.append(_undecided(view, law, missed))
+    strain = strain_noise(law, view, excitation)
+    if strain is not None:
+        columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
+    return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())
+
+
+def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:
+    """Samples whose strain a smoother did not follow, and their neighbours; shape (n,)."""
+    missed = np.abs(record.true_strain - excitation.true_strain)
+    far = missed > FAR * float(np.median(missed)) if excitation.operators is not None else np.zeros(len(record), bool)
+    return np.asarray(np.convolve(far, np.ones(2 * ENDS + 1), mode="same") > 0.0)
+
+
+def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) -> FloatArray:
+    """Single samples, of any size: next to turns and the start, where a smoother or the reference does not follow."""
+    at = set(np.flatnonzero(law.undecided(view) | missed).tolist())
+    for part in branches(view):
+        first = part.start if part.start == 0 else part.start - ENDS
+        at.update(range(max(first, 0), min(part.start + ENDS, len(view))))
+    columns = np.zeros((len(view), len(at)))
+    columns[sorted(at), np.arange(len(at))] = float(np.max(np.abs(view.data)))
+    return columns
+
+
+def strain_noise(law: MeasuredLaw, view: RecordView, excitation: Excitation) -> FloatArray | None:
+    """What a smoothed strain's noise does to the stress, (n, waves) [MPa]; None where it is as measured."""
+    if excitation.operators is None or not excitation.strain_noise > 0.0:
+        return None
+    still = law.stress(view, law.start)
+
+    def apply(columns: FloatArray) -> FloatArray:
+        found = np.empty_like(columns)
+        for index, column in enumerate(columns.T):
+            scale = STRAIN_STEP / max(float(np.max(np.abs(column))), 1e-300)
+            found[:, index] = (law.stress(view.driven(view.true_strain + scale * column), law.start) - still) / scale
+        return found
+
+    deviation = excitation.strain_noise * np.sqrt(excitation.noise_inflation)
+    return carried_strain_noise(apply, deviation, len(view))

@@ -1,0 +1,76 @@
+"""A campaign that another one is held against: its law, what that leaves unexplained, its noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.comparison.measured_law import reference_branches
+from probation.comparison.noise import own_residual, record_noises
+from probation.diagnosis.thinning import thin
+from probation.gap.dnlr_law import DnlrLaw
+from probation.gap.record_view import views_of
+from probation.identify import fit
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from probation.comparison.measured_law import Branch
+    from probation.gap.noise_model import NoiseModel
+    from probation.law import Scheme
+    from probation.records import Campaign
+
+
+SHARP = 8.0
+"""Medians of what smooth curves leave, beyond which a reference shows something that they cannot follow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """What is known of the reference campaign; make one with `of`, to hold several campaigns against it.
+
+    Attributes
+    ----------
+    campaign : Campaign
+    scheme : {"be2", "sa2", "sa3"}
+    law : DnlrLaw
+        Fitted to all its records, nothing left to identify.
+    branches : dict of str to tuple of Branch
+        What the law leaves unexplained, by record.
+    noises : dict of str to NoiseModel
+    """
+
+    campaign: Campaign
+    scheme: Scheme
+    law: DnlrLaw
+    branches: Mapping[str, tuple[Branch, ...]]
+    noises: Mapping[str, NoiseModel]
+
+    @classmethod
+    def of(cls, campaign: Campaign, scheme: Scheme = "sa3") -> Reference:
+        """Fit the law to all records of a campaign and keep what it leaves.
+
+        Parameters
+        ----------
+        campaign : Campaign
+        scheme : {"be2", "sa2", "sa3"}
+
+        Raises
+        ------
+        InputError
+            As `probation.fit`.
+        """
+        thinned, _ = thin(campaign)
+        whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
+        found = fit(whole, scheme, weighting="plain", method="variable-projection")
+        law = DnlrLaw(found.law, held=found.law.parameter_names)
+        views = views_of(whole, scheme=scheme)
+        residuals = [own_residual(view, law) for view in views]
+        noises = record_noises(residuals)
+        branches = {}
+        for view, rough in zip(views, residuals, strict=True):
+            sharp = np.abs(rough.residual) > SHARP * np.median(np.abs(rough.residual))
+            branches[view.id] = reference_branches(view, view.data - law.stress(view, law.start), sharp)
+        return cls(campaign, scheme, law, branches, {noise.name: noise for noise in noises})

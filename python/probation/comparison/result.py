@@ -1,0 +1,148 @@
+"""What a comparison of two campaigns found: whether anything changed, what, in which record, and by how much."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from probation.answers import json_answer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+
+    from probation._arrays import FloatArray
+
+Verdict = Literal["nothing_changed", "changed", "unknown_change"]
+
+
+@dataclass(frozen=True)
+class ChangedParameter:
+    """The size of a change.
+
+    Attributes
+    ----------
+    effect, name, unit : str
+        `name` carries the unit, too.
+    records : tuple of str
+        Ids of the records that it acts in.
+    value : float
+    interval95 : (float, float)
+    """
+
+    effect: str
+    name: str
+    unit: str
+    records: tuple[str, ...]
+    value: float
+    interval95: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ChangeExplanation:
+    """What may have changed.
+
+    Attributes
+    ----------
+    effects : tuple of str
+        Sorted; empty: nothing; ("unknown",): something that no known effect does; a name and "unknown": both.
+    records : tuple of str
+        Ids of the records that changed.
+    probability : float
+    parameters : tuple of ChangedParameter
+    """
+
+    effects: tuple[str, ...]
+    records: tuple[str, ...]
+    probability: float
+    parameters: tuple[ChangedParameter, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class ChangeCurves:
+    """One record minus what its references foretell.
+
+    Attributes
+    ----------
+    time, true_strain, change, noise : ndarray, shape (n,) [s], [-], [MPa], [MPa]
+    explained : ndarray, shape (n,) [MPa], or None
+        What the best explanation says of the change.
+    """
+
+    time: FloatArray
+    true_strain: FloatArray
+    change: FloatArray
+    noise: FloatArray
+    explained: FloatArray | None
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What changed from one campaign to another.
+
+    Attributes
+    ----------
+    campaign, reference : str
+    verdict : {"nothing_changed", "changed", "unknown_change"}
+    headline : str
+    pairs : dict of str to tuple of str
+        Reference records of each record.
+    explanations : tuple of ChangeExplanation
+        By probability, which sums to 1.
+    answer_set : tuple of ChangeExplanation
+        The most probable ones that hold 95 % together.
+    rms_MPa, noise_MPa : dict of str to float
+        Of each record's change, and of its noise.
+    curves : dict of str to ChangeCurves
+    warnings : tuple of str
+    """
+
+    campaign: str
+    reference: str
+    verdict: Verdict
+    headline: str
+    pairs: Mapping[str, tuple[str, ...]]
+    explanations: tuple[ChangeExplanation, ...]
+    answer_set: tuple[ChangeExplanation, ...]
+    rms_MPa: Mapping[str, float]  # noqa: N815 - as it leaves the program
+    noise_MPa: Mapping[str, float]  # noqa: N815
+    curves: Mapping[str, ChangeCurves]
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def best(self) -> ChangeExplanation:
+        """The most probable explanation."""
+        return self.explanations[0]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects."""
+        return {
+            "campaign": self.campaign,
+            "against": self.reference,
+            "verdict": self.verdict,
+            "headline": self.headline,
+            "records": {
+                name: {"references": list(others), "rms_MPa": self.rms_MPa[name], "noise_MPa": self.noise_MPa[name]}
+                for name, others in self.pairs.items()
+            },
+            "changes": [asdict(each) for each in self.explanations],
+            "answer_set": [{"effects": each.effects, "records": each.records} for each in self.answer_set],
+            "warnings": list(self.warnings),
+        }
+
+    def to_json(self) -> str:
+        """The answer as JSON text."""
+        return json_answer("probation.comparison/1", self.to_dict())
+
+    def summary(self) -> str:
+        """The headline, then what may have changed, with probabilities and sizes."""
+        from probation.comparison.words import summary  # noqa: PLC0415 - words only when asked for
+
+        return summary(self)
+
+    def plot(self) -> Figure:
+        """Every record's change and what the best explanation says of it."""
+        from probation.report.comparison_figure import comparison_figure  # noqa: PLC0415 - plotting only when asked for
+
+        return comparison_figure(self)

@@ -1,0 +1,140 @@
+"""Two campaigns held against each other: what changed, in which record, by how much."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import probation
+from campaigns import measured
+from probation import Campaign, InputError, Law, Record, Reference, compare
+from probation.blind.inject import Injection
+from probation.cli import main
+
+GRID = {"slow": 0.002, "fast": 0.02}
+
+
+def made_up(seed, *, lacks=True):
+    """Two ramps to a strain of 0.6; the specimen's stress has a wave of 3 % that the law lacks; noise of 0.02 MPa."""
+    rng = np.random.default_rng(seed)
+    law = Law(unrelaxed_modulus=900.0, tau_max=8.0, hardening_modulus=3.0)
+    records = []
+    for name, rate in GRID.items():
+        time = np.linspace(0.0, 0.6 / rate, 301)
+        strain = rate * time
+        wave = 1.0 + 0.03 * np.sin(9.0 * strain) if lacks else 1.0
+        stress = law.stress(time, strain, scheme="sa3") * wave + 0.02 * rng.standard_normal(301)
+        records.append(Record(name, time, strain, stress, control="strain-rate"))
+    return Campaign("march", tuple(records))
+
+
+@pytest.fixture(scope="module")
+def march():
+    return Reference.of(made_up(1))
+
+
+def test_nothing_has_changed_where_only_the_noise_is_another(march):
+    """Eight drafts of the noise: the law's own error of 3 %, ten times the noise and more, is no change."""
+    verdicts = [compare(made_up(seed), march, threads=1).verdict for seed in range(2, 10)]
+    assert verdicts == ["nothing_changed"] * 8
+
+
+@pytest.mark.parametrize(
+    ("fault", "size"),
+    [
+        ("force_offset", 0.1),
+        ("force_drift", -0.2),
+        ("force_gain", 0.02),
+        ("force_strain_lag", 1.0),
+        ("slack", 0.01),
+        ("machine_compliance", 4e-4),
+    ],
+)
+def test_a_fault_is_told_with_its_record_and_its_size(march, fault, size):
+    later = made_up(20)
+    done = Injection("fast" if fault == "force_strain_lag" else "slow", fault, size, seed=3)
+    told = measured.told(compare(measured.injected(later, done), march, threads=1), later, done)
+    assert told["held"]
+    assert told["record"]
+    assert told["covered"]
+
+
+def test_a_gain_in_all_records_is_told_as_such_and_not_in_one(march):
+    later = made_up(21)
+    for name in GRID:
+        later = measured.injected(later, Injection(name, "force_gain", 0.03))
+    found = compare(later, march, threads=1)
+    assert ("force_gain",) in [each.effects for each in found.answer_set]
+    assert found.best.records == tuple(GRID)
+
+
+def test_the_intervals_hold_the_truth_as_often_as_they_say(march):
+    """24 offsets at independent noise; 95 % of them, so that fewer than 19 have a chance of 0.1 % (binomial)."""
+    hits = 0
+    rng = np.random.default_rng(5)
+    for seed in range(24):
+        later = made_up(100 + seed)
+        done = Injection("slow", "force_offset", float(rng.uniform(0.08, 0.3)))
+        found = compare(measured.injected(later, done), march, effects=["force_offset", "force_drift"], threads=1)
+        hits += bool(measured.told(found, later, done)["covered"])
+    assert hits >= 19
+
+
+def test_probabilities_sum_to_one_and_the_answer_is_json(march):
+    found = compare(made_up(2), march, threads=1)
+    assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
+    answer = json.loads(found.to_json())
+    assert answer["schema"] == "probation.comparison/1"
+    assert answer["verdict"] == "nothing_changed"
+    assert "Nothing changed since march" in found.summary()
+    assert len(found.plot().axes) == 2
+
+
+def test_records_of_other_names_are_paired_by_hand(march):
+    later = made_up(2)
+    other = replace(later, records=tuple(replace(each, id=f"may-{each.id}") for each in later.records))
+    with pytest.raises(InputError, match="found no record of march"):
+        compare(other, march)
+    found = compare(other, march, pairs={"may-fast": "fast"}, threads=1)
+    assert found.pairs == {"may-fast": ("fast",)}
+    with pytest.raises(InputError, match="found no record 'quick'"):
+        compare(other, march, pairs={"may-fast": "quick"})
+    with pytest.raises(InputError, match="found no change named 'ofset'"):
+        compare(later, march, effects=["ofset"])
+
+
+@pytest.mark.skipif(not measured.DATA.is_dir(), reason="the measured records are not beside the checkout")
+@pytest.mark.parametrize("material", list(measured.SIZES))
+def test_faults_put_into_measured_records_are_told(material):
+    """Plain sizes; bench/measured_injections.py has all of them, and docs/measured-injections.md what it finds."""
+    long = material in ("etfe", "vhb")
+    campaign = measured.measured(material, 6 * measured.FILES[material][1] if long else None)
+    reference = Reference.of(campaign)
+    assert compare(campaign, reference, threads=1).verdict == "nothing_changed"
+    rng = np.random.default_rng(7)
+    faults = ("force_offset", "force_gain") if long else tuple(measured.SIZES[material])
+    for fault in faults:
+        done = measured.drawn(campaign, material, fault, 2, rng)
+        told = measured.told(compare(measured.injected(campaign, done), reference, threads=1), campaign, done)
+        assert told["named"], (done, told)
+        assert told["covered"], (done, told)
+
+
+def test_compare_is_public():
+    assert probation.compare is compare
+
+
+def test_the_command_says_what_changed(tmp_path, capsys):
+    later = measured.injected(made_up(22), Injection("slow", "force_offset", 0.2))
+    made_up(1).save(tmp_path / "march")
+    later.save(tmp_path / "may")
+    answer = tmp_path / "change.json"
+    arguments = ["diagnose", str(tmp_path / "may"), "--against", str(tmp_path / "march"), "--json", str(answer)]
+    assert main(arguments) == 0
+    assert "force offset in slow" in capsys.readouterr().out
+    assert json.loads(answer.read_text())["changes"][0]["effects"] == ["force_offset"]
+    assert main([*arguments, "--report", str(tmp_path / "x.html")]) == 2
+    assert "--report with --against" in capsys.readouterr().err
+    assert main(["diagnose", str(tmp_path / "may"), "--pair", "a=b"]) == 2
+    assert "--pair without --against" in capsys.readouterr().err
