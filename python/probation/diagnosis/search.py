@@ -51,8 +51,9 @@ PLACES = 2
 FORWARD, ADDITIONS = 3, 6
 """How many of the best explanations are added to, and how many additions each is given."""
 
-LEADING = 6
-"""Hypotheses beside which an unknown effect is looked for."""
+LEADING, FEWER = 5, 2
+"""Hypotheses beside which an unknown effect is looked for, and the best of one and of two effects that are in any case:
+beside an unknown one fewer may do."""
 
 HOPELESS = 15.0
 """Log evidence behind the best one from which on a hypothesis is not looked at again."""
@@ -240,7 +241,8 @@ class Search:
 
     def _look_beside_the_leading(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
-        leading = {id(each) for each in self.ranked()[:LEADING]}
+        ahead = [*self.ranked()[:LEADING], *self.ranked(1)[:FEWER], *self.ranked(2)[:FEWER]]
+        leading = {id(each) for each in ahead}
         self.found = [
             self._judged(each.refit, unknown=True)
             if id(each) in leading and not np.isfinite(each.evidence.log_evidence_unknown)
