@@ -247,6 +247,7 @@ def up_and_down():
     [
         ("saturating", (0.3, 0.4), lambda e: math.exp(-0.3 * (1.0 - math.exp(-e / 0.4)))),
         ("growing", (0.2, 1.5), lambda e: math.exp(-0.2 * e**1.5)),
+        ("about_a_strain", (0.3, 0.4, 5.0), lambda e: math.exp(-0.3 * e**5 / (e**5 + 0.4**5))),
     ],
 )
 def test_damage_is_the_area_lost_and_stays(form, values, left):
@@ -378,6 +379,16 @@ def test_slack_is_taken_up_before_the_specimen_is_strained():
     taut = strain > 0.02
     np.testing.assert_allclose(found[taut], 1000.0 * (strain[taut] - 0.02) * math.exp(0.02), rtol=1e-10)
     assert np.all(found[~taut] == 0.0)
+
+
+def test_a_toe_is_taken_up_gradually_and_never_backwards():
+    """The specimen sees e - a tanh(e / e_t), e_t no less than a: its strain never falls."""
+    found, _, strain = faulty("strain_offset", "toe", (0.02, 0.1))
+    lost = 0.02 * np.tanh(strain / 0.1)
+    np.testing.assert_allclose(found, 1000.0 * (strain - lost) * np.exp(lost), rtol=1e-10)
+    sudden, _, strain = faulty("strain_offset", "toe", (0.02, 0.001))
+    lost = 0.02 * np.tanh(strain / 0.02)
+    np.testing.assert_allclose(sudden, 1000.0 * (strain - lost) * np.exp(lost), rtol=1e-10)
 
 
 def test_a_wrong_zero_of_the_strain_only_bends_the_hardening():
@@ -513,3 +524,16 @@ def test_a_saturated_load_cell_stands_still():
     free = strain < 0.357
     np.testing.assert_allclose(found[free], 1000.0 * strain[free], rtol=1e-12)
     np.testing.assert_allclose(found[~free], np.minimum(250.0 * np.exp(strain), 1000.0 * strain)[~free], rtol=1e-12)
+
+
+def test_an_amplifier_bends_into_its_limit():
+    """The hyperbola through 0 whose asymptotes are the force and 250 MPa: at the limit half its rounding is missing;
+    well below and well above it is the clip."""
+    limit, rounding = 250.0, 0.02
+    found, _, strain = faulty("force_saturation", "bend", (1.0 / limit, rounding))
+    force, read = 1000.0 * strain * np.exp(-strain), found * np.exp(-strain)
+    far = np.abs(force - limit) > 0.3 * limit
+    np.testing.assert_allclose(read[far], np.minimum(force, limit)[far], rtol=1e-3, atol=0.1)
+    at_limit = int(np.argmin(np.abs(force[: len(force) // 2] - limit)))
+    assert limit - read[at_limit] == pytest.approx(0.5 * rounding * limit, rel=0.2)
+    assert found[0] == 0.0
