@@ -83,8 +83,7 @@ def evidence(
     """
     problem = Linearised.of(found, discrepancy, forms)
     done = discrepancy.energy(found.residual - base.residual)
-    errors = FORM_ERRORS if found.model.causes else (0.0,)
-    weights = FORM_WEIGHTS if found.model.causes else (1.0,)
+    errors, weights = (FORM_ERRORS, FORM_WEIGHTS) if done.any() else ((0.0,), (1.0,))
     scores = [
         problem.log_integral(discrepancy.variances(error**2 * done)) + float(np.log(weight))
         for error, weight in zip(errors, weights, strict=True)
@@ -97,6 +96,7 @@ def evidence(
     if unknown:
         common = discrepancy.common if forms is None else np.hstack([forms, discrepancy.common])
         beside = log_evidence_of_unknown(problem, Linearised.of(found, discrepancy, common), discrepancy)
-    exact = problem if forms is None else Linearised.of(found, discrepancy)
-    plain = exact.log_integral(discrepancy.variances(0.0 * done))
+    plain = scores[0] - float(np.log(weights[0]))
+    if forms is not None:
+        plain = Linearised.of(found, discrepancy).log_integral(discrepancy.variances(0.0 * done))
     return Evidence(together, form_error, beside, covariance, plain)
