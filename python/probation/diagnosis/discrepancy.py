@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.gap.harmless_drift import harmless_drift
 from probation.gap.smooth_basis import smooth_basis
+from probation.gap.span import span_of
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -45,6 +46,8 @@ class Discrepancy:
         Covariance of the slow noise along the waves that whitening has left; see `gap.harmless_drift`.
     common : ndarray, shape (N, m)
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
+    specimens : ndarray, shape (N, m)
+        What other parameters in one record alone do, whitened; none where there is one record.
     """
 
     columns: tuple[FloatArray, ...]
@@ -53,6 +56,7 @@ class Discrepancy:
     places: tuple[slice, ...]
     drift: FloatArray
     common: FloatArray
+    specimens: FloatArray
 
     @classmethod
     def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
@@ -76,7 +80,15 @@ class Discrepancy:
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         drift = harmless_drift(whitened, columns, signals)
-        return cls(tuple(columns), tuple(spectrum), whitened.slices, tuple(places), drift, _over_strain(whitened))
+        return cls(
+            columns=tuple(columns),
+            spectrum=tuple(spectrum),
+            slices=whitened.slices,
+            places=tuple(places),
+            drift=drift,
+            common=_over_strain(whitened),
+            specimens=_of_specimens(whitened),
+        )
 
     def __len__(self) -> int:
         return int(self.places[-1].stop)
@@ -115,3 +127,17 @@ def _over_strain(whitened: Whitened) -> FloatArray:
     falls = [(1.0 + orders) ** -power for power in SOFTNESS]
     share = np.mean([each / each.sum() for each in falls], axis=0)
     return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(share))
+
+
+def _of_specimens(whitened: Whitened) -> FloatArray:
+    """Orthonormal columns of every record's own tangent; the energies of all sum to 1."""
+    if len(whitened.records) < 2:
+        return np.zeros((len(whitened), 0))
+    blocks = []
+    for record, noise, part in zip(whitened.records, whitened.noises, whitened.slices, strict=True):
+        own = span_of(noise.whiten(record.tangent))
+        block = np.zeros((len(whitened), own.shape[1]))
+        block[part] = own
+        blocks.append(block)
+    columns = np.hstack(blocks)
+    return np.asarray(columns / np.sqrt(max(columns.shape[1], 1)))

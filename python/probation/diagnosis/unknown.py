@@ -1,7 +1,8 @@
-"""An effect outside the catalogue: a smooth discrepancy of any size, in one record, in all alike, or in each its own.
+"""An effect outside the catalogue: whatever it does, it does it smoothly, or from specimen to specimen.
 
-Which of these it is nobody knows beforehand, so that each has a share of the prior, and its size is integrated over:
-what is the same function of the strain in all records needs a few numbers to be told, what is another in each many.
+It may be one function of the strain in all records; other parameters of the law in each record; a smooth discrepancy in
+one record, of one size in all, or of its own size in each. Which of these nobody knows beforehand, so that each has a
+share of the prior and its size is integrated over: what a few numbers tell earns more than what takes many.
 """
 
 from __future__ import annotations
@@ -12,32 +13,36 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
+from probation.diagnosis.laplace import Linearised
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.discrepancy import Discrepancy
-    from probation.diagnosis.laplace import Linearised
+    from probation.diagnosis.refit import Refit
 
 SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 
-OF_THE_STRAIN, ALIKE, IN_ONE, IN_EACH = 0.3, 0.3, 0.3, 0.1
-"""Prior shares: one function of the strain, one size in all records, in one record only, a size in each."""
+OF_THE_STRAIN, OF_THE_SPECIMEN, ALIKE, IN_ONE, IN_EACH = 0.25, 0.2, 0.25, 0.2, 0.1
+"""Prior shares: one function of the strain, other parameters in each record, one size in all records, in one record
+only, a size in each."""
 
 RECORDS = 2
 """Records that are tried alone, those with the most left."""
 
 
-def log_evidence_of_unknown(problem: Linearised, common: Linearised, discrepancy: Discrepancy) -> float:
+def log_evidence_of_unknown(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> float:
     """Log evidence of an explanation with an unknown effect beside it.
 
     Parameters
     ----------
-    problem : Linearised
+    found : Refit
         Of the explanation.
-    common : Linearised
-        The same with the discrepancy's waves over the strain as its last columns.
     discrepancy : Discrepancy
+    forms : ndarray, shape (N, m), optional
+        Ways in which its forms may be wrong.
     """
+    problem = Linearised.of(found, discrepancy, forms)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual
     left = np.array(
@@ -45,13 +50,14 @@ def log_evidence_of_unknown(problem: Linearised, common: Linearised, discrepancy
     )
     alone = np.argsort(left)[::-1][:RECORDS]
     one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
-    found = [
-        np.log(OF_THE_STRAIN) + _of_the_strain(common, discrepancy.common.shape[1]),
+    scores = [
+        np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
+        np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
         np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
         np.log(IN_ONE / count) + float(logsumexp(one)),
         np.log(IN_EACH) + _in_each(problem, discrepancy, left),
     ]
-    return float(logsumexp(found))
+    return float(logsumexp(scores))
 
 
 def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArray) -> float:
@@ -60,16 +66,18 @@ def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArr
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 
 
-def _of_the_strain(common: Linearised, waves: int) -> float:
-    """Mean over the sizes of one function of the strain."""
-    if waves == 0:
+def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, columns: FloatArray) -> float:
+    """Mean over the sizes of a discrepancy along given columns, of independent amplitudes."""
+    count = columns.shape[1]
+    if count == 0:
         return -np.inf
-    nothing = np.zeros(len(common.waves_of_residual))
+    beside = Linearised.of(found, discrepancy, columns if forms is None else np.hstack([forms, columns]))
+    nothing = np.zeros(len(beside.waves_of_residual))
     scores = []
     for size in SIZES:
-        precision = common.precision.copy()
-        precision[-waves:] = 1.0 / size
-        sized = replace(common, precision=precision, log_prior=common.log_prior - 0.5 * waves * float(np.log(size)))
+        precision = beside.precision.copy()
+        precision[-count:] = 1.0 / size
+        sized = replace(beside, precision=precision, log_prior=beside.log_prior - 0.5 * count * float(np.log(size)))
         scores.append(sized.log_integral(nothing))
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 

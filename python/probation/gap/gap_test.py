@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.gap.beside import whitened_beside
+from probation.gap.loudness import loudness
 from probation.gap.smooth_basis import WAVES, smooth_basis
 from probation.gap.span import span_of, without
 from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
@@ -136,15 +137,18 @@ class GapTester:
                 self._families.append((f"record {record.name}", slice(at, at + columns.shape[1])))
                 at += columns.shape[1]
         self._effects: list[str] = []
+        columns_of: list[FloatArray] = []
         for name, whole in given.items():
             size_of = np.sum(whole**2, axis=0)
             columns = without(self._reduced.of(whole), span)
             norm = np.sum(columns**2, axis=0)
             seen = norm > ABSORBED * np.maximum(size_of, 1e-300)
             parts.append(columns[:, seen] / np.sqrt(norm[seen]))
+            columns_of.append(whole[:, seen] / np.sqrt(norm[seen]))
             self._effects += [name] * int(np.count_nonzero(seen))
         self._effect_slice = slice(at, at + len(self._effects))
         self._features = np.hstack(parts)
+        self._directions = whitened.project(np.hstack(columns_of)) if columns_of else np.zeros((len(whitened), 0))
         rng = np.random.default_rng(seed)
         products = self._reduced.draws(self._features, rng, size)
         # How many independent directions the effects amount to, read off the draws' own tail.
@@ -169,7 +173,8 @@ class GapTester:
         z = whitened.residual if residual is None else residual
         seen = self._reduced.of(z)
         smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
-        products = np.concatenate([smooth.T @ self._beside_drift(seen), directed.T @ seen])[None]
+        scores_of = directed.T @ seen / loudness(self._directions, z, whitened.slices)
+        products = np.concatenate([smooth.T @ self._beside_drift(seen), scores_of])[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
