@@ -16,7 +16,7 @@ from probation.diagnosis.explain import base_parameters, explanations_of, region
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import next_test_of
-from probation.diagnosis.probabilities import answer_set, weigh, with_none_leading, with_unknown_leading
+from probation.diagnosis.probabilities import TEMPERED, answer_set, weigh, with_none_leading, with_unknown_leading
 from probation.diagnosis.remaining import remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
@@ -110,7 +110,7 @@ def diagnose(
     told(0.35)
     if gap.rejected:
         base, found = _searched(base, considered, workers, lambda part: told(0.35 + 0.45 * part))
-        weighed = weigh(found, len(considered))
+        weighed = weigh(found, len(considered), TEMPERED)
     else:
         found = linear_hypotheses(base, base.columns)
         weighed = with_none_leading(weigh(found, len(considered)))

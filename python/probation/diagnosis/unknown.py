@@ -14,6 +14,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from probation.diagnosis.laplace import Linearised
+from probation.gap.span import span_of, without
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -42,7 +43,9 @@ def log_evidence_of_unknown(found: Refit, discrepancy: Discrepancy, forms: Float
     forms : ndarray, shape (N, m), optional
         Ways in which its forms may be wrong.
     """
-    problem = Linearised.of(found, discrepancy, forms)
+    nothing = np.zeros(len(discrepancy))
+    told = Linearised.of(found, discrepancy, forms)
+    problem = _where_it_is(told)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual
     left = np.array(
@@ -57,7 +60,14 @@ def log_evidence_of_unknown(found: Refit, discrepancy: Discrepancy, forms: Float
         np.log(IN_ONE / count) + float(logsumexp(one)),
         np.log(IN_EACH) + _in_each(problem, discrepancy, left),
     ]
-    return float(logsumexp(scores))
+    return float(logsumexp(scores)) + told.log_integral(nothing) - problem.log_integral(nothing)
+
+
+def _where_it_is(problem: Linearised) -> Linearised:
+    """Priors as broad as they are, but around the optimum: an unknown effect must not pay by making a large effect
+    beside it small, only by what it describes.
+    """
+    return replace(problem, away=np.zeros_like(problem.away))
 
 
 def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArray) -> float:
@@ -71,7 +81,10 @@ def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, col
     count = columns.shape[1]
     if count == 0:
         return -np.inf
-    beside = Linearised.of(found, discrepancy, columns if forms is None else np.hstack([forms, columns]))
+    # What the law's own parameters, of flat priors, can follow is free; left in, it would cost digits.
+    columns = without(columns, span_of(found.jacobian[:, : found.model.base_count]))
+    together = columns if forms is None else np.hstack([forms, columns])
+    beside = _where_it_is(Linearised.of(found, discrepancy, together))
     nothing = np.zeros(len(beside.waves_of_residual))
     scores = []
     for size in SIZES:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.gap.beside import whitened_beside
-from probation.gap.loudness import loudness
+from probation.gap.loudness import loudness, samples_within
 from probation.gap.smooth_basis import WAVES, smooth_basis
 from probation.gap.span import span_of, without
 from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
@@ -151,6 +151,10 @@ class GapTester:
         self._directions = whitened.project(np.hstack(columns_of)) if columns_of else np.zeros((len(whitened), 0))
         rng = np.random.default_rng(seed)
         products = self._reduced.draws(self._features, rng, size)
+        if self._effects:
+            within = samples_within(self._directions)
+            loud = rng.chisquare(within, (size, len(within))) / within
+            products[:, self._effect_slice] /= np.sqrt(np.maximum(loud, 1.0))
         # How many independent directions the effects amount to, read off the draws' own tail.
         self._effective = 1.0
         if self._effects:

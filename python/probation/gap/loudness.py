@@ -12,6 +12,15 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
+MEMORY = 35.0 / 18.0
+"""Sum of the squared correlations of second differences of white noise, 1 + 2 (2/3)^2 + 2 (1/6)^2."""
+
+
+def samples_within(directions: FloatArray) -> FloatArray:
+    """So many independent readings tell the loudness of each of the unit signals (N, m); shape (m,)."""
+    return np.asarray(1.0 / (MEMORY * np.maximum(np.sum(directions**4, axis=0), 1e-300)), dtype=np.float64)
+
+
 def loudness(directions: FloatArray, residual: FloatArray, slices: Sequence[slice]) -> FloatArray:
     """Standard deviation of the rough part of a whitened residual, weighted by each signal's square; not below 1.
 
