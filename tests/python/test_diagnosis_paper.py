@@ -47,6 +47,15 @@ def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
     assert NOISE < found.shrink.held_out.after_MPa < 5.0
 
 
+def test_it_is_named_where_the_modulus_cannot_be_known():
+    """Experiment 2 tells little of E_u: what the data leave open must not make an unknown effect of rounding errors."""
+    twins = twin_campaign((2,))
+    found = diagnose(Campaign(twins.name, twins.records, LawSettings()), design=False)
+    assert found.best.effects == (MISSING,)
+    assert found.best.probability > 0.8
+    assert found.shrink.identify.after_MPa < 1.5 * NOISE
+
+
 @pytest.mark.parametrize(("number", "other"), [(2, 3), (3, 2)])
 def test_the_gap_falls_to_the_noise_on_other_kinematics_too(number, other):
     """One law for all: necking otherwise at the same grip speed, and at a grip speed four times another."""

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from probation.diagnosis.discrepancy import Discrepancy
     from probation.diagnosis.refit import Refit
 
+UNKNOWN = 1e-10
+"""Eigenvalue of the normal matrix of unit diagonal below which nothing is known of a direction but rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Linearised:
@@ -92,8 +95,9 @@ class Linearised:
         pull = gradient + self.precision * self.away
         size = np.sqrt(np.maximum(np.diag(total), 1e-300))
         values, vectors = np.linalg.eigh(total / np.outer(size, size))
-        values = np.maximum(values, 1e-14)
-        turned = vectors.T @ (pull / size)
+        # A direction that neither data nor priors know is left where it is: its slope is rounding.
+        turned = np.where(values > UNKNOWN, vectors.T @ (pull / size), 0.0)
+        values = np.maximum(values, UNKNOWN)
         step = (vectors @ (turned / values)) / size
         quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
         deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
