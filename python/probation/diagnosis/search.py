@@ -182,13 +182,14 @@ class Search:
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
 
         def credible(each: Candidate) -> bool:
+            sharp = each.cause.form.sharp
             places = {*steps} if each.cause.records is None else {*each.cause.records}
-            if each.cause.form.sharp == "line":
+            if sharp is None or (sharp == "step" and each.gain > PLAIN * (smooth + AHEAD)):
+                return True
+            if sharp == "line":
                 return bool(places & lines)
             level = HARDLY if each.gain > smooth + AHEAD else CREDIBLE
-            if each.gain > PLAIN * (smooth + AHEAD):
-                return True
-            return each.cause.form.sharp is None or min((steps.get(name, 1.0) for name in places), default=1.0) < level
+            return min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
         return [each for each in candidates if credible(each)]
 

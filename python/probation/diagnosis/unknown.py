@@ -64,9 +64,8 @@ def log_evidence_of_unknown(found: Refit, discrepancy: Discrepancy, forms: Float
 
 
 def _where_it_is(problem: Linearised) -> Linearised:
-    """Priors as broad as they are, but around the optimum: an unknown effect must not pay by making a large effect
-    beside it small, only by what it describes.
-    """
+    """The same with priors as broad as they are, but around the optimum."""
+    # An unknown effect must earn by what it describes, not by making a large effect beside it small.
     return replace(problem, away=np.zeros_like(problem.away))
 
 
