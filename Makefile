@@ -43,7 +43,7 @@ bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one woul
 
 blind: $(VENV)/.engine  ## make, solve and score a small sealed split; fails beyond the thresholds of tests/blind
 	@rm -rf build/blind
-	@$(BIN)/probation blind make --seed 21 --count 48 --out build/blind
+	@$(BIN)/probation blind make --seed 21 --count 40 --out build/blind
 	@$(BIN)/probation blind solve build/blind
 	@$(BIN)/probation blind score build/blind --report build/blind/score.html --require tests/blind/thresholds.json
 
