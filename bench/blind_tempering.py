@@ -9,11 +9,14 @@ that an answer does not list count as 1e-4; look-alikes from outside are left ou
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
 import numpy as np
 
+from probation.blind.layout import Layout
+from probation.blind.scores.answer import read_answer
+from probation.blind.scores.case import Case
+from probation.blind.seal import open_truth, read_json
 from probation.diagnosis.probabilities import TEMPERED, log_prior
 
 POWERS = (1.0, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
@@ -23,13 +26,13 @@ LEAST = 1e-4
 
 def cases(folder):
     """Probabilities by explanation, and the true explanation, of every campaign where a gap was seen."""
-    for path in sorted((folder / "answers").glob("*.json")):
-        answer = json.loads(path.read_text())["diagnosis"]
-        truth = json.loads((folder / "truths" / path.name).read_text())
-        truth = json.loads(truth["truth"]) if isinstance(truth.get("truth"), str) else truth.get("truth", truth)
-        if answer["verdict"] != "no_gap" and truth["stratum"] != "mimic":
-            found = {tuple(cause["effects"]): cause["probability"] for cause in answer["causes"]}
-            yield found, tuple(truth["explanation"])
+    layout = Layout(folder)
+    for name, seal in layout.published()[1].items():
+        path = layout.answers / f"{name}.json"
+        answer = read_answer(read_json(path)["diagnosis"], str(path))
+        case = Case(name, open_truth(layout.truths / f"{name}.json", seal), answer)
+        if answer.gap and case.stratum != "mimic":
+            yield answer.probability, case.explanation
 
 
 def scored(found, truth, power):

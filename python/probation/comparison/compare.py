@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import replace
 from math import log
 from typing import TYPE_CHECKING
@@ -20,9 +19,12 @@ from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.comparison.search import ChangeSearch, Found
 from probation.comparison.words import headline
+from probation.diagnosis.diagnose import SCHEMES
+from probation.diagnosis.probabilities import leading
 from probation.diagnosis.thinning import thin
 from probation.excitation import excite
 from probation.gap.model import CampaignModel
+from probation.gap.parallel import usual_threads
 from probation.gap.record_view import views_of
 from probation.gap.view_residual import residual_of
 
@@ -37,7 +39,6 @@ if TYPE_CHECKING:
 NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
 """Probabilities beforehand: nothing changed, one cause, two, something unknown, that beside one cause."""
 
-COVERED = 0.95
 SPECIMENS = "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs"
 
 TOLD = 1e-4
@@ -83,8 +84,8 @@ def compare(
     InputError
         For records that do not belong together, an unknown effect, or as `probation.fit`.
     """
-    one_of(scheme, "scheme", ("be2", "sa2", "sa3"))
-    workers = threads or min(os.cpu_count() or 1, 4)
+    one_of(scheme, "scheme", SCHEMES)
+    workers = threads or usual_threads()
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     against = reference.campaign
     together = pair(campaign, against, pairs)
@@ -98,7 +99,7 @@ def compare(
     verdict: Verdict = "nothing_changed" if not shown[0].effects else "changed"
     if shown[0].effects == ("unknown",):
         verdict = "unknown_change"
-    answers = _answer_set(shown)
+    answers = leading(shown)
     curves = _curves(search, best)
     return Comparison(
         campaign=campaign.name,
@@ -219,16 +220,6 @@ def _parameters(search: ChangeSearch, found: Found | None) -> tuple[ChangedParam
                 )
                 at += 1
     return tuple(result)
-
-
-def _answer_set(explanations: Sequence[ChangeExplanation]) -> tuple[ChangeExplanation, ...]:
-    chosen, total = [], 0.0
-    for each in explanations:
-        chosen.append(each)
-        total += each.probability
-        if total >= COVERED:
-            break
-    return tuple(chosen)
 
 
 def _curves(search: ChangeSearch, best: Found | None) -> dict[str, ChangeCurves]:

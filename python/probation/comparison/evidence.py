@@ -9,6 +9,7 @@ import numpy as np
 from scipy.special import log_ndtr, logsumexp
 
 from probation.gap.smooth_basis import smooth_basis
+from probation.gap.span import orthonormal
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -41,11 +42,9 @@ class SmoothChange:
     def of(cls, record: RecordResidual, noise: NoiseModel) -> SmoothChange:
         """Of one record."""
         basis = smooth_basis(record.time, record.jumps, ROUGHEST)
-        whitened = noise.whiten(basis.columns)
-        left, upper = np.linalg.qr(whitened / np.linalg.norm(whitened, axis=0))
-        kept = np.abs(np.diag(upper)) > 1e-4
+        columns, kept = orthonormal(noise.whiten(basis.columns))
         spectrum = (1.0 + basis.order[kept]) ** -SOFTNESS
-        return cls(left[:, kept], spectrum / spectrum.sum())
+        return cls(columns, spectrum / spectrum.sum())
 
 
 @dataclass(frozen=True, eq=False)

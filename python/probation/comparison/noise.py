@@ -9,8 +9,9 @@ import numpy as np
 
 from probation.comparison.measured_law import ENDS, followed
 from probation.comparison.strain_path import branches
+from probation.gap.carried import carried_noise
 from probation.gap.drift import LEAST, with_drift
-from probation.gap.noise import carried_strain_noise, estimate_noise
+from probation.gap.noise import estimate_noise
 from probation.gap.view_residual import residual_of
 
 if TYPE_CHECKING:
@@ -32,8 +33,6 @@ FAR = 8.0
 
 OUTLYING = 100
 """One in so many samples, the worst, is not asked how large the noise is."""
-
-STRAIN_STEP = 1e-6
 
 
 def own_residual(view: RecordView, law: DnlrLaw) -> RecordResidual:
@@ -94,7 +93,7 @@ def change_noise(
         for frame, noise in zip(followed, references, strict=True)
     ]
     columns.append(_undecided(view, law, missed))
-    strain = strain_noise(law, view, excitation)
+    strain = carried_noise(law, view, excitation, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
     return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())
@@ -116,20 +115,3 @@ def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) ->
     columns = np.zeros((len(view), len(at)))
     columns[sorted(at), np.arange(len(at))] = float(np.max(np.abs(view.data)))
     return columns
-
-
-def strain_noise(law: MeasuredLaw, view: RecordView, excitation: Excitation) -> FloatArray | None:
-    """What a smoothed strain's noise does to the stress, (n, waves) [MPa]; None where it is as measured."""
-    if excitation.operators is None or not excitation.strain_noise > 0.0:
-        return None
-    still = law.stress(view, law.start)
-
-    def apply(columns: FloatArray) -> FloatArray:
-        found = np.empty_like(columns)
-        for index, column in enumerate(columns.T):
-            scale = STRAIN_STEP / max(float(np.max(np.abs(column))), 1e-300)
-            found[:, index] = (law.stress(view.driven(view.true_strain + scale * column), law.start) - still) / scale
-        return found
-
-    deviation = excitation.strain_noise * np.sqrt(excitation.noise_inflation)
-    return carried_strain_noise(apply, deviation, len(view))

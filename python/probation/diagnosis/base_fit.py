@@ -13,11 +13,13 @@ from probation.diagnosis.discrepancy import Discrepancy
 from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
 from probation.excitation import excite
+from probation.gap.carried import carried_noise
 from probation.gap.dnlr_law import DnlrLaw
 from probation.gap.drift import LIKE_AN_EFFECT, estimate_drift, with_drift
 from probation.gap.model import CampaignModel
-from probation.gap.noise import carried_strain_noise, estimate_noise
+from probation.gap.noise import estimate_noise
 from probation.gap.record_view import views_of
+from probation.gap.screen import screen
 from probation.gap.view_residual import residual_of
 from probation.gap.whitener import Whitener
 from probation.gap.whitening import Whitened
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.excitation import Excitation
+    from probation.gap.effect import Effect
     from probation.gap.noise_model import NoiseModel
     from probation.gap.protocol import GapLaw
     from probation.gap.record_residual import RecordResidual
@@ -40,9 +43,6 @@ if TYPE_CHECKING:
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
-
-STRAIN_STEP = 1e-6
-"""Strain by which the law is probed for what strain noise does to the stress."""
 
 PARAMETERS = 3
 
@@ -95,6 +95,20 @@ class BaseFit:
     def columns(self) -> WhitenedColumns:
         """The signals in white coordinates."""
         return WhitenedColumns.of(self.signals, self.whitener, len(self.whitened))
+
+    def screened(self, effects: Sequence[Effect], threads: int = 2) -> BaseFit:
+        """The same with the signals of these effects."""
+        return replace(self, signals=tuple(screen(self.model, self.parameters, effects, threads=threads)))
+
+    def columns_with_starts(self, effects: Sequence[Effect], threads: int = 2) -> WhitenedColumns:
+        """The signals, and those whose shapes begin where the residual says.
+
+        For a search only: in a gap test they would find what chance put there.
+        """
+        started = [each for each in effects if any(form.starts is not None for form in each.forms)]
+        residual = self.model.residual(self.parameters)
+        more = screen(self.model, self.parameters, started, residual=residual, threads=threads)
+        return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
 
     @property
     def whitener(self) -> Whitener:
@@ -197,7 +211,7 @@ def fit_views(
             raw[part],
             jacobian[part],
             given_noise=known[view.id].noise.stress_MPa,
-            carried=_carried(law, view, excitations[view.id], parameters),
+            carried=carried_noise(law, view, excitations[view.id], parameters),
         )
         for view, part in model.parts
     ]
@@ -244,22 +258,3 @@ def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     drift = estimate_drift(Whitened.of(residuals, noises))
     alike = min(drift, LIKE_AN_EFFECT)
     return tuple(with_drift(noise, alike, drift - alike) for noise in noises)
-
-
-def _carried(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray | None:
-    """What a smoothed strain's noise does to the stress, (n_samples, waves) [MPa]; None where it is as measured."""
-    if excitation.operators is None or not excitation.strain_noise > 0.0:
-        return None
-    still = law.stress(view, parameters)
-    instants, samples = view.time, view.sampled(view.time)
-
-    def apply(columns: FloatArray) -> FloatArray:
-        found = np.empty_like(columns)
-        for index, column in enumerate(columns.T):
-            size = max(float(np.max(np.abs(column))), 1e-300)
-            moved = view.true_strain + STRAIN_STEP / size * np.interp(instants, samples, column)
-            found[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)
-        return found
-
-    deviation = excitation.strain_noise * np.sqrt(excitation.noise_inflation)
-    return carried_strain_noise(apply, deviation, len(samples))

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation._arrays import one_of
 from probation.diagnosis.base_fit import BaseFit, base_fit, fit_law, with_noise_beside
-from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
@@ -26,8 +23,8 @@ from probation.diagnosis.signatures import signatures
 from probation.diagnosis.thinning import thin
 from probation.gap.gap_test import GapTester
 from probation.gap.isolability import isolability
+from probation.gap.parallel import usual_threads
 from probation.gap.registry import effects as catalogue
-from probation.gap.screen import screen
 from probation.gap.where import locate
 
 if TYPE_CHECKING:
@@ -93,7 +90,7 @@ def diagnose(
     """
     one_of(scheme, "scheme", SCHEMES)
     considered = catalogue(effects)
-    workers = threads or min(os.cpu_count() or 1, 4)
+    workers = threads or usual_threads()
 
     campaign, thinned = thin(campaign)
 
@@ -103,7 +100,7 @@ def diagnose(
 
     base = base_fit(campaign, scheme, hold) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
-    base = replace(base, signals=tuple(screen(base.model, base.parameters, considered, threads=workers)))
+    base = base.screened(considered, workers)
     told(0.2)
     gap = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
@@ -191,12 +188,8 @@ def _searched(
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
-    # Starts that are read off the residual come in here: in the gap test they would find what chance put there.
-    sharp = [each for each in considered if any(form.starts is not None for form in each.forms)]
-    residual = base.model.residual(base.parameters)
-    more = screen(base.model, base.parameters, sharp, residual=residual, threads=threads)
     search = Search(base, considered, threads, progress)
-    found = search.run(base.columns.and_(WhitenedColumns.of(more, base.whitener, len(base.whitened))))
+    found = search.run(base.columns_with_starts(considered, threads))
     leading = search.ranked()
     if not leading:
         return base, found

@@ -92,7 +92,7 @@ def evidence(
     posterior = np.exp(np.array(scores) - together)
     form_error = float(posterior @ np.array(errors))
     covariance = problem.covariance(discrepancy.variances(form_error**2 * done))
-    beside = log_evidence_of_unknown(found, discrepancy, forms) if unknown else -np.inf
+    beside = log_evidence_of_unknown(problem, found, discrepancy, forms) if unknown else -np.inf
     plain = scores[0] - float(np.log(weights[0]))
     if forms is not None:
         plain = Linearised.of(found, discrepancy).log_integral(discrepancy.variances(0.0 * done))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import comb, log
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 from scipy.special import logsumexp
@@ -34,6 +34,17 @@ ABOUT_AS_PROBABLE = 12.0
 
 COVERED = 0.95
 """Probability that an answer set holds."""
+
+
+class HasProbability(Protocol):
+    """Anything with a probability."""
+
+    @property
+    def probability(self) -> float:
+        """From 0 to 1."""
+
+
+Probable = TypeVar("Probable", bound=HasProbability)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,9 +156,14 @@ def log_prior(effects: tuple[str, ...], count: int) -> float:
 
 def answer_set(weighed: Sequence[Weighed], covered: float = COVERED) -> tuple[tuple[str, ...], ...]:
     """The most probable explanations that hold so much probability together, best first."""
+    return tuple(each.effects for each in leading(weighed, covered))
+
+
+def leading(ranked: Sequence[Probable], covered: float = COVERED) -> tuple[Probable, ...]:
+    """The first of what is ranked by probability that hold so much of it together."""
     chosen, total = [], 0.0
-    for each in weighed:
-        chosen.append(each.effects)
+    for each in ranked:
+        chosen.append(each)
         total += each.probability
         if total >= covered:
             break

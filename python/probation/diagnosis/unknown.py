@@ -32,19 +32,22 @@ RECORDS = 2
 """Records that are tried alone, those with the most left."""
 
 
-def log_evidence_of_unknown(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> float:
+def log_evidence_of_unknown(
+    told: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
+) -> float:
     """Log evidence of an explanation with an unknown effect beside it.
 
     Parameters
     ----------
+    told : Linearised
+        The explanation, its forms' errors included.
     found : Refit
-        Of the explanation.
+        The same as it was found.
     discrepancy : Discrepancy
     forms : ndarray, shape (N, m), optional
         Ways in which its forms may be wrong.
     """
     nothing = np.zeros(len(discrepancy))
-    told = Linearised.of(found, discrepancy, forms)
     problem = _where_it_is(told)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual

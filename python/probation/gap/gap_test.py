@@ -11,7 +11,7 @@ import numpy as np
 from probation.gap.beside import whitened_beside
 from probation.gap.loudness import loudness, samples_within
 from probation.gap.smooth_basis import WAVES, smooth_basis
-from probation.gap.span import span_of, without
+from probation.gap.span import orthonormal, span_of, without
 from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
 
 if TYPE_CHECKING:
@@ -33,9 +33,6 @@ DIRECTED_SHARE = 0.7
 
 LEVEL = 0.005
 """A gap is declared below this p-value: false alarms of 1 % leave room for noise that is not as it was modelled."""
-
-DEPENDENT = 1e-4
-"""Part of a smooth column that smoother ones and the base parameters leave, below which it adds nothing."""
 
 ABSORBED = 1e-8
 """Squared norm of a projected direction over the whole one's, below which the base parameters hide it altogether."""
@@ -120,7 +117,7 @@ class GapTester:
         # No wave is a sign of an effect that the rest of the drift makes, too.
         waves = self._beside_drift(self._reduced.of(waves))
         waves = without(waves, span_of(self._beside_drift(span)))
-        smooth, kept = _orthonormal(waves)
+        smooth, kept = orthonormal(waves)
         full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
         for most in ORDERS:  # nested: the smoother columns come first
@@ -132,23 +129,23 @@ class GapTester:
         if len(whitened.records) > 1:
             for index, record in enumerate(whitened.records):
                 ours = waves[:, (owner == index) & (full_order < RECORD_ORDER)]
-                columns = _orthonormal(ours)[0]
+                columns = orthonormal(ours)[0]
                 parts.append(columns)
                 self._families.append((f"record {record.name}", slice(at, at + columns.shape[1])))
                 at += columns.shape[1]
         self._effects: list[str] = []
-        columns_of: list[FloatArray] = []
+        signals: list[FloatArray] = []
         for name, whole in given.items():
             size_of = np.sum(whole**2, axis=0)
             columns = without(self._reduced.of(whole), span)
             norm = np.sum(columns**2, axis=0)
             seen = norm > ABSORBED * np.maximum(size_of, 1e-300)
             parts.append(columns[:, seen] / np.sqrt(norm[seen]))
-            columns_of.append(whole[:, seen] / np.sqrt(norm[seen]))
+            signals.append(whole[:, seen] / np.sqrt(norm[seen]))
             self._effects += [name] * int(np.count_nonzero(seen))
         self._effect_slice = slice(at, at + len(self._effects))
         self._features = np.hstack(parts)
-        self._directions = whitened.project(np.hstack(columns_of)) if columns_of else np.zeros((len(whitened), 0))
+        self._directions = whitened.project(np.hstack(signals)) if signals else np.zeros((len(whitened), 0))
         rng = np.random.default_rng(seed)
         products = self._reduced.draws(self._features, rng, size)
         if self._effects:
@@ -177,8 +174,8 @@ class GapTester:
         z = whitened.residual if residual is None else residual
         seen = self._reduced.of(z)
         smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
-        scores_of = directed.T @ seen / loudness(self._directions, z, whitened.slices)
-        products = np.concatenate([smooth.T @ self._beside_drift(seen), scores_of])[None]
+        directed_scores = directed.T @ seen / loudness(self._directions, z, whitened.slices)
+        products = np.concatenate([smooth.T @ self._beside_drift(seen), directed_scores])[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
@@ -254,11 +251,3 @@ def _smooth_columns(whitened: Whitened) -> tuple[FloatArray, NDArray[np.intp], N
     columns /= np.linalg.norm(columns, axis=0)
     ranking = np.argsort(order, kind="stable")
     return columns[:, ranking], order[ranking], owner[ranking]
-
-
-def _orthonormal(columns: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Orthonormal columns in the given order; one that hangs on those before it is left out."""
-    size = np.linalg.norm(columns, axis=0)
-    left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
-    kept = np.abs(np.diag(upper)) > DEPENDENT
-    return np.asarray(left[:, kept], dtype=np.float64), kept

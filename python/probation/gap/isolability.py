@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -13,6 +12,7 @@ from probation.errors import InputError
 from probation.gap.effect_design import Design
 from probation.gap.effect_signals import effect_signals
 from probation.gap.isolability_words import headline, sentence
+from probation.gap.parallel import in_parallel
 from probation.gap.planned_record import as_predicted
 from probation.gap.rivalry import Rivalry
 from probation.gap.telling_apart import DETECTED, TOLD_APART
@@ -228,8 +228,7 @@ def isolability(
     cosine, probability = (
         np.array(each) for each in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
     )
-    with ThreadPoolExecutor(threads) as pool:
-        smallest = list(pool.map(lambda k: design.smallest_seen(signals[k], float(sizes[k])), rivalry.chosen))
+    smallest = in_parallel(lambda k: design.smallest_seen(signals[k], float(sizes[k])), rivalry.chosen, threads)
     found = [
         _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
         for row, k in enumerate(rivalry.chosen)

@@ -113,21 +113,14 @@ def _aims(board: Plain) -> list[Aim]:
     nulls = _part(_part(board, "by_stratum"), "none")
     detection, where, unknown = (_part(board, name) for name in ("detection", "where", "unknown"))
     held_out = _part(_part(board, "closure"), "held_out")
-    over = _part(held_out, "over_oracle")
+    over, overlap = _part(held_out, "over_oracle"), {"n": _part(where, "overlap_of_0.6")["n"]}
     return [
         _rate("false alarms on nulls", _part(board, "false_alarms"), high=0.01),
         _rate("gaps found at √λ about 5", _part(detection, "5"), low=0.90),
         _rate("gaps found at √λ about 8", _part(detection, "8"), low=0.99),
         _rate("resolvable causes named", _part(resolvable, "top1"), low=0.95),
         _beside_oracle(resolvable),
-        Aim(
-            "probability on the truth, resolvable",
-            cast("int", resolvable["n"]),
-            cast("float | None", resolvable["probability_on_truth"]),
-            _ends(resolvable["probability_on_truth_interval95"]),
-            low=0.85,
-            percent=False,
-        ),
+        _average("probability on the truth, resolvable", resolvable, "probability_on_truth", 0.85),
         *(
             _rate(
                 f"answer set holds the truth, {name}", _part(_part(group, "answer_set"), "coverage"), 0.88, bound=True
@@ -141,23 +134,9 @@ def _aims(board: Plain) -> list[Aim]:
         _calibration(board),
         _rate("unknown found, √λ of 8 or more outside", _part(unknown, "found_clear"), low=0.90),
         _rate("pairs named exactly, resolvable", _part(board, "exact_pairs"), low=0.80),
-        Aim(
-            "overlap in time with localised faults",
-            cast("int", _part(where, "overlap_of_0.6")["n"]),
-            cast("float | None", where["mean_overlap"]),
-            _ends(where["mean_overlap_interval95"]),
-            low=0.60,
-            percent=False,
-        ),
+        _average("overlap in time with localised faults", {**where, **overlap}, "mean_overlap", 0.60),
         _rate("record of a fault named", _part(where, "right_record"), low=0.98),
-        Aim(
-            "held-out closure over the oracle's, median",
-            cast("int", over["n"]),
-            cast("float | None", over["value"]),
-            _ends(over["interval95"]),
-            low=0.95,
-            percent=False,
-        ),
+        _average("held-out closure over the oracle's, median", over, "value", 0.95, interval="interval95"),
         _rate("held-out closure within its 90 % interval", _part(held_out, "interval_holds"), 0.87, 0.93),
     ]
 
@@ -166,6 +145,12 @@ def _rate(name: str, plain: Plain, low: float | None = None, high: float | None 
     n = cast("int", plain["n"])
     ends = _ends(plain["interval95"]) if n else None
     return Aim(name, n, cast("float | None", plain["rate"]), ends, low, high, by_bound=bound)
+
+
+def _average(name: str, plain: Plain, key: str, low: float, interval: str | None = None) -> Aim:
+    """An average that is told beside its n and, as `interval`, its interval: KEY_interval95 if left out."""
+    ends = _ends(plain[interval or f"{key}_interval95"])
+    return Aim(name, cast("int", plain["n"]), cast("float | None", plain[key]), ends, low=low, percent=False)
 
 
 def _beside_oracle(group: Plain) -> Aim:

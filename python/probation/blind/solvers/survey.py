@@ -17,7 +17,6 @@ from probation.diagnosis.sharp_gap import with_sharp
 from probation.diagnosis.thinning import thin
 from probation.gap.gap_test import GapTester
 from probation.gap.registry import effects
-from probation.gap.screen import screen
 
 Scored: TypeAlias = "tuple[str, float, tuple[str, ...] | None]"
 
@@ -54,15 +53,10 @@ def survey(folder: Path) -> Survey:
         If the campaign cannot be read.
     """
     campaign, _ = thin(probation.Campaign.load(folder))
-    base, catalogue = base_fit(campaign), effects()
-    model, at = base.model, base.parameters
-    count = len(base.whitened)
-    columns = WhitenedColumns.of(screen(model, at, catalogue), base.whitener, count)
-    gap = with_sharp(GapTester(base.whitened, columns.by_effect())(), base.whitened).rejected
-    # Starts that are read off the residual come in here: in the gap test they would find what chance put there.
-    sharp = [each for each in catalogue if any(form.starts is not None for form in each.forms)]
-    more = screen(model, at, sharp, residual=model.residual(at))
-    return Survey(campaign.name, base, columns.and_(WhitenedColumns.of(more, base.whitener, count)), gap)
+    catalogue = effects()
+    base = base_fit(campaign).screened(catalogue)
+    gap = with_sharp(GapTester(base.whitened, base.columns.by_effect())(), base.whitened).rejected
+    return Survey(campaign.name, base, base.columns_with_starts(catalogue), gap)
 
 
 def answer(found: Survey, scored: Iterable[Scored]) -> dict[str, object]:

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from probation.gap.record_view import RecordView
 
 
+_LIMIT = EffectParameter("inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress")
+_ROUNDING = 0.02
+
+
 def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The recorded nominal stress does not exceed 1 / a, in tension and compression."""
     if values[0] <= 0.0:
@@ -41,6 +45,11 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(1.0 / (part * largest),) for part in (0.995, 0.9)] if largest > 0.0 else []
 
 
+def _bent_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """The same, usually rounded."""
+    return [(*start, _ROUNDING) for start in _starts(views, residuals)]
+
+
 EFFECT = Effect(
     name="force_saturation",
     title="saturation of the force",
@@ -54,11 +63,7 @@ EFFECT = Effect(
     forms=(
         Form(
             "clip",
-            (
-                EffectParameter(
-                    "inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress"
-                ),
-            ),
+            (_LIMIT,),
             recorded_stress=_saturate,
             starts=_starts,
             threshold=True,
@@ -66,23 +71,21 @@ EFFECT = Effect(
         Form(
             "bend",
             (
-                EffectParameter(
-                    "inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress"
-                ),
+                _LIMIT,
                 EffectParameter(
                     name="rounding",
                     unit="",
                     lower=1e-3,
                     upper=0.08,
-                    centre=0.02,
+                    centre=_ROUNDING,
                     scale=0.8,
                     log=True,
-                    starts=(0.02,),
+                    starts=(_ROUNDING,),
                     reason="an amplifier is linear up to some per cent of its range",
                 ),
             ),
             recorded_stress=_bend,
-            starts=lambda views, residuals: [(*start, 0.02) for start in _starts(views, residuals)],
+            starts=_bent_starts,
             threshold=True,
         ),
     ),
