@@ -95,6 +95,16 @@ def test_a_smooth_reversal_has_no_single_direction():
     assert set(excite(record(time, 0.01 * time, control="cyclic")).direction) == {0.0}
 
 
+def test_a_grip_that_slackens_for_a_while_is_heard():
+    """Strain up to 0.1, back by 0.0005, then on: less than a turn, but no noise either."""
+    time = np.linspace(0.0, 30.0, 301)
+    strain = np.interp(time, [0.0, 10.0, 20.0, 30.0], [0.0, 0.1, 0.0995, 0.2])
+    found = excite(record(time, strain), "raw")
+    back = np.diff(strain) < 0.0
+    assert np.all(found.direction[back] != 1.0)
+    assert np.all(found.direction[~back] == 1.0)
+
+
 def test_refining_keeps_the_samples_and_the_straight_lines():
     time, strain = np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.2, 0.3])
     time, strain = np.concatenate([time, 3 + np.arange(1.0, 9)]), np.concatenate([strain, 0.3 + 0.01 * np.arange(1, 9)])

@@ -70,9 +70,14 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
 
 
 def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
-    """The base law's parameters with their standard errors by noise."""
-    found = base.refit
-    covariance = np.linalg.pinv(found.jacobian.T @ found.jacobian, hermitian=True)
+    """The base law's parameters with their standard errors by noise, all of its drift included."""
+    found, whitened = base.refit, base.whitened
+    solver = np.linalg.pinv(found.jacobian)
+    covariance = solver @ solver.T
+    for noise, part in zip(whitened.noises, whitened.slices, strict=True):
+        if noise.harmless_drift is not None:
+            moved = solver[:, part] @ noise.whiten(noise.harmless_drift)
+            covariance += moved @ moved.T
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * found.coordinates.slopes(found.parameters)
     result = []
     for name, value, error in zip(base.law.parameter_names, found.parameters, deviation, strict=True):

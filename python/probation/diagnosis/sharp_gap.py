@@ -1,10 +1,11 @@
-"""The gap test with what is sharp in frequency, in time or in the period of the strain."""
+"""The gap test with what is sharp in frequency, in time, in the strain or in its period."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.gap.recurring import find_recurring
 from probation.gap.ripples import find_ripples
 from probation.gap.sharp import find_lines, find_steps
 
@@ -12,12 +13,12 @@ if TYPE_CHECKING:
     from probation.gap.gap_test import GapTest
     from probation.gap.whitening import Whitened
 
-SHARP_SHARE = 0.1
-"""Part of the level that is spent on lines, on steps, and on ripples."""
+SHARP_SHARE = 0.075
+"""Part of the level that is spent on each: lines, steps, ripples, and bumps that recur."""
 
 
 def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
-    """The test's p-value with lines of one frequency, steps at one instant and ripples of one period in the family.
+    """The test's p-value with lines of one frequency, steps at one instant, and ripples and bumps of the strain.
 
     A test along smooth curves and known effects sees a wave of any frequency, or a slip at any instant, only as far as
     they resemble the few that were put into it.
@@ -32,6 +33,7 @@ def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
         "lines": min((line.p_value for line in find_lines(whitened)), default=1.0),
         "steps": min((step.p_value for step in find_steps(whitened, size=500)), default=1.0),
         "ripples": min((ripple.p_value for ripple in find_ripples(whitened)), default=1.0),
+        "recurring": min((bump.p_value for bump in find_recurring(whitened)), default=1.0),
     }
     least = min(sharp.values()) / SHARP_SHARE
     share = 1.0 - len(sharp) * SHARP_SHARE

@@ -34,6 +34,9 @@ MISSES = 10.0
 TURN = 0.02
 """A segment that comes back by more than this fraction of the record's strain range has no single direction."""
 
+BEYOND_NOISE = 10.0
+"""Standard deviations of its noise by which the strain comes back in earnest."""
+
 
 @dataclass(frozen=True, eq=False)
 class Excitation:
@@ -304,16 +307,30 @@ def _rate_is_noisy(record: Record, noise: float) -> bool:
 
 
 def _direction(record: Record, true_strain: FloatArray, jumps: list[int], noise: float) -> FloatArray:
-    """Sign of each segment's net strain; 0 where the strain turns inside one, or where nothing was commanded."""
+    """Sign of each segment's net strain; 0 where the strain comes back beyond its noise, or nothing was commanded."""
     direction = np.zeros(len(true_strain) - 1)
     if record.control in ("cyclic", "other"):
         return direction
-    allowed = max(TURN * float(np.ptp(true_strain)), 10.0 * noise)
+    turn = max(TURN * float(np.ptp(true_strain)), BEYOND_NOISE * noise)
     borders = [0, *jumps, len(true_strain) - 1]
     for first, last in pairwise(borders):
-        part = true_strain[first : last + 1]
-        sign = 1.0 if part[-1] >= part[0] else -1.0
-        back = np.max(np.maximum.accumulate(sign * part) - sign * part)
-        if back <= allowed:
+        sign = 1.0 if true_strain[last] >= true_strain[first] else -1.0
+        along = sign * true_strain[first : last + 1]
+        back = np.maximum.accumulate(along) - along
+        if np.max(back) <= turn:
             direction[first:last] = sign
+            for fall in _falls(along, BEYOND_NOISE * noise):
+                direction[first + fall.start : first + fall.stop] = 0.0
     return direction
+
+
+def _falls(values: FloatArray, least: float) -> list[slice]:
+    """Steps from a largest value so far down to the lowest one after it, where that is further down than `least`."""
+    highest = np.maximum.accumulate(values)
+    peaks = np.flatnonzero(values == highest)
+    falls = []
+    for start, stop in pairwise([*peaks.tolist(), len(values)]):
+        lowest = start + int(np.argmin(values[start:stop]))
+        if values[start] - values[lowest] > least:
+            falls.append(slice(start, lowest))
+    return falls

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 _STRATA = ("none", "single", "pair", "outside", "mimic")
 _FALSE_ALARMS = 0.05
-_OUTSIDE_ENOUGH = 8.0
 _GOOD_OVERLAP = 0.6
 
 
@@ -80,7 +79,7 @@ def _unknown(cases: Sequence[Case]) -> dict[str, object]:
     """Whether what is outside the catalogue is told from what is in it."""
     within = [case.answer.unknown for case in cases if case.stratum in ("none", "single", "pair")]
     outside = [case for case in cases if case.stratum == "outside"]
-    clear = [case for case in outside if case.left >= _OUTSIDE_ENOUGH]
+    clear = [case for case in outside if case.clear]
     level = float(np.quantile(within, 1.0 - _FALSE_ALARMS, method="higher")) if within else 1.0
     return {
         "auroc": area_under_curve([case.answer.unknown for case in outside], within),

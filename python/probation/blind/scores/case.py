@@ -20,6 +20,9 @@ DETECTABILITIES: tuple[tuple[str, float, float], ...] = (
 )
 """Classes of sqrt(lambda): what was aimed at, and bounds of what was reached."""
 
+OUTSIDE_ENOUGH = 8.0
+"""sqrt(lambda) outside the catalogue from which on "unknown" is asked for; less is scored as unresolvable."""
+
 
 @dataclass(frozen=True)
 class Case:
@@ -79,9 +82,14 @@ class Case:
         return cast("Mapping[str, object]", self.truth["oracle"])
 
     @property
+    def clear(self) -> bool:
+        """Whether what lies outside the catalogue, if anything does, shows beside the nearest cause of it."""
+        return self.stratum not in ("outside", "mimic") or self.left >= OUTSIDE_ENOUGH
+
+    @property
     def resolvable(self) -> bool:
-        """Whether the oracle is right in 95 % of repeats."""
-        return bool(self.oracle["resolvable"])
+        """Whether the oracle is right in 95 % of repeats; of what lies outside, only what no cause comes near."""
+        return bool(self.oracle["resolvable"]) and self.clear
 
     @property
     def right(self) -> bool:
