@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
 from probation.diagnosis.candidate import WhitenedColumns
 from probation.diagnosis.discrepancy import Discrepancy
@@ -48,6 +49,12 @@ PARAMETERS = 3
 
 FIRST, STIFFER, FAR = 20, 1.3, 3.0
 """Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
+
+PARTS = 8
+"""Parts of a record along which the loudness of its noise is followed where strains are chosen ..."""
+
+QUIETEST = 0.01
+"""... and the least of it, over the mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,17 +184,21 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
     """
     chosen = {record.id: excite(record) for record in campaign.records}
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
-    smooth_square = raw_square = 0.0
+    favours_raw = 0.0
     for record in campaign.identify:
         if record.id in raw:
-            smooth_square += _misfit(found, chosen[record.id], record)
-            raw_square += _misfit(found, raw[record.id], record)
-    return chosen | raw if raw_square < smooth_square else chosen
+            smooth, recorded = (
+                predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
+            )
+            favours_raw += float(np.sum((smooth**2 - recorded**2) / _loudness(smooth)))
+    return chosen | raw if favours_raw > 0.0 else chosen
 
 
-def _misfit(found: Fit, excitation: Excitation, record: Record) -> float:
-    """Sum of squares of the fit residual [MPa^2]."""
-    return float(np.sum((predicted(found, excitation, found.substeps) - record.true_stress) ** 2))
+def _loudness(residual: FloatArray) -> FloatArray:
+    """Variance of the rough part of a residual along its record, shape (n,): a force's noise grows with the stretch."""
+    rough = np.pad(np.diff(residual, 2), 1, mode="edge") ** 2
+    power = uniform_filter1d(rough, max(len(rough) // PARTS, 1), mode="nearest")
+    return np.asarray(np.maximum(power, QUIETEST * float(np.mean(power)) + 1e-300), dtype=np.float64)
 
 
 def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "sa3") -> BaseFit:
@@ -257,4 +268,6 @@ def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
     alike = min(drift, LIKE_AN_EFFECT)
-    return tuple(with_drift(noise, alike, drift - alike) for noise in noises)
+    return tuple(
+        with_drift(noise, alike, drift - alike, record.time) for noise, record in zip(noises, residuals, strict=True)
+    )

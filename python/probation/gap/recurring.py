@@ -11,7 +11,6 @@ from probation.gap.sharp import SLOWEST, left_beside_slow_waves
 from probation.gap.tail import normal_tail
 
 if TYPE_CHECKING:
-    from probation._arrays import FloatArray
     from probation.gap.whitening import Whitened
 
 WIDTHS = (0.03, 0.06)

@@ -64,7 +64,7 @@ def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
         record = whitened.records[index]
         left, _ = left_beside_slow_waves(whitened, index, SLOWEST)
         power = uneven_power(record.true_strain, left, frequency)
-        level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0) * np.exp(2.0 * whitened.scale_spread)
+        level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
         power = power / level
         resolved = (frequency * extents[index] >= 0.5 * SLOWEST) & (
             frequency * extents[index] * SHORTEST <= len(record)

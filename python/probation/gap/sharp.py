@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.gap.smooth_basis import smooth_basis
-from probation.gap.tail import family_p_value, normal_tail
+from probation.gap.tail import family_p_value, normal_tail, student_tail
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,6 +25,9 @@ CANDIDATES = 128
 
 AROUND = (6, 14)
 """Samples on each side of a step by which the noise there is judged, closely and less so."""
+
+TOGETHER = 4
+"""Neighbouring samples that a short burst of noise moves together."""
 
 NEIGHBOURS = 60
 """Frequencies whose median power a line is measured against, if that is above the noise's."""
@@ -99,7 +102,7 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
             power = uneven_power(record.time, left, frequency)
         level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
         best = int(np.argmax(power / level))
-        single = float(np.exp(-power[best] / level[best] * np.exp(-2.0 * whitened.scale_spread)))
+        single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
         wave = 2.0 * np.pi * frequency[best] * record.time
         columns = whitened.noises[index].whiten(np.column_stack([np.cos(wave), np.sin(wave)]))
@@ -139,13 +142,15 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         at = int(np.argmax(np.abs(fine.T @ left)))
         along = float(fine[:, at] @ left)
         score = along / _loudness(left, int(near[at]))
+        freedom = _freedom(np.delete(left, slice(max(int(near[at]) - AROUND[1], 0), int(near[at]) + AROUND[1])))
         spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
         values, vectors = np.linalg.eigh(steps.T @ steps)
         root = vectors * np.sqrt(np.maximum(values, 0.0))
         drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
         drawn *= np.exp(spread * rng.standard_normal(size))
         # The finer instants that only the best place is given: each is nearly one of the coarse ones.
-        family = float(family_p_value(normal_tail(abs(score), spread), normal_tail(drawn, spread)))
+        single = max(float(normal_tail(abs(score), spread)), float(student_tail(abs(score), freedom)))
+        family = float(family_p_value(single, normal_tail(drawn, spread)))
         p_value = float(-np.expm1(len(whitened.records) * np.log1p(-min(family, 1.0 - 1e-15))))
         place = int(near[at])
         found.append(
@@ -165,6 +170,17 @@ def _loudness(left: FloatArray, place: int) -> float:
         if around.size > reach:
             found = max(found, float(np.sqrt(np.mean(left[around] ** 2))))
     return found
+
+
+def _freedom(values: FloatArray) -> float:
+    """Degrees of freedom of the Student t that has the kurtosis of sums over a few neighbours; infinite if normal."""
+    count = len(values) // TOGETHER
+    sums = values[: count * TOGETHER].reshape(count, TOGETHER).sum(axis=1)
+    variance = float(np.mean(sums**2))
+    if count < TOGETHER or variance == 0.0:
+        return np.inf
+    excess = float(np.mean(sums**4)) / variance**2 - 3.0
+    return 4.0 + 6.0 / excess if excess > 0.0 else np.inf
 
 
 def left_beside_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:

@@ -44,9 +44,11 @@ class SmoothBasis:
         return self.columns[:, self.order < order]
 
 
-def waves(count: int, most: int) -> FloatArray:
-    """Orthonormal cosine waves (DCT-II) by sample, shape (count, min(most, count))."""
+def waves(count: int, most: int, time: FloatArray | None = None) -> FloatArray:
+    """Cosine waves, shape (count, min(most, count)): orthonormal (DCT-II) by sample, or of the same size in time."""
     index = np.arange(count) + 0.5
+    if time is not None:
+        index = 0.5 + (count - 1) * (time - time[0]) / (time[-1] - time[0])
     columns = np.cos(np.pi / count * np.outer(index, np.arange(min(most, count)))) * np.sqrt(2.0 / count)
     columns[:, 0] *= np.sqrt(0.5)
     return np.asarray(columns, dtype=np.float64)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc, ndtr
+from scipy.special import chdtrc, ndtr, stdtr
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -25,6 +25,13 @@ def normal_tail(size: FloatArray | float, spread: float = 0.0) -> FloatArray:
     scales = np.exp(spread * _NODES) if spread > 0.0 else np.ones(1)
     weights = _WEIGHTS if spread > 0.0 else np.ones(1)
     return np.asarray(ndtr(-np.divide.outer(size, scales)) @ weights, dtype=np.float64)
+
+
+def student_tail(size: FloatArray | float, freedom: float) -> FloatArray:
+    """P(T > size), T of unit variance and Student's t with so many degrees of freedom (above 2)."""
+    if not np.isfinite(freedom):
+        return normal_tail(size)
+    return np.asarray(stdtr(freedom, -np.asarray(size) * np.sqrt(freedom / (freedom - 2.0))), dtype=np.float64)
 
 
 def chi_square_tail(size: FloatArray | float, freedom: FloatArray | int, spread: float = 0.0) -> FloatArray:
