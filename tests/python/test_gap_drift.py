@@ -98,6 +98,16 @@ def test_whitening_with_a_drift_is_the_inverse_root_of_its_covariance():
     assert_allclose(whitener @ covariance @ whitener.T, np.eye(count), atol=1e-9)
 
 
+def test_samples_close_in_time_drift_together():
+    """Half of the samples within a hundredth of the record: their drift is one number, the others' are many."""
+    time = np.concatenate([np.linspace(0.0, 0.01, 100, endpoint=False), np.linspace(0.01, 1.0, 100)])
+    by_time, by_sample = (with_drift(problem.white(200), 30.0, time=each).drift for each in (time, None))
+    own = np.linalg.svd(by_time[:100], compute_uv=False)
+    assert own[1] < 0.1 * own[0]
+    assert np.linalg.svd(by_sample[:100], compute_uv=False)[1] > 0.3 * own[0]
+    assert_allclose(with_drift(problem.white(200), 30.0, time=np.linspace(5.0, 7.0, 200)).drift, by_sample, atol=1e-12)
+
+
 def test_drawn_noise_with_a_drift_is_white_once_whitened():
     noise = with_drift(problem.white(150), 30.0)
     drawn = noise.simulate(np.random.default_rng(0), 4000)

@@ -100,6 +100,20 @@ def test_noise_has_no_lines_and_no_steps(kind):
     assert np.sum(np.array(least) < 0.01, axis=0).max() <= 1
 
 
+def test_short_bursts_of_noise_are_no_steps():
+    """Six readings in a row, five times in each record, of seven times the noise: none in 15 campaigns is certain."""
+    least = []
+    for seed in range(15):
+        rng = np.random.default_rng(100 + seed)
+        bursts = {}
+        for index in range(6):
+            bursts[index] = np.zeros(COUNT)
+            for first in rng.integers(0, COUNT - 6, 5):
+                bursts[index][first : first + 6] += 0.2 * rng.standard_normal()
+        least.append(find_steps(campaign(seed, bursts), size=500)[0].p_value)
+    assert min(least) > 0.01
+
+
 def test_a_step_is_located_by_its_instant():
     """Up by 0.2 MPa at sample 306; model minus data: down."""
     step = find_steps(campaign(7, {2: 0.2 * (np.arange(COUNT) >= 306)}))[0]
