@@ -10,7 +10,7 @@ from campaigns import linear_problem as problem
 from probation import gap
 from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.probabilities import Weighed, answer_set, log_prior, weigh
+from probation.diagnosis.probabilities import AGAIN, Weighed, answer_set, log_prior, weigh
 from probation.gap import Cause
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
@@ -94,6 +94,18 @@ def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     weighed = weigh([hypothesis(), alone(NAMES[0]), *every_place(rig)], len(NAMES))
     chance = {each.effects: each.probability for each in weighed}
     assert chance[("rig_fault",)] == pytest.approx(chance[(NAMES[0],)])
+
+
+def test_the_same_effect_in_another_record_again_must_earn_its_place():
+    """In one of three records, and in two with a size each: odds AGAIN/3 at equal evidence."""
+    effect = made("effect_a", kind="rig")
+    causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:2]]
+    other = alone("effect_b")
+    once = {each.effects: each.probability for each in weigh([hypothesis(), hypothesis(causes[0]), other], 6)}
+    twice = {each.effects: each.probability for each in weigh([hypothesis(), hypothesis(*causes), other], 6)}
+    odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, twice)]
+    places = len(effect.placements(effect.forms[0])) * len(VIEWS)
+    assert odds[1] / odds[0] == pytest.approx(AGAIN / places)
 
 
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():

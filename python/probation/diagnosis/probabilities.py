@@ -26,6 +26,9 @@ TEMPERED = 0.6
 """Power of the evidence where there is a gap. Evidence believes in its forms and its noise more than these deserve; the
 power by which the probabilities of causes come true, found on sealed campaigns of the split that is for it."""
 
+AGAIN = 0.03
+"""Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
+
 LEFT_OVER = 0.9
 """Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
 
@@ -80,7 +83,8 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
     together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
     for each in _best_starts(hypotheses):
         value = each.evidence.log_evidence
-        inside = sum(_form_and_place(cause, each) for cause in each.causes)
+        again = len(each.causes) - len({cause.effect.name for cause in each.causes})
+        inside = sum(_form_and_place(cause, each) for cause in each.causes) + again * log(AGAIN)
         for effects, score in (
             (each.effects, value),
             (with_unknown(each.effects), each.evidence.log_evidence_unknown),
