@@ -33,7 +33,7 @@ def bumps(size, middle=0.4, width=0.03):
 
 
 def test_a_bump_at_one_strain_in_all_records_is_found_there():
-    found = find_recurring(whitened([a + b for a, b in zip(noise(0), bumps(1.5), strict=True)]))
+    found = find_recurring(whitened([a + b for a, b in zip(noise(0), bumps(2.0), strict=True)]))
     assert found[0].p_value < 1e-4
     assert abs(found[0].true_strain - 0.4) < 0.03
     assert found[0].records == ("r0", "r1", "r2", "r3")
@@ -41,8 +41,8 @@ def test_a_bump_at_one_strain_in_all_records_is_found_there():
 
 def test_bumps_of_either_sign_do_not_recur():
     signs = (1.0, -1.0, 1.0, -1.0)
-    apart = [a + s * b for a, s, b in zip(noise(0), signs, bumps(1.5), strict=True)]
-    together = [a + b for a, b in zip(noise(0), bumps(1.5), strict=True)]
+    apart = [a + s * b for a, s, b in zip(noise(0), signs, bumps(2.0), strict=True)]
+    together = [a + b for a, b in zip(noise(0), bumps(2.0), strict=True)]
     assert find_recurring(whitened(apart))[0].p_value > 1e3 * find_recurring(whitened(together))[0].p_value
 
 

@@ -29,7 +29,7 @@ SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
 USUAL = 5.0
 """Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
 
-LIKE_AN_EFFECT = 0.8
+LIKE_AN_EFFECT = 0.5
 """Of these as much as may go along with an effect: a slow wandering that is more like one is told as that effect."""
 
 BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))

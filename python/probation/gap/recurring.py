@@ -123,7 +123,11 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
         count += len(norm)
         freedom += len(norm) ** 2 / float(np.sum(cosines**2))
     loud = max(float(np.sqrt(squares / count)), 1.0)
-    single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -abs(scores[best]) / loud))
+    # A burst of noise sits in one record: the others have to say the same without it.
+    speaking = sorted(shares.values(), key=lambda share: -share.along[at] * scores[best])[1:]
+    said = sum(float(share.along[at]) for share in speaking) * np.sign(scores[best])
+    size = said / np.sqrt(sum(float(share.alike[at, at]) for share in speaking)) / loud
+    single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
     tried = len(WIDTHS) * len(shared)
     p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
     names = tuple(name for name, share in shares.items() if share.seen[at])
