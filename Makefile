@@ -36,7 +36,9 @@ demo: $(VENV)/.engine  ## install what is missing, build, and identify the law o
 
 test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and the Python tests
 	@$(BIN)/ctest --test-dir build/editable --output-on-failure --no-tests=error
-	@$(BIN)/python -m pytest --cov=probation --cov-report=term:skip-covered --cov-fail-under=90
+	@# A process per core, files kept together: what a file computes once, it computes once.
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
+	    --cov=probation --cov-report=term:skip-covered --cov-fail-under=90
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py
