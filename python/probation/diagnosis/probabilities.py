@@ -22,7 +22,7 @@ NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.30, 0.10, 0.01
 UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.11, 0.03
 """Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
 
-TEMPERED = 0.6
+TEMPERED = 0.5
 """Power of the evidence where there is a gap. Evidence believes in its forms and its noise more than these deserve; the
 power by which the probabilities of causes come true, found on sealed campaigns of the split that is for it."""
 
