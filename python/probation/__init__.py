@@ -18,6 +18,7 @@ from probation.kinematics import haward_thackray_strain
 from probation.law import Law, Spectrum
 from probation.ramp import ramp_stress
 from probation.records import Campaign, Noise, Record, preview
+from probation.reduction import Reduction, reduce_spectrum
 from probation.simulate import Simulation, simulate
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "RateFunction",
     "RateTable",
     "Record",
+    "Reduction",
     "Reference",
     "SelfHeating",
     "Simulation",
@@ -64,5 +66,6 @@ __all__ = [
     "preview",
     "ramp_stress",
     "read_history",
+    "reduce_spectrum",
     "simulate",
 ]
