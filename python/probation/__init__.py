@@ -11,6 +11,7 @@ from probation.crosscheck import CrossCheck, crosscheck
 from probation.diagnosis import Diagnosis, diagnose
 from probation.errors import ConvergenceError, InputError
 from probation.excitation import Excitation, excite
+from probation.export import Export, export
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
 from probation.identify import Fit, fit
@@ -34,6 +35,7 @@ __all__ = [
     "Direction",
     "Excitation",
     "Exponential",
+    "Export",
     "Fit",
     "ImposedHistory",
     "InputError",
@@ -60,6 +62,7 @@ __all__ = [
     "crosscheck",
     "diagnose",
     "excite",
+    "export",
     "fit",
     "haward_thackray_strain",
     "named_history",
