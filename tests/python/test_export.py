@@ -20,7 +20,6 @@ E_U, G, ALPHA, RATE = 3220.0, 1.85, 1.045, 1e-3
 LAW = Law(unrelaxed_modulus=E_U, alpha=ALPHA, hardening_modulus=G, companion=Weissenberg(0.00464, 0.0367))
 CONSTANT = Law(unrelaxed_modulus=E_U, tau_max=5.2, hardening_modulus=2.5)
 TAU_MAX = ALPHA * (0.00464 * -3.0 + 0.0367) / RATE  # eq. (11) at 1e-3 1/s
-WHOLE = ("abaqus-umat", "calculix", "mgis", "c")
 PRONY = ("abaqus-prony", "ansys-prony", "ls-dyna-prony")
 CURVES = ("abaqus-plastic", "ls-dyna-mat-024")
 
@@ -65,17 +64,35 @@ def test_the_name_that_calculix_loads_is_upper_case_without_an_underscore_in_the
 def test_mgis_properties_are_in_the_order_of_the_constants(texts):
     answer = json.loads(texts["mgis"])
     assert list(answer["material_properties"].values()) == EXPECTED
-    assert answer["internal_state_variables"] == 310
+    assert list(answer["material_properties"])[4:8] == [
+        "TauMaxOrAlpha",
+        "FirstCoefficient",
+        "SecondCoefficient",
+        "RateFloor",
+    ]
+    assert (answer["internal_state_variables"], answer["compile_definitions"]) == (310, {})
+    longer = json.loads(export(LAW, "mgis", modes=5).text)
+    assert longer["compile_definitions"] == {"PROBATION_MGIS_CONSTANTS": 21, "PROBATION_MGIS_MODES": 50}
+    assert list(longer["material_properties"])[-1] == "Kernel[9]"
+
+
+def test_calculix_takes_twenty_one_constants_a_longer_list_is_compiled_in():
+    assert "CONSTANTS=21\n" in export(LAW, "calculix", modes=5).text
+    with pytest.raises(InputError, match=r"modes: found 23 constants, expected at most 21 in CalculiX; write .* list"):
+        export(LAW, "calculix", modes=6)
+    assert len(export(LAW, "list", modes=6).content.values) == 23
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_the_c_array_compiles_and_holds_every_digit(tmp_path):
     law = Law(unrelaxed_modulus=1.0 / 3.0, tau_max=1.0 / 7.0, hardening_modulus=1.0 / 9.0)
     export(law, "c", name="hdpe").save(tmp_path / "hdpe.h")
+    export(law, "list").save(tmp_path / "hdpe.inc")
     program = (
-        '#include <stdio.h>\n#include "hdpe.h"\nint main(void) {\n'
+        '#include <stdio.h>\n#include "hdpe.h"\nstatic const double list[] = {\n#include "hdpe.inc"\n};\n'
+        "int main(void) {\n"
         '  for (int i = 0; i < hdpe_constants_count; ++i) printf("%.17g\\n", hdpe_constants[i]);\n'
-        "  return hdpe_state_size != 310;\n}\n"
+        "  return hdpe_state_size != 310 || list[4] != hdpe_constants[4];\n}\n"
     )
     (tmp_path / "main.c").write_text(program, encoding="utf-8")
     subprocess.run(["cc", "-Werror", "-Wall", "-o", "main", "main.c"], cwd=tmp_path, check=True)
@@ -110,6 +127,19 @@ def test_every_law_comes_back_from_its_constants(law, accuracy):
     if accuracy is not None:
         assert found.content.named()["decades"] == 0.0
         assert len(found.content.values) == 11 + 2 * written.modes + (6 if isinstance(law.companion, Table) else 0)
+
+
+def test_the_compiled_point_takes_the_constants():
+    """To 1e-11 MPa of the scheme sa2, which is its own."""
+    fe = pytest.importorskip("probation.fe")
+    time = np.linspace(0.0, 100.0, 501)
+    strain = np.interp(time, [0.0, 40.0, 80.0, 100.0], [0.0, 0.2, 0.5, 0.45])
+    for law in (LAW, LAW.reduced(modes=7), CONSTANT):
+        point, state, stress = fe.MaterialPoint(export(law, "list").content.values), None, [0.0]
+        for step, increment in zip(np.diff(time), np.diff(strain), strict=True):
+            now, _, state = point.uniaxial(increment, step, state)
+            stress.append(now)
+        assert_allclose(stress, law.stress(time, strain, "sa2"), atol=1e-11)
 
 
 def test_fewer_modes_state_their_error_and_keep_it():

@@ -109,6 +109,7 @@ def test_all_formats_go_to_a_folder_but_those_that_cannot_represent_the_law(tmp_
         "hdpe-abaqus-umat.inp",
         "hdpe-c.h",
         "hdpe-calculix.inp",
+        "hdpe-list.inc",
         "hdpe-ls-dyna-mat-024.k",
         "hdpe-mgis.json",
     ]

@@ -30,3 +30,9 @@ def header_lines(what: str, parts: Sequence[Sequence[str]]) -> list[str]:
 def commented(lines: Sequence[str], prefix: str) -> str:
     """Each line behind the comment sign of a code."""
     return "".join(f"{prefix} {line}".rstrip() + "\n" for line in lines)
+
+
+def c_comment(lines: Sequence[str]) -> str:
+    """One comment of C."""
+    harmless = [line.replace("*/", "* /").replace("/*", "/ *") for line in lines]
+    return "/*\n" + "".join(f" * {line}".rstrip() + "\n" for line in harmless) + " */\n"

@@ -14,6 +14,7 @@ from probation.export.formats import (
     ls_dyna_mat_024,
     ls_dyna_prony,
     mgis,
+    number_list,
 )
 from probation.export.kind import Format
 
@@ -24,6 +25,7 @@ FORMATS: dict[str, Format[Any]] = {
         calculix,
         mgis,
         c_abi,
+        number_list,
         abaqus_prony,
         ansys_prony,
         ls_dyna_prony,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation.errors import InputError
 from probation.export.constants import NAMES, MaterialConstants, state_size
+from probation.export.header import c_comment
 from probation.export.kind import Format
 from probation.export.user_material import USER_MATERIAL
 
@@ -23,16 +24,9 @@ def _write(request: Request, content: MaterialConstants, header: Sequence[str]) 
         f"    {value!r}," + (f"  /* {index + 1}: {comment} */" if comment else "") + "\n"
         for index, (value, comment) in enumerate(zip(values, comments, strict=True))
     ]
-    return (
-        "/*\n" + "".join(f" * {line}".rstrip() + "\n" for line in _harmless(header)) + " */\n"
-        f"enum {{ {name}_constants_count = {len(values)}, {name}_state_size = {state_size(content.modes)} }};\n"
-        f"static const double {name}_constants[{len(values)}] = {{\n" + "".join(rows) + "};\n"
-    )
-
-
-def _harmless(header: Sequence[str]) -> list[str]:
-    """Without the end of a comment in it."""
-    return [line.replace("*/", "* /").replace("/*", "/ *") for line in header]
+    sizes = f"{name}_constants_count = {len(values)}, {name}_state_size = {state_size(content.modes)}"
+    array = f"static const double {name}_constants[{len(values)}] = {{\n"
+    return c_comment(header) + f"enum {{ {sizes} }};\n" + array + "".join(rows) + "};\n"
 
 
 def _read(text: str) -> MaterialConstants:

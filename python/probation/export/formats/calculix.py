@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.errors import InputError
 from probation.export.constants import MaterialConstants, state_size
 from probation.export.formats import abaqus_umat
 from probation.export.formats.keyword_cards import listed
@@ -19,8 +20,16 @@ if TYPE_CHECKING:
 LIBRARY, FUNCTION = "PROBATION", "DNLR"
 """Upper-case, no underscore in the library's name: CalculiX splits ``@LIBRARY_FUNCTION`` at the first one."""
 
+MOST_CONSTANTS = 21
+"""That CalculiX passes to a behaviour."""
+
 
 def _write(request: Request, content: MaterialConstants, header: Sequence[str]) -> str:
+    if len(content.values) > MOST_CONSTANTS:
+        raise InputError(
+            f"modes: found {len(content.values)} constants, expected at most {MOST_CONSTANTS} in CalculiX; write the "
+            "format list and compile it into the behaviour, or take at most 5 modes"
+        )
     return (
         commented(header, "**")
         + "** Every *SOLID SECTION that uses it names this material. It needs a ccx with external behaviours.\n"
