@@ -5,6 +5,7 @@ against 50 modes, the scheme's own left out.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -46,22 +47,11 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
 def _laws(law: Law) -> dict[str, tuple[str, Law]]:
     laws = {str(WHOLE): (f"{WHOLE} modes", law)}
     for modes in NAIVE:
-        laws[f"naive {modes}"] = (f"{modes} modes, naive", _with(law, Spectrum.log_spaced(modes)))
+        laws[f"naive {modes}"] = (f"{modes} modes, naive", replace(law, spectrum=Spectrum.log_spaced(modes)))
     for text, accuracy in REFITTED:
         fewer = law.reduced(accuracy=accuracy)
         laws[f"refitted {text}"] = (f"{fewer.modes} modes, refitted to {text}", fewer)
     return laws
-
-
-def _with(law: Law, spectrum: Spectrum) -> Law:
-    return Law(
-        unrelaxed_modulus=law.unrelaxed_modulus,
-        hardening_modulus=law.hardening_modulus,
-        tau_max=law.tau_max,
-        alpha=law.alpha,
-        companion=law.companion,
-        spectrum=spectrum,
-    )
 
 
 def _call(case: cases.Case, law: Law, scheme: str) -> Callable[[], np.ndarray]:

@@ -133,8 +133,10 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
         If none can, or one that was named cannot.
     """
     from probation.export import export  # noqa: PLC0415
+    from probation.export.source import law_and_source  # noqa: PLC0415
 
     source = _source(options)
+    law_and_source(source)  # complains once, not for every format
     found, refusal = [], None
     for name in names:
         try:

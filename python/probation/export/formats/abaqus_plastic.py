@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 def _write(request: Request, content: StressTable, header: Sequence[str]) -> str:
     return (
         commented(header, "**")
-        + "** The first block, without a rate, stands for rate 0: slower than the slowest is as at the slowest.\n"
+        + "** The first block, without a rate, stands for rate 0: it is that of the\n"
+        + "** slowest rate.\n"
         + f"*MATERIAL, NAME={request.name.upper()}\n"
         + f"*DENSITY\n{listed([request.density])}"
         + f"*ELASTIC\n{listed([content.young, content.poisson_ratio])}"

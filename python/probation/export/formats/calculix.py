@@ -32,7 +32,7 @@ def _write(request: Request, content: MaterialConstants, header: Sequence[str]) 
         )
     return (
         commented(header, "**")
-        + "** Every *SOLID SECTION that uses it names this material. It needs a ccx with external behaviours.\n"
+        + "** To be named by *SOLID SECTION. It needs a ccx with external behaviours.\n"
         + f"*MATERIAL, NAME=@{LIBRARY}_{FUNCTION}\n"
         + f"*USER MATERIAL, CONSTANTS={len(content.values)}\n"
         + listed(content.values)
