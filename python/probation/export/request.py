@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import InputError
+from probation.law import Spectrum
 from probation.law_answer import law_answer
 from probation.reduction import Reduction, reduce_spectrum
 
@@ -110,11 +111,18 @@ class Request:
                 else "alpha times the companion relation "
                 + ", ".join(f"{key} = {_short(value)}" for key, value in relation.items() if value is not None)
             ),
-            f"modes: {self.original.modes} over {self.original.decades:g} decades"
-            + ("" if self.reduction is None else f"; written with fewer: {self.reduction.summary()}"),
+            self._modes(),
             "units: MPa, s, mm, t",
         ]
         return [f"source: {self.source}", *lines]
+
+    def _modes(self) -> str:
+        law = self.original
+        if law.spectrum == Spectrum.log_spaced(law.modes, law.decades):
+            words = f"modes: {law.modes} over {law.decades:g} decades"
+        else:
+            words = f"modes: {law.modes}, identified with a spectrum of its own"
+        return words if self.reduction is None else f"{words}; written with fewer: {self.reduction.summary()}"
 
 
 def _short(value: object) -> str:
