@@ -43,7 +43,7 @@ def export(
         A campaign (or its path) is identified first; a path may also be that of the JSON that ``probation fit --json``
         wrote.
     format : str
-        One of `probation.export.FORMATS`: "abaqus-umat", "calculix", "mgis", "c", "list" (the whole law);
+        One of ``from probation.export import FORMATS``: "abaqus-umat", "calculix", "mgis", "c", "list" (the whole law);
         "abaqus-prony", "ansys-prony", "ls-dyna-prony" (its linear part at one rate); "abaqus-plastic",
         "ls-dyna-mat-024" (flow curves by rate).
     name : str
