@@ -7,6 +7,7 @@ import time
 from bench import (
     batches,
     equal_error,
+    fewer_modes,
     forward,
     identification,
     machine,
@@ -18,7 +19,7 @@ from bench import (
 from bench.methods import INSTALL, missing_packages
 from bench.rows import Findings
 
-SECTIONS = (forward, overhead, sensitivities, identification, equal_error, batches)
+SECTIONS = (forward, fewer_modes, overhead, sensitivities, identification, equal_error, batches)
 
 
 def main() -> int:

@@ -12,6 +12,7 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
         *_verdict(found),
         "",
         *_forward(found),
+        *_fewer_modes(found),
         *_equal_error(found),
         *_plain(found, "overhead", "Calls from Python"),
         *_plain(found, "sensitivities", "Sensitivities"),
@@ -45,6 +46,23 @@ def _forward(found: Findings) -> list[str]:
     for case in cases:
         out += [f"Forward solve, {case}: 50 modes, 2000 steps or so", _header("largest error")]
         out += [_line(row) for row in found.rows if row.section == "forward" and row.case == case]
+        out.append("")
+    return out
+
+
+def _fewer_modes(found: Findings) -> list[str]:
+    rows = [row for row in found.rows if row.section == "fewer modes"]
+    out = []
+    for case in dict.fromkeys(row.case for row in rows):
+        out += [
+            f"Fewer modes, {case}: error against 50 modes",
+            f"  {'':<62}{'median':>10} {'':>6}{'error':>16}{'/ 50':>9}",
+        ]
+        for row in rows:
+            if row.case == case:
+                time = f"{_time(row.median):>10} +-{row.spread / 2:>4.0%}"
+                error = f"{row.error:.1e} MPa"
+                out.append(f"  {f'{row.label}, {row.note}':<62}{time}{error:>16}{_ratio(row.ratios['whole']):>9}")
         out.append("")
     return out
 

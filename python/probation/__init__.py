@@ -11,6 +11,7 @@ from probation.crosscheck import CrossCheck, crosscheck
 from probation.diagnosis import Diagnosis, diagnose
 from probation.errors import ConvergenceError, InputError
 from probation.excitation import Excitation, excite
+from probation.export import Export, export
 from probation.histories import ImposedHistory, named_history
 from probation.history_file import read_history
 from probation.identify import Fit, fit
@@ -18,6 +19,7 @@ from probation.kinematics import haward_thackray_strain
 from probation.law import Law, Spectrum
 from probation.ramp import ramp_stress
 from probation.records import Campaign, Noise, Record, preview
+from probation.reduction import Reduction, reduce_spectrum
 from probation.simulate import Simulation, simulate
 
 __all__ = [
@@ -33,6 +35,7 @@ __all__ = [
     "Direction",
     "Excitation",
     "Exponential",
+    "Export",
     "Fit",
     "ImposedHistory",
     "InputError",
@@ -43,6 +46,7 @@ __all__ = [
     "RateFunction",
     "RateTable",
     "Record",
+    "Reduction",
     "Reference",
     "SelfHeating",
     "Simulation",
@@ -58,11 +62,13 @@ __all__ = [
     "crosscheck",
     "diagnose",
     "excite",
+    "export",
     "fit",
     "haward_thackray_strain",
     "named_history",
     "preview",
     "ramp_stress",
     "read_history",
+    "reduce_spectrum",
     "simulate",
 ]

@@ -20,6 +20,7 @@ from probation.commands import (
     demo,
     diagnose,
     excitation,
+    export,
     fit,
     paper,
     preview,
@@ -32,7 +33,9 @@ from probation.report.provenance import running
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, coverage, paper, blind)
+COMMANDS = (
+    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, paper, blind,
+)  # fmt: skip
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
 
 _DESCRIPTION = """\
@@ -48,6 +51,7 @@ Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline p
   simulate a test                    probation simulate --history ramp:rate=0.005,strain=2 \\
                                          --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\
                                          --set hardening_modulus_MPa=2.5 -o ramp.csv
+  take it to finite elements         probation export fit.json --format abaqus-umat -o material.inp
 """
 _EPILOG = """\
 probation COMMAND --help tells the options of a command, with examples.

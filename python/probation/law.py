@@ -31,6 +31,10 @@ a ramp but for the bend of the hardening, and costs nothing. The same rule resta
 """
 
 
+ACCURACIES = (1e-5, 0.5)
+"""Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
+
+
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """The modes: relaxation times as fractions of tau_max, and weights.
@@ -57,6 +61,12 @@ class Spectrum:
     def log_spaced(cls, modes: int = 50, decades: float = 6.0) -> Spectrum:
         """The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5)."""
         return _log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
+
+    def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Spectrum:
+        """Fewer modes with the same kernel, to an accuracy or as good as so many can; as in `reduce_spectrum`."""
+        from probation.reduction import reduce_spectrum  # noqa: PLC0415 - it needs this class, and scipy
+
+        return reduce_spectrum(self, accuracy=accuracy, modes=modes).spectrum
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Spectrum):
@@ -196,6 +206,11 @@ class Law:
         if len(numbers) != len(self.parameter_names):
             raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
         return replace(self, **dict(zip(self.parameter_names, numbers.tolist(), strict=True)))
+
+    def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:
+        """The same law with fewer modes; as in `reduce_spectrum`."""
+        assert self.spectrum is not None
+        return replace(self, spectrum=self.spectrum.reduced(accuracy=accuracy, modes=modes))
 
     def solver(
         self,

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.answers import PARAMETER_KEYS, json_answer
+from probation.answers import json_answer
 from probation.creep import creep
 from probation.law import SCHEMES, Law, Scheme, Start
+from probation.law_answer import law_answer
 from probation.report.provenance import samples_sha256
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.companion import Companion
     from probation.histories import ImposedHistory
 
 
@@ -58,7 +58,7 @@ class Simulation:
         strain = f"true strain from {_number(self.true_strain.min())} to {_number(self.true_strain.max())}"
         stress = f"true stress from {_number(self.true_stress.min())} to {_number(self.true_stress.max())} MPa"
         found, imposed = (strain, stress) if self.stress_imposed else (stress, strain)
-        parameters = ", ".join(f"{key} {value:g}" for key, value in _parameters(self.law).items())
+        parameters = ", ".join(f"{key} {value:g}" for key, value in law_answer(self.law)["parameters"].items())
         if self.stress_imposed:
             plot = text_plot(self.time, self.true_strain, "time [s]", "true strain [–]")
         else:
@@ -98,12 +98,7 @@ class Simulation:
                 "scheme": self.scheme,
                 "start": self.start if self.scheme == "be2" else None,
                 "imposed": "true_stress_MPa" if self.stress_imposed else "true_strain",
-                "law": {
-                    "parameters": _parameters(self.law),
-                    "modes": self.law.modes,
-                    "decades": self.law.decades,
-                    "companion": None if self.law.companion is None else _companion_answer(self.law.companion),
-                },
+                "law": law_answer(self.law),
                 "warnings": self.warnings,
                 "time_s": self.time,
                 "true_strain": self.true_strain,
@@ -192,19 +187,6 @@ def companion_warnings(law: Law, strain_rate: FloatArray) -> tuple[str, ...]:
         f"the companion relation ({law.companion.form}) was calibrated between {low:.3g} and {high:.3g} 1/s and is "
         f"asked between {outside[0]:.3g} and {outside[1]:.3g} 1/s: it extrapolates",
     )
-
-
-def _parameters(law: Law) -> dict[str, float]:
-    return {PARAMETER_KEYS[name]: getattr(law, name) for name in law.parameter_names}
-
-
-def _companion_answer(companion: Companion) -> dict[str, object]:
-    numbers = {
-        PARAMETER_KEYS.get(name, name): value
-        for name, value in vars(companion).items()
-        if isinstance(value, float | tuple) and name not in ("rate_floor", "calibrated")
-    }
-    return {"form": companion.form, **numbers}
 
 
 def _number(value: float) -> str:

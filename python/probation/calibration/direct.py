@@ -23,6 +23,7 @@ from probation.identify.problem import Problem, RecordProblem
 from probation.identify.variable_projection import search, time_bounds
 from probation.law import Law
 from probation.records.record import Noise
+from probation.reduction import spectrum_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -143,8 +144,8 @@ class DirectProblem:
             hardening_modulus=hardening,
             alpha=1.0,
             companion=relation,
-            modes=self.settings.modes,
             decades=self.settings.decades,
+            spectrum=spectrum_of(self.settings.modes, self.settings.decades, self.settings.accuracy),
         )
 
     def seen(self, at: int, floor: float) -> FloatArray:
@@ -357,7 +358,13 @@ class _Search:
 
 def _own_rms(each: RecordProblem, settings: LawSettings) -> float:
     """Rms of one record's own fit, constant tau_max, E_u and G free [MPa]."""
-    law = Law(unrelaxed_modulus=1.0, hardening_modulus=1.0, tau_max=1.0, modes=settings.modes, decades=settings.decades)
+    law = Law(
+        unrelaxed_modulus=1.0,
+        hardening_modulus=1.0,
+        tau_max=1.0,
+        decades=settings.decades,
+        spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
+    )
     few = thinned(each, ENOUGH_SAMPLES)
     alone = Problem(law, [few], (False, False, False))
     best = search(alone, time_bounds(alone))

@@ -173,7 +173,7 @@ def _constant_time(campaign: Campaign) -> LawSettings:
             "what is calibrated"
         )
     fixed = {name: value for name, value in campaign.law.fixed.items() if name != "alpha"}
-    return LawSettings(modes=campaign.law.modes, decades=campaign.law.decades, fixed=fixed)
+    return replace(campaign.law, companion=None, fixed=fixed)
 
 
 def _log_slope(alone: Fit) -> float:

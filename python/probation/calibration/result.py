@@ -13,7 +13,6 @@ from probation.answers import json_answer
 from probation.calibration.rate_table import rate_groups
 from probation.calibration.summary import percent, summary_text
 from probation.records.saving import companion_text
-from probation.records.settings import LawSettings
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -222,7 +221,7 @@ class Calibration:
         fixed = {name: value for name, value in campaign.law.fixed.items() if name not in ("tau_max_s", "alpha")}
         if self.companion.unrelaxed_modulus is not None:
             fixed.setdefault("unrelaxed_modulus_MPa", float(self.companion.unrelaxed_modulus))
-        law = LawSettings(campaign.law.modes, campaign.law.decades, self.companion.settings(), fixed)
+        law = replace(campaign.law, companion=self.companion.settings(), fixed=fixed)
         return replace(campaign, law=law, path=None, file_sha256="")
 
     def to_dict(self) -> dict[str, object]:

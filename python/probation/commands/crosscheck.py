@@ -73,5 +73,8 @@ def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
     held = {**campaign.law.fixed, **settings}
     relation = from_settings(campaign.law.companion)
     if {"unrelaxed_modulus_MPa", "hardening_modulus_MPa", "tau_max_s" if relation is None else "alpha"} <= set(held):
-        return make_law({"modes": float(campaign.law.modes), "decades": campaign.law.decades, **held}, relation)
+        spectrum = {"modes": float(campaign.law.modes), "decades": campaign.law.decades}
+        if campaign.law.accuracy is not None:
+            spectrum["accuracy"] = campaign.law.accuracy
+        return make_law({**spectrum, **held}, relation)
     return fit(campaign, hold=settings).law

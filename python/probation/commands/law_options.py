@@ -24,7 +24,7 @@ _TWO_NUMBERS: dict[str, tuple[str, type[Weissenberg | Exponential | PowerLaw]]] 
 }
 _FORMS = (*_TWO_NUMBERS, "table")
 _NAMES = {key: name for name, key in PARAMETER_KEYS.items()}
-_SETTABLE = (*_NAMES, "modes", "decades")
+_SETTABLE = (*_NAMES, "modes", "decades", "accuracy")
 
 
 def add_law_options(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +36,7 @@ def add_law_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="unrelaxed_modulus_MPa, hardening_modulus_MPa and tau_max_s (or, with --companion, alpha: 1 if left out); "
-        "modes (50) and decades (6)",
+        "modes (50) and decades (6); accuracy: fewer modes, refitted; the stress errs by no more (1e-3: 9 modes)",
     )
     group.add_argument(
         "--companion",
@@ -97,18 +97,21 @@ def make_law(values: dict[str, float], companion: Companion | None) -> Law:
             f"--set: found no {' and no '.join(missing)}, expected them; add "
             + " ".join(f"--set {name}=VALUE" for name in missing)
         )
+    from probation.reduction import spectrum_of  # noqa: PLC0415 - scipy is slow to load
+
     modes = values.get("modes", 50.0)
     if not modes.is_integer():
         raise InputError(f"--set modes: found {modes:g}, expected a whole number")
+    decades, accuracy = values.get("decades", 6.0), values.get("accuracy")
     parameters = {_NAMES[key]: value for key, value in values.items() if key in _NAMES}
     return Law(
         unrelaxed_modulus=parameters["unrelaxed_modulus"],
         hardening_modulus=parameters["hardening_modulus"],
         tau_max=parameters.get("tau_max"),
         alpha=parameters.get("alpha"),
-        modes=int(modes),
-        decades=values.get("decades", 6.0),
+        decades=decades,
         companion=companion,
+        spectrum=spectrum_of(int(modes), decades, accuracy),
     )
 
 

@@ -200,7 +200,10 @@ def _searched(
 def _law_text(campaign: Campaign) -> str:
     settings = campaign.law
     companion = "constant tau_max" if settings.companion is None else f"companion relation: {settings.companion.form}"
-    return f"modal (DNLR) law, {settings.modes} modes over {settings.decades:g} decades, {companion}"
+    modes = f"{settings.modes} modes over {settings.decades:g} decades"
+    if settings.accuracy is not None:
+        modes += f", fewer to {settings.accuracy:g}"
+    return f"modal (DNLR) law, {modes}, {companion}"
 
 
 def _spikes_text(count: int) -> str:

@@ -19,6 +19,7 @@ from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
 from probation.law import SCHEMES, Law, Scheme, Start
+from probation.reduction import spectrum_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -182,9 +183,9 @@ def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[
         hardening_modulus=values["hardening_modulus"],
         tau_max=values.get("tau_max"),
         alpha=values.get("alpha"),
-        modes=settings.modes,
         decades=settings.decades,
         companion=companion,
+        spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
     )
     held = tuple(outside_name(name) in fixed for name in names)
     return law, (held[0], held[1], held[2])

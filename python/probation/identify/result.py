@@ -11,6 +11,7 @@ import numpy as np
 from probation.answers import json_answer
 from probation.identify.modelled_record import ModelledRecord
 from probation.identify.parameter import SYMBOLS, Parameter, outside_name
+from probation.law_answer import law_answer
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -234,6 +235,7 @@ class Fit:
             "substeps": self.substeps,
             "method": self.method,
             "parameters": {outside_name(name): p.to_json() for name, p in identified.items()},
+            "law": law_answer(self.law),
             "fixed": {outside_name(n): p.value for n, p in self.parameters.items() if p.status == "held"},
             "products": {f"unrelaxed_modulus_MPa*{second}": self.product.to_json()},
             "correlation": {"names": [outside_name(name) for name in self.names], "matrix": self.correlation},

@@ -96,13 +96,14 @@ def _campaign_path(path: Path) -> Path:
 
 
 def _law(table: TomlTable) -> LawSettings:
-    table.only(("modes", "decades", "companion", "fixed"))
+    table.only(("modes", "decades", "accuracy", "companion", "fixed"))
     fixed = table.table("fixed")
     fixed.only(FIXABLE)
     try:
         return LawSettings(
             modes=table.whole_number("modes", 50),
             decades=table.number("decades", 6.0),
+            accuracy=table.number("accuracy") if "accuracy" in table.values else None,
             companion=_companion(table.table("companion")) if "companion" in table.values else None,
             fixed={name: fixed.number(name) for name in fixed.values},
         )

@@ -48,7 +48,10 @@ def csv_text(record: Record) -> str:
 
 def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_names: Sequence[str]) -> str:
     """Write the campaign.toml of records saved under these file names."""
-    parts = [_lines({"name": name}), "[law]\n" + _lines({"modes": law.modes, "decades": law.decades})]
+    modes = {"modes": law.modes, "decades": law.decades}
+    if law.accuracy is not None:
+        modes["accuracy"] = law.accuracy
+    parts = [_lines({"name": name}), "[law]\n" + _lines(modes)]
     if law.companion is not None:
         parts.append(companion_text(law.companion))
     if law.fixed:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from probation.errors import InputError
+from probation.law import ACCURACIES
 from probation.records.calibration_settings import CalibrationSettings
 from probation.records.complaint import listed, quoted, suggestion
 
@@ -93,6 +94,8 @@ class LawSettings:
         Number of modes N.
     decades : float
         Decades d that the relaxation times span.
+    accuracy : float or None
+        Relative error that the stress may have for fewer modes, refitted to those of `modes` and `decades`.
     companion : CompanionSettings or None
         None: τ_max is a constant.
     fixed : dict of str to float
@@ -109,12 +112,18 @@ class LawSettings:
     decades: float = 6.0
     companion: CompanionSettings | None = None
     fixed: Mapping[str, float] = field(default_factory=dict)
+    accuracy: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 1:
             raise InputError(f"law: found modes = {self.modes!r}, expected a whole number of at least 1")
         if not (math.isfinite(self.decades) and self.decades > 0):
             raise InputError(f"law: found decades = {self.decades!r}, expected a positive number")
+        finest, coarsest = ACCURACIES
+        if self.accuracy is not None and not finest <= self.accuracy <= coarsest:
+            raise InputError(
+                f"law: found accuracy = {self.accuracy!r}, expected a number from {finest:g} to {coarsest:g}"
+            )
         absent = "alpha" if self.companion is None else "tau_max_s"
         for name, value in self.fixed.items():
             if name not in FIXABLE:

@@ -1,0 +1,178 @@
+"""The list of constants that the user-material routines take; the order is theirs and stands here once.
+
+It is that of ``cpp/include/probation/material/constants.hpp``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.companion import Exponential, PowerLaw, Table, Weissenberg
+from probation.errors import InputError
+from probation.law import Law, Spectrum
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.companion import Companion
+
+NAMES = (
+    "unrelaxed_modulus_MPa",
+    "hardening_modulus_MPa",
+    "bulk_modulus_MPa",
+    "form",
+    "tau_max_s_or_alpha",
+    "slope_or_coefficient_or_points",
+    "intercept_or_exponent",
+    "rate_floor_per_s",
+    "rate_filter",
+    "modes",
+    "decades",
+)
+"""Constants 1 to 11; with decades = 0 the ratios tau_j / tau_max and the weights p_j follow, then a table's points."""
+
+FORMS: tuple[type[Companion] | None, ...] = (None, Weissenberg, Exponential, PowerLaw, Table)
+"""By form number."""
+
+MOST_MODES = 64
+MOST_TABLE_POINTS = 32
+
+STATE_HEADER, STATE_PER_MODE = 10, 6
+"""State variables of a point: 10 + 6 N."""
+
+
+def state_size(modes: int) -> int:
+    """State variables of a point with so many modes."""
+    return STATE_HEADER + STATE_PER_MODE * modes
+
+
+@dataclass(frozen=True)
+class MaterialConstants:
+    """The list, named.
+
+    Attributes
+    ----------
+    values : tuple of float
+        In the order of `NAMES`, then what follows.
+    """
+
+    values: tuple[float, ...]
+
+    @classmethod
+    def of(cls, law: Law, bulk_modulus: float, rate_filter: float = 0.0) -> MaterialConstants:
+        """The constants of a law.
+
+        Raises
+        ------
+        InputError
+            If the routines cannot hold the law.
+        """
+        assert law.spectrum is not None
+        form, first, second, rates, times = _companion(law)
+        if law.modes > MOST_MODES:
+            raise InputError(
+                f"modes: found {law.modes}, expected at most {MOST_MODES} in a user material; take an accuracy, as 1e-4"
+            )
+        log_spaced = law.spectrum == Spectrum.log_spaced(law.modes, law.decades)
+        modes = () if log_spaced else (*law.spectrum.relaxation_ratio.tolist(), *law.spectrum.modal_weight.tolist())
+        floor = 1e-7 if law.companion is None else law.companion.rate_floor
+        factor = law.tau_max if law.companion is None else law.alpha
+        assert factor is not None
+        return cls(
+            (
+                law.unrelaxed_modulus,
+                law.hardening_modulus,
+                bulk_modulus,
+                float(form),
+                factor,
+                first,
+                second,
+                floor,
+                rate_filter,
+                float(law.modes),
+                law.decades if log_spaced else 0.0,
+                *modes,
+                *rates,
+                *times,
+            )
+        )
+
+    def named(self) -> dict[str, float]:
+        """The eleven that have a name of their own."""
+        return dict(zip(NAMES, self.values, strict=False))
+
+    @property
+    def modes(self) -> int:
+        """N."""
+        return int(self.named()["modes"])
+
+    def law(self) -> Law:
+        """The law that the list describes.
+
+        Raises
+        ------
+        InputError
+            If the list is none.
+        """
+        named = self.named()
+        if len(self.values) < len(NAMES):
+            raise InputError(f"constants: found {len(self.values)}, expected at least {len(NAMES)}")
+        rest = list(self.values[len(NAMES) :])
+        spectrum = None
+        if named["decades"] == 0.0:
+            ratio, weight, rest = rest[: self.modes], rest[self.modes : 2 * self.modes], rest[2 * self.modes :]
+            spectrum = Spectrum(np.array(ratio), np.array(weight))
+        first, second = named["slope_or_coefficient_or_points"], named["intercept_or_exponent"]
+        companion = _companion_from(int(named["form"]), first, second, named["rate_floor_per_s"], rest)
+        law = Law(
+            unrelaxed_modulus=named["unrelaxed_modulus_MPa"],
+            hardening_modulus=named["hardening_modulus_MPa"],
+            tau_max=named["tau_max_s_or_alpha"] if companion is None else None,
+            alpha=None if companion is None else named["tau_max_s_or_alpha"],
+            modes=self.modes,
+            decades=named["decades"] or 6.0,
+            companion=companion,
+            spectrum=spectrum,
+        )
+        expected = len(MaterialConstants.of(law, 1.0).values)
+        if expected != len(self.values):
+            raise InputError(f"constants: found {len(self.values)}, expected {expected}")
+        return law
+
+
+def _companion(law: Law) -> tuple[int, float, float, tuple[float, ...], tuple[float, ...]]:
+    """Form number, its two constants, and the rates and times of a table."""
+    companion = law.companion
+    if companion is None:
+        return 0, 0.0, 0.0, (), ()
+    if isinstance(companion, Table):
+        points = len(companion.rates)
+        if not 2 <= points <= MOST_TABLE_POINTS:
+            raise InputError(
+                f"companion: found a table of {points} points, expected 2 to {MOST_TABLE_POINTS} in a user material; "
+                "thin it"
+            )
+        return FORMS.index(Table), float(points), 0.0, companion.rates, companion.tau_max
+    if isinstance(companion, Weissenberg):
+        return FORMS.index(Weissenberg), companion.slope, companion.intercept, (), ()
+    if isinstance(companion, Exponential | PowerLaw):
+        return FORMS.index(type(companion)), companion.coefficient, companion.exponent, (), ()
+    raise InputError(
+        f"companion: found the form {companion.form!r}, expected one that a user material knows: "
+        f"{', '.join(form.form for form in FORMS if form is not None)}; tabulate it with probation.Table"
+    )
+
+
+def _companion_from(form: int, first: float, second: float, floor: float, rest: Sequence[float]) -> Companion | None:
+    if form not in range(len(FORMS)):
+        raise InputError(f"constants: found form = {form}, expected 0 to {len(FORMS) - 1}")
+    relation = FORMS[form]
+    if relation is None:
+        return None
+    if relation is Table:
+        points = int(first)
+        return Table(tuple(rest[:points]), tuple(rest[points : 2 * points]), floor)
+    return relation(first, second, floor)  # type: ignore[call-arg]
