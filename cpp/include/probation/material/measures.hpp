@@ -1,0 +1,53 @@
+#pragma once
+// The same stress and tangent in the measures that finite-element codes ask for.
+
+#include "probation/material/point.hpp"
+
+namespace probation::material {
+
+/// Cauchy stress [MPa] and what Abaqus calls the Jacobian: the tangent of the Jaumann rate of the Kirchhoff
+/// stress over J, [MPa], to be applied to tensor shears twice or to engineering shears once.
+inline PointStress cauchy_jaumann(const PointStress& point, const Matrix3& f) noexcept {
+  const Fourth forward = congruence(f);
+  const double inverse_volume = 1.0 / determinant(f);
+  PointStress out{apply(forward, point.stress), carry(forward, point.tangent)};
+  for (double& component : out.stress) component *= inverse_volume;
+  const Symmetric& s = out.stress;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) {
+      const auto [i, j] = pairs[r];
+      const auto [k, l] = pairs[c];
+      double& entry = out.tangent[r][c];
+      entry *= inverse_volume;
+      if (j == l) entry += 0.5 * s[place[i][k]];
+      if (j == k) entry += 0.5 * s[place[i][l]];
+      if (i == l) entry += 0.5 * s[place[j][k]];
+      if (i == k) entry += 0.5 * s[place[j][l]];
+    }
+  return out;
+}
+
+/// First Piola-Kirchhoff stress P = F S [MPa] and dP / dF [MPa], index [3 i + J][3 k + L].
+struct FirstPiola {
+  Matrix3 stress{};
+  std::array<std::array<double, 9>, 9> tangent{};
+};
+
+inline FirstPiola first_piola(const PointStress& point, const Matrix3& f) noexcept {
+  FirstPiola out;
+  for (int i = 0; i < 3; ++i)
+    for (int b = 0; b < 3; ++b)
+      for (int a = 0; a < 3; ++a) out.stress[i][b] += f[i][a] * point.stress[place[a][b]];
+  for (int i = 0; i < 3; ++i)
+    for (int b = 0; b < 3; ++b)
+      for (int k = 0; k < 3; ++k)
+        for (int d = 0; d < 3; ++d) {
+          double sum = i == k ? point.stress[place[b][d]] : 0.0;
+          for (int a = 0; a < 3; ++a)
+            for (int c = 0; c < 3; ++c) sum += f[i][a] * point.tangent[place[a][b]][place[c][d]] * f[k][c];
+          out.tangent[3 * i + b][3 * k + d] = sum;
+        }
+  return out;
+}
+
+}  // namespace probation::material
