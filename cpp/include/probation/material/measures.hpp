@@ -10,7 +10,7 @@ namespace probation::material {
 inline PointStress cauchy_jaumann(const PointStress& point, const Matrix3& f) noexcept {
   const Fourth forward = congruence(f);
   const double inverse_volume = 1.0 / determinant(f);
-  PointStress out{apply(forward, point.stress), carry(forward, point.tangent)};
+  PointStress out{transform(forward, point.stress), carry(forward, point.tangent)};
   for (double& component : out.stress) component *= inverse_volume;
   const Symmetric& s = out.stress;
   for (int r = 0; r < 6; ++r)

@@ -59,8 +59,8 @@ inline bool deform(const Symmetric& right_cauchy_green, Deformation& out) noexce
     d_bar[i] = isochoric * (c[i] - mean);
   }
   out.from_principal = congruence(out.right.axes);
-  out.e_d = apply(out.from_principal, e_d);
-  out.d_bar = apply(out.from_principal, d_bar);
+  out.e_d = transform(out.from_principal, e_d);
+  out.d_bar = transform(out.from_principal, d_bar);
   return true;
 }
 
@@ -70,7 +70,7 @@ inline Symmetric relaxed_shape(const Symmetric& e_d) noexcept {
   const std::array<double, 3> c{std::exp(2.0 * p.value[0]), std::exp(2.0 * p.value[1]),
                                 std::exp(2.0 * p.value[2])};
   const double mean = (c[0] + c[1] + c[2]) / 3.0;
-  return apply(congruence(p.axes), {c[0] - mean, c[1] - mean, c[2] - mean, 0.0, 0.0, 0.0});
+  return transform(congruence(p.axes), {c[0] - mean, c[1] - mean, c[2] - mean, 0.0, 0.0, 0.0});
 }
 
 /// dS / dE in the principal axes of C.
@@ -167,19 +167,19 @@ inline Outcome point_update(const Parameters& parameters, const Symmetric& right
   const Fourth to_principal = congruence(detail::transposed(now.right.axes));
   Symmetric stress{};
   for (int c = 0; c < 6; ++c) stress[c] = sums.stress[c] + sums.weight * hardening * now.d_bar[c];
-  stress = apply(to_principal, stress);
+  stress = transform(to_principal, stress);
   for (int c = 0; c < 3; ++c) stress[c] += parameters.bulk_modulus * now.log_volume;
   Symmetric second_piola{};
   for (int c = 0; c < 6; ++c)
     second_piola[c] = log_difference(now.right.value[pairs[c].i], now.right.value[pairs[c].j]) * stress[c];
-  out.stress = apply(now.from_principal, second_piola);
+  out.stress = transform(now.from_principal, second_piola);
 
   if (with_tangent) {
     Symmetric slope{}, direction{};
     if (rate_matters) {
       for (int c = 0; c < 6; ++c) slope[c] = sums.log_slope[c] * rate.log_scale / rise_squared;
-      slope = apply(to_principal, slope);
-      direction = apply(to_principal, rise);  // d ln r = rise : de_d / (rise : rise)
+      slope = transform(to_principal, slope);
+      direction = transform(to_principal, rise);  // d ln r = rise : de_d / (rise : rise)
     }
     const Fourth tangent =
         detail::principal_tangent(now, stress, sums.mean * modulus, (sums.weight - sums.mean) * hardening,

@@ -55,7 +55,7 @@ inline Fourth congruence(const Matrix3& a) noexcept {
   return t;
 }
 
-inline Symmetric apply(const Fourth& t, const Symmetric& s) noexcept {
+inline Symmetric transform(const Fourth& t, const Symmetric& s) noexcept {
   Symmetric out{};
   for (int r = 0; r < 6; ++r)
     for (int c = 0; c < 6; ++c) out[r] += t[r][c] * s[c];
