@@ -171,6 +171,10 @@ inline void describe(Outcome outcome, Form form, char* text, int capacity) noexc
     put(known.name);
     put(") must be ");
     put(known.expected);
+  } else if (outcome.status == Status::short_state) {
+    put("probation: too few state variables: 10 + 6 modes are needed (3 + modes in one dimension)");
+  } else if (outcome.status == Status::no_element) {
+    put("probation: this element is not offered: use solid, plane strain, axisymmetric or truss elements");
   }
   text[length] = '\0';
 }

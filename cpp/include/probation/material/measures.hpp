@@ -33,11 +33,12 @@ struct FirstPiola {
   std::array<std::array<double, 9>, 9> tangent{};
 };
 
-inline FirstPiola first_piola(const PointStress& point, const Matrix3& f) noexcept {
+inline FirstPiola first_piola(const PointStress& point, const Matrix3& f, bool with_tangent = true) noexcept {
   FirstPiola out;
   for (int i = 0; i < 3; ++i)
     for (int b = 0; b < 3; ++b)
       for (int a = 0; a < 3; ++a) out.stress[i][b] += f[i][a] * point.stress[place[a][b]];
+  if (!with_tangent) return out;
   for (int i = 0; i < 3; ++i)
     for (int b = 0; b < 3; ++b)
       for (int k = 0; k < 3; ++k)
@@ -47,6 +48,27 @@ inline FirstPiola first_piola(const PointStress& point, const Matrix3& f) noexce
             for (int c = 0; c < 3; ++c) sum += f[i][a] * point.tangent[place[a][b]][place[c][d]] * f[k][c];
           out.tangent[3 * i + b][3 * k + d] = sum;
         }
+  return out;
+}
+
+/// d Cauchy / dF [MPa], index [component][3 k + L].
+inline std::array<std::array<double, 9>, 6> cauchy_slope(const FirstPiola& piola, const Matrix3& f) noexcept {
+  const double inverse_volume = 1.0 / determinant(f);
+  std::array<std::array<double, 9>, 6> out{};
+  for (int r = 0; r < 6; ++r) {
+    const auto [i, j] = pairs[r];
+    double stress = 0.0;
+    for (int b = 0; b < 3; ++b) stress += inverse_volume * piola.stress[i][b] * f[j][b];
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        // d J / d F = cofactor of F.
+        const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, l1 = (l + 1) % 3, l2 = (l + 2) % 3;
+        double sum = -stress * (f[k1][l1] * f[k2][l2] - f[k1][l2] * f[k2][l1]);
+        for (int b = 0; b < 3; ++b) sum += piola.tangent[3 * i + b][3 * k + l] * f[j][b];
+        if (j == k) sum += piola.stress[i][l];
+        out[r][3 * k + l] = inverse_volume * sum;
+      }
+  }
   return out;
 }
 
