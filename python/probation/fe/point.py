@@ -57,7 +57,7 @@ class MaterialPoint:
     >>> point = MaterialPoint.from_law(law, bulk_modulus=2e4)
     >>> stress, tangent, state = point.uniaxial(0.001, 0.2)
     >>> round(stress, 3), round(tangent)
-    (2.885, 2729)
+    (2.581, 2581)
     """
 
     constants: FloatArray

@@ -1,8 +1,7 @@
-"""Where the installed package keeps what C++ needs: ``python -m probation.fe.where`` prints the include path."""
+"""Where the installed package keeps what C++ needs."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from probation import _core
@@ -26,11 +25,3 @@ def interface_path() -> Path:
 def library_path() -> Path:
     """The compiled C interface, probation.h."""
     return cmake_prefix() / "lib" / "libprobation_c.so"
-
-
-if __name__ == "__main__":
-    paths = {"--include": include_path, "--cmake": cmake_prefix, "--interfaces": interface_path}
-    asked = sys.argv[1] if len(sys.argv) > 1 else "--include"
-    if asked not in paths:
-        sys.exit(f"usage: python -m probation.fe.where [{' | '.join(paths)}]")
-    print(paths[asked]())
