@@ -49,7 +49,8 @@ Outcome update(const double* props, int nprops, int ndi, int nshr, int nstatv, c
   const Outcome constants = read_constants(props, nprops, parameters);
   if (!constants.ok()) return constants;
   const bool uniaxial = ndi == 1 && nshr == 0;
-  if (!uniaxial && !(ndi == 3 && (nshr == 1 || nshr == 3))) return {Status::no_element};
+  const bool three_dimensional = ndi == 3 && (nshr == 1 || nshr == 3);
+  if (!uniaxial && !three_dimensional) return {Status::no_element};
   if (nstatv < (uniaxial ? uniaxial_state_size(parameters.modes) : point_state_size(parameters.modes)))
     return {Status::short_state};
   return uniaxial ? truss(parameters, dstran[0], dtime, statev, stress, ddsdde)
@@ -58,6 +59,7 @@ Outcome update(const double* props, int nprops, int ndi, int nshr, int nstatv, c
 
 }  // namespace
 
+// Fortran's names end in an underscore. NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 
 /// Abaqus' message routine; -3 prints the text and ends the analysis. Weak: other hosts do not have it.
@@ -100,3 +102,4 @@ extern "C" {
 }
 
 }  // extern "C"
+// NOLINTEND(readability-identifier-naming)

@@ -111,7 +111,7 @@ int probation_first_piola(const double* constants, int count, int points, const 
     for (int r = 0; r < 9; ++r) {
       stress[9L * point + r] = piola.stress[r / 3][r % 3];
       if (tangent == nullptr) continue;
-      for (int c = 0; c < 9; ++c) tangent[81L * point + 9 * r + c] = piola.tangent[r][c];
+      for (int c = 0; c < 9; ++c) tangent[81L * point + 9L * r + c] = piola.tangent[r][c];
     }
   }
   return code(outcome);

@@ -122,6 +122,7 @@ std::shared_ptr<const CompanionRelation> companion_of(const Parameters& p) {
 /// Steps of the coarsest of three runs: fine enough for the fastest modes, too, to be past their order
 /// reduction.
 constexpr int coarsest = 500;
+constexpr int steps_of(int level) { return level == 0 ? coarsest : 2 * steps_of(level - 1); }
 
 /// Order in the increment's length from runs of 1, 2 and 4 times as many steps: their largest differences at
 /// ten common instants. `run(steps)` answers with as many stresses as steps, none if an increment failed.
@@ -129,13 +130,13 @@ template <class Run>
 double order(Run run) {
   std::vector<double> stress[3];
   for (int level = 0; level < 3; ++level) {
-    stress[level] = run(coarsest << level);
+    stress[level] = run(steps_of(level));
     if (stress[level].empty()) return failed;
   }
   double coarse = 0.0, fine = 0.0;
   for (int instant = 1; instant <= 10; ++instant) {
     const auto at = [&](int level) {
-      return stress[level][static_cast<std::size_t>((coarsest << level) / 10 * instant - 1)];
+      return stress[level][static_cast<std::size_t>(steps_of(level) / 10 * instant - 1)];
     };
     coarse = std::max(coarse, std::abs(at(0) - at(1)));
     fine = std::max(fine, std::abs(at(1) - at(2)));

@@ -19,12 +19,12 @@ using Umat = void(double*, double*, double*, double*, double*, double*, double*,
 
 /// One point of an element with `direct` and `shear` components.
 struct AbaqusPoint {
-  explicit AbaqusPoint(int direct, int shear, int state_size = reference_state)
-      : ndi(direct), nshr(shear), state(static_cast<std::size_t>(state_size)) {}
+  explicit AbaqusPoint(int direct, int shear, std::size_t state_size = reference_state)
+      : ndi(direct), nshr(shear), state(state_size) {}
 
   int ndi, nshr;
   std::vector<double> state;
-  std::vector<double> constants = reference_constants;
+  std::vector<double> constants = constant_list();
   double stress[6] = {}, tangent[36] = {}, pnewdt = 1.0;
 
   void step(const std::array<double, 9>& f, double strain_increment, double dt) {
@@ -49,7 +49,7 @@ constexpr std::array<double, 9> unit{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
 
 }  // namespace
 
-// Abaqus' own, here in its place.
+// Abaqus' own, here in its place. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void stdb_abqerr_(const int* level, const char* text, const int*, const double*, const char*,
                              std::size_t length, std::size_t) {
   CHECK(*level == -3);
@@ -120,7 +120,7 @@ TEST_CASE("UMAT: a deformation turned inside out only cuts the increment") {
 
 TEST_CASE("UMAT: hosts without Abaqus' routine can ask what is wrong") {
   using Message = void(const double*, const int*, char*, const int*);
-  std::vector<double> constants = reference_constants;
+  std::vector<double> constants = constant_list();
   constants[9] = 0.0;
   const int count = 11, capacity = 200;
   char text[200];

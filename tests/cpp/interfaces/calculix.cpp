@@ -17,7 +17,7 @@ using Native = void(const char*, const int*, const int*, const int*, const doubl
 /// Two elements of three points each; the one that is stepped is point 2 of element 2.
 struct CalculixModel {
   std::vector<double> before = std::vector<double>(6 * reference_state, 0.5), after = before;
-  std::vector<double> constants = reference_constants;
+  std::vector<double> constants = constant_list();
   double stress[6] = {}, stiffness[21] = {}, pnewdt = 1.0;
   static constexpr std::size_t first = 4 * reference_state;
 

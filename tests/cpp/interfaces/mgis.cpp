@@ -34,7 +34,7 @@ const double root = std::sqrt(2.0);
 
 struct MgisPoint {
   std::vector<double> before = std::vector<double>(reference_state), after = before,
-                      constants = reference_constants;
+                      constants = constant_list();
   double gradient_before[9] = {1, 1, 1}, gradient[9] = {}, stress[9] = {}, k[81] = {}, rdt = 1.0;
   char error[512] = {};
 

@@ -17,9 +17,14 @@ struct Instant {
 const std::vector<Instant>& reference_case();
 
 /// E_u 3220, G 1.8, K 2000 MPa, eq. (11), 50 modes over 6 decades.
-extern const std::vector<double> reference_constants;
-constexpr int reference_modes = 50;
-constexpr int reference_state = 10 + 6 * reference_modes;
+inline constexpr std::array<double, 11> reference_constants{3220.0, 1.8,  2000.0, 1.0,  1.0, 0.00464,
+                                                            0.0367, 1e-7, 0.0,    50.0, 6.0};
+/// The same as a list to be changed.
+inline std::vector<double> constant_list() {
+  return {reference_constants.begin(), reference_constants.end()};
+}
+constexpr std::size_t reference_modes = 50;
+constexpr std::size_t reference_state = 10 + 6 * reference_modes;
 
 using Stress = std::array<double, 6>;    // Cauchy, 11, 22, 33, 12, 13, 23 [MPa]
 using Tangent = std::array<double, 36>;  // row by row

@@ -15,6 +15,7 @@
 //   12… ratios tau_j / tau_max, then weights p_j, where decades is 0; then rates and times of a table
 
 #include <cmath>
+#include <limits>
 
 #include "probation/material/parameters.hpp"
 #include "probation/material/status.hpp"
@@ -31,7 +32,7 @@ class ConstantReader {
  public:
   ConstantReader(const double* values, int count) noexcept : values_(values), count_(count) {}
 
-  double finite() noexcept { return next(-INFINITY); }
+  double finite() noexcept { return next(-std::numeric_limits<double>::max()); }
   double not_negative() noexcept { return next(0.0); }
   double positive() noexcept {
     const double value = next(0.0);
@@ -59,7 +60,7 @@ class ConstantReader {
 
  private:
   double next(double least) noexcept {
-    const double value = read_ < count_ ? values_[read_] : NAN;
+    const double value = read_ < count_ ? values_[read_] : std::numeric_limits<double>::quiet_NaN();
     ++read_;
     if (!(value >= least) || !std::isfinite(value)) refuse();
     return value;

@@ -71,19 +71,17 @@ template <int Components>
 inline ModalSums<Components> step_modes(const Parameters& parameters, double scale, const double* forcing,
                                         bool with_slopes, const double* before, double* after) noexcept {
   ModalSums<Components> sums;
-  for (int j = 0; j < parameters.modes; ++j) {
+  for (int j = 0; j < parameters.modes; ++j, before += Components, after += Components) {
     const double x = scale / parameters.relaxation_ratio[j], weight = parameters.modal_weight[j];
     const StepCoefficients<double> step = ExponentialStep::coefficients(x, 1.0);
-    const double* here = before + Components * j;
     if (with_slopes) {
       const StepCoefficients<double> slope = ExponentialStep::log_slopes(x, 1.0);
       for (int c = 0; c < Components; ++c)
-        sums.log_slope[c] += slope.previous * here[c] + weight * slope.forcing * forcing[c];
+        sums.log_slope[c] += slope.previous * before[c] + weight * slope.forcing * forcing[c];
     }
     for (int c = 0; c < Components; ++c) {
-      const double next = step.previous * here[c] + weight * step.forcing * forcing[c];
-      after[Components * j + c] = next;
-      sums.stress[c] += next;
+      after[c] = step.previous * before[c] + weight * step.forcing * forcing[c];
+      sums.stress[c] += after[c];
     }
     sums.mean += weight * step.forcing;
     sums.weight += weight;

@@ -49,7 +49,8 @@ inline bool deform(const Symmetric& right_cauchy_green, Deformation& out) noexce
     if (!(std::abs(component) < 1e12)) return false;
   out.right = principal(right_cauchy_green);
   const auto& c = out.right.value;
-  if (!(c[0] > 1e-12 && c[1] > 1e-12 && c[2] > 1e-12)) return false;
+  for (const double value : c)
+    if (!(value > 1e-12)) return false;
   const std::array<double, 3> e{0.5 * std::log(c[0]), 0.5 * std::log(c[1]), 0.5 * std::log(c[2])};
   out.log_volume = e[0] + e[1] + e[2];
   const double isochoric = std::exp(-2.0 / 3.0 * out.log_volume), mean = (c[0] + c[1] + c[2]) / 3.0;
