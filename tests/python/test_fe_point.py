@@ -123,3 +123,19 @@ def test_headers_interfaces_and_package_files_are_where_it_says(capsys):
     ):
         assert main([option]) == 0
         assert capsys.readouterr().out.strip() == str(path)
+
+
+def test_the_documented_limits_of_the_law_holds_hardly_relax_and_unloading_starts_at_nearly_twice_the_modulus():
+    """docs/finite-elements.md: steady flow relaxes at E_u times the rate; turned round, that adds to E_u."""
+    law = probation.Law(
+        unrelaxed_modulus=2000.0, hardening_modulus=1.5, companion=probation.Weissenberg(0.00464, 0.0367)
+    )
+    point = MaterialPoint.from_law(law, 2e4)
+    state = None
+    for _ in range(300):
+        loaded, _, state = point.uniaxial(0.001, 1.0, state)
+    unloaded, _, _ = point.uniaxial(-1e-4, 0.1, state)
+    for _ in range(60):
+        held, _, state = point.uniaxial(0.0, 1.0, state)
+    assert (round(loaded, 2), round(held, 2)) == (18.95, 18.89)
+    assert 3500.0 < (loaded - unloaded) / 1e-4 < 4000.0
