@@ -1,11 +1,14 @@
 """The law in felupe: one element against one dimension, and a turned one."""
 
+import json
+
 import numpy as np
 import pytest
 
 import probation
 from probation.fe import MaterialPoint
 from probation.fe.felupe import felupe_material
+from probation.fe.necking import Bar, main, neck
 
 felupe = pytest.importorskip("felupe")
 
@@ -67,3 +70,25 @@ def test_an_element_that_is_stretched_and_turned_by_a_right_angle_carries_its_st
             solid.results.update_statevars()
         np.testing.assert_allclose(forces[0], forces[1] @ rotation.T, atol=1e-10)
     assert np.abs(forces[1]).max() > 1.0
+
+
+def test_a_bar_at_constant_grip_speed_has_a_force_maximum_and_a_neck():
+    """The rate of the centre rises several times above the nominal one, which it has before the maximum."""
+    law = probation.Law(
+        unrelaxed_modulus=2000.0, hardening_modulus=1.5, companion=probation.Weissenberg(0.00464, 0.0367)
+    )
+    bar = Bar(elements=(12, 1), largest_step=0.02, centre_strain=1.2)
+    figures = neck(MaterialPoint.from_law(law, 2e4), bar).figures()
+    assert 15.0 < figures["largest_nominal_stress_MPa"] < 17.0
+    assert figures["lowest_nominal_stress_after_MPa"] < 0.7 * figures["largest_nominal_stress_MPa"]
+    assert figures["slowest_centre_rate_per_s"] == pytest.approx(1e-3, rel=0.05)
+    assert 4.0 < figures["centre_rate_ratio"] < 13.0
+
+
+def test_the_necking_command_prints_its_figures_and_draws_them(tmp_path, capsys):
+    picture, answer = tmp_path / "neck.png", tmp_path / "neck.json"
+    options = ["--elements", "4", "1", "--largest-step", "0.05", "--centre-strain", "0.1"]
+    assert main([*options, "--plot", str(picture), "--json", str(answer)]) == 0
+    assert "centre_rate_ratio" in capsys.readouterr().out
+    assert picture.stat().st_size > 5000
+    assert len(json.loads(answer.read_text())["centre_rate"]) > 3
