@@ -193,16 +193,15 @@ def plot(necking: Necking, file: Path) -> None:
     """Force, centre rate and the outline of the bar, as a picture."""
     from matplotlib.figure import Figure  # noqa: PLC0415 -- slow to import
 
-    figure = Figure(figsize=(11, 3.6), layout="constrained")
-    force, rate, shape = figure.subplots(1, 3)
-    force.plot(necking.nominal_strain, necking.nominal_stress)
-    force.set(xlabel="grip displacement / half length", ylabel="force / initial area (MPa)")
-    rate.semilogy(necking.centre_strain, necking.centre_rate)
-    rate.set(xlabel="true strain of the centre", ylabel="true strain rate of the centre (1/s)")
-    x, r = necking.outline
-    for sign in (1.0, -1.0):
-        shape.fill_between(sign * x, -r, r, color="0.75", edgecolor="0.3")
-    shape.set(xlabel="along the bar (mm)", ylabel="mm", aspect="equal")
+    figure = Figure(figsize=(9.0, 5.0), layout="constrained")
+    axes = figure.subplot_mosaic([["force", "rate"], ["shape", "shape"]], height_ratios=[3.0, 1.0])
+    axes["force"].plot(necking.nominal_strain, necking.nominal_stress)
+    axes["force"].set(xlabel="grip displacement / half length", ylabel="force / initial area (MPa)", ylim=(0.0, None))
+    axes["rate"].plot(necking.centre_strain, 1e3 * necking.centre_rate)
+    axes["rate"].set(xlabel="true strain of the centre", ylabel="its rate (10⁻³ 1/s)", ylim=(0.0, None))
+    x, r = np.hstack([necking.outline[:, :0:-1] * [[-1.0], [1.0]], necking.outline])
+    axes["shape"].fill_between(x, -r, r, color="0.75")
+    axes["shape"].set(xlabel="along the bar (mm)", ylabel="mm", aspect="equal")
     figure.savefig(file, dpi=150)
 
 
