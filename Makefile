@@ -54,7 +54,7 @@ lint: $(VENV)/.engine-tests $(VENV)/.lint  ## ruff, mypy, clang-format, clang-ti
 	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/mypy
 	@$(BIN)/clang-format --dry-run -Werror $(CPP_FILES)
-	@printf '%s\n' $(filter-out bench/%,$(filter %.cpp,$(CPP_FILES))) | xargs -P "$$(nproc)" -n 1 \
+	@printf '%s\n' $(filter-out bench/% tests/cpp/consumer/%,$(filter %.cpp,$(CPP_FILES))) | xargs -P "$$(nproc)" -n 1 \
 	    $(BIN)/clang-tidy -p build/editable --quiet --extra-arg=-Wno-unknown-warning-option \
 	    --extra-arg=-Wno-ignored-optimization-argument \
 	    >build/clang-tidy.log 2>&1 || { grep -E -A4 '(warning|error):' build/clang-tidy.log; exit 1; }

@@ -49,7 +49,7 @@ find_package_handle_standard_args(StaticSundials
   REASON_FAILURE_MESSAGE "install SUNDIALS 6.4 or newer with its static libraries (Debian: libsundials-dev)")
 
 if(StaticSundials_FOUND AND NOT TARGET sundials_static)
-  add_library(sundials_static INTERFACE)
+  add_library(sundials_static INTERFACE IMPORTED GLOBAL)
   target_include_directories(sundials_static SYSTEM INTERFACE "${STATIC_SUNDIALS_INCLUDE}")
   target_link_libraries(sundials_static INTERFACE ${STATIC_SUNDIALS_LIBRARIES} m)
   # Since 7.0 the core itself calls MPI if it was built with it, so that library cannot be left out.

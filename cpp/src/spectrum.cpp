@@ -4,6 +4,7 @@
 #include <string>
 
 #include "probation/errors.hpp"
+#include "probation/log_spaced.hpp"
 
 namespace probation {
 
@@ -20,12 +21,7 @@ Spectrum Spectrum::log_spaced(int modes, double decades) {
     throw InputError("decades is " + std::to_string(decades) + "; a positive number is needed");
 
   Spectrum spectrum{Eigen::ArrayXd(modes), Eigen::ArrayXd(modes)};
-  for (int j = 1; j <= modes; ++j) {
-    const double distance = modes == 1 ? 0.0 : static_cast<double>(modes - j) / (modes - 1);
-    spectrum.relaxation_ratio[j - 1] = std::pow(10.0, -distance * decades);  // eq. (4)
-  }
-  spectrum.modal_weight = spectrum.relaxation_ratio.sqrt();  // eq. (5)
-  spectrum.modal_weight /= spectrum.modal_weight.sum();
+  log_spaced_modes(modes, decades, spectrum.relaxation_ratio.data(), spectrum.modal_weight.data());
   return spectrum;
 }
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.export.check import Check, compared, ramp_jump_unload
-from probation.export.constants import NAMES, MaterialConstants, state_size
 from probation.export.kind import Kind
+from probation.fe.constants import NAMES, MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -2,6 +2,7 @@
 // Companion relation, eq. (12): exponential in log10 of the rate.
 
 #include "probation/companion.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 
@@ -9,20 +10,17 @@ namespace probation {
 class Exponential final : public CompanionRelation {
  public:
   Exponential(double coefficient, double exponent, double rate_floor = default_rate_floor)
-      : CompanionRelation(rate_floor), coefficient_(coefficient), exponent_(exponent) {}
+      : CompanionRelation(rate_floor), form_{coefficient, exponent} {}
 
-  double coefficient() const noexcept { return coefficient_; }  ///< [s]
-  double exponent() const noexcept { return exponent_; }
+  double coefficient() const noexcept { return form_.coefficient; }  ///< [s]
+  double exponent() const noexcept { return form_.exponent; }
 
-  double log_slope(double) const override { return exponent_ / std::log(10.0); }
+  double log_slope(double rate) const override { return form_.log_slope(rate); }
 
  private:
-  double form(double rate) const override {
-    return coefficient_ * std::exp(exponent_ * std::log10(1000.0 * rate));
-  }
+  double form(double rate) const override { return form_.relaxation_time(rate); }
 
-  double coefficient_;
-  double exponent_;
+  ExponentialForm form_;
 };
 
 }  // namespace probation

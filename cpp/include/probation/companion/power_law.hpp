@@ -2,6 +2,7 @@
 // Companion relation: a power of the rate.
 
 #include "probation/companion.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 
@@ -9,18 +10,17 @@ namespace probation {
 class PowerLaw final : public CompanionRelation {
  public:
   PowerLaw(double coefficient, double exponent, double rate_floor = default_rate_floor)
-      : CompanionRelation(rate_floor), coefficient_(coefficient), exponent_(exponent) {}
+      : CompanionRelation(rate_floor), form_{coefficient, exponent} {}
 
-  double coefficient() const noexcept { return coefficient_; }  ///< [s], at 1 1/s
-  double exponent() const noexcept { return exponent_; }
+  double coefficient() const noexcept { return form_.coefficient; }  ///< [s], at 1 1/s
+  double exponent() const noexcept { return form_.exponent; }
 
-  double log_slope(double) const override { return exponent_; }
+  double log_slope(double rate) const override { return form_.log_slope(rate); }
 
  private:
-  double form(double rate) const override { return coefficient_ * std::pow(rate, exponent_); }
+  double form(double rate) const override { return form_.relaxation_time(rate); }
 
-  double coefficient_;
-  double exponent_;
+  PowerLawForm form_;
 };
 
 }  // namespace probation

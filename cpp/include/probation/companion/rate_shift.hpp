@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "probation/companion.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 
@@ -23,7 +24,7 @@ class RateShift final : public CompanionRelation {
         base_(std::move(base)),
         reference_rate_(reference_rate),
         exponent_(exponent),
-        curvature_(curvature / std::log(10.0)) {
+        curvature_(curvature / log_of_ten) {
     if (!(reference_rate > 0.0) || !std::isfinite(reference_rate))
       throw InputError("reference_rate must be a positive number of 1/s");
     if (!std::isfinite(exponent)) throw InputError("exponent must be a finite number");

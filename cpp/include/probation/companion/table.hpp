@@ -1,12 +1,12 @@
 #pragma once
 // Companion relation: a table, straight lines between its points in log-log axes.
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "probation/companion.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 
@@ -33,20 +33,13 @@ class Table final : public CompanionRelation {
   const std::vector<double>& rates() const noexcept { return rates_; }
   const std::vector<double>& tau_max() const noexcept { return tau_max_; }
 
-  double log_slope(double rate) const override {
-    const std::size_t i = segment(rate);
-    return std::log(tau_max_[i + 1] / tau_max_[i]) / std::log(rates_[i + 1] / rates_[i]);
-  }
+  double log_slope(double rate) const override { return table().log_slope(rate); }
 
  private:
-  std::size_t segment(double rate) const {
-    const auto above = std::upper_bound(rates_.begin() + 1, rates_.end() - 1, rate);
-    return static_cast<std::size_t>(above - rates_.begin()) - 1;
+  TableForm table() const noexcept {
+    return {rates_.data(), tau_max_.data(), static_cast<int>(rates_.size())};
   }
-  double form(double rate) const override {
-    const std::size_t i = segment(rate);
-    return tau_max_[i] * std::exp(log_slope(rate) * std::log(rate / rates_[i]));
-  }
+  double form(double rate) const override { return table().relaxation_time(rate); }
 
   std::vector<double> rates_;
   std::vector<double> tau_max_;

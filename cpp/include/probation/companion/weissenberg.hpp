@@ -2,6 +2,7 @@
 // Companion relation, eq. (11): the Weissenberg number is linear in log10(rate).
 
 #include "probation/companion.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 
@@ -9,22 +10,17 @@ namespace probation {
 class Weissenberg final : public CompanionRelation {
  public:
   Weissenberg(double slope, double intercept, double rate_floor = default_rate_floor)
-      : CompanionRelation(rate_floor), slope_(slope), intercept_(intercept) {}
+      : CompanionRelation(rate_floor), form_{slope, intercept} {}
 
-  double slope() const noexcept { return slope_; }
-  double intercept() const noexcept { return intercept_; }
+  double slope() const noexcept { return form_.slope; }
+  double intercept() const noexcept { return form_.intercept; }
 
-  double log_slope(double rate) const override {
-    // tau = We / r, so d ln tau / d ln r = (dWe / d ln r) / We - 1.
-    return slope_ / std::log(10.0) / weissenberg_number(rate) - 1.0;
-  }
+  double log_slope(double rate) const override { return form_.log_slope(rate); }
 
  private:
-  double weissenberg_number(double rate) const { return slope_ * std::log10(rate) + intercept_; }
-  double form(double rate) const override { return weissenberg_number(rate) / rate; }
+  double form(double rate) const override { return form_.relaxation_time(rate); }
 
-  double slope_;
-  double intercept_;
+  WeissenbergForm form_;
 };
 
 }  // namespace probation

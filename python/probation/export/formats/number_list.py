@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from probation.export.constants import MaterialConstants
 from probation.export.header import c_comment
 from probation.export.kind import Format
 from probation.export.user_material import USER_MATERIAL
+from probation.fe.constants import MaterialConstants
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

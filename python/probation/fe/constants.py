@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import as_number
 from probation.companion import Exponential, PowerLaw, Table, Weissenberg
 from probation.errors import InputError
 from probation.law import Law, Spectrum
@@ -65,12 +66,26 @@ class MaterialConstants:
     def of(cls, law: Law, bulk_modulus: float, rate_filter: float = 0.0) -> MaterialConstants:
         """The constants of a law.
 
+        Parameters
+        ----------
+        law : Law
+            With at most 64 modes; its companion one of `FORMS`, a table of at most 32 points.
+        bulk_modulus : float
+            K [MPa]; the one-dimensional law is incompressible and does not tell it.
+        rate_filter : float
+            Strain over which the rate is filtered before the companion relation sees it [-]; 0: not at all.
+
         Raises
         ------
         InputError
             If the routines cannot hold the law.
         """
         assert law.spectrum is not None
+        bulk_modulus, rate_filter = as_number(bulk_modulus, "bulk_modulus"), as_number(rate_filter, "rate_filter")
+        if not bulk_modulus > 0.0:
+            raise InputError(f"bulk_modulus is {bulk_modulus}; a positive modulus in MPa is needed")
+        if not rate_filter >= 0.0:
+            raise InputError(f"rate_filter is {rate_filter}; a strain, not negative, is needed")
         form, first, second, rates, times = _companion(law)
         if law.modes > MOST_MODES:
             raise InputError(

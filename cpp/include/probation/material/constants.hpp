@@ -1,0 +1,183 @@
+#pragma once
+// The parameters as finite-element codes hand them over: one list of numbers, checked entry by entry.
+//
+//    1  unrelaxed_modulus  E_u [MPa], not negative
+//    2  hardening_modulus  G [MPa], not negative
+//    3  bulk_modulus       K [MPa], positive
+//    4  form               0 constant, 1 weissenberg, 2 exponential, 3 power, 4 table
+//    5  tau_max [s] where the form is constant, else alpha [-]; positive
+//    6  slope [-], coefficient [s] or, for a table, its number of points (2 to 32); else 0
+//    7  intercept [-] or exponent [-]; else 0
+//    8  rate_floor [1/s], positive; at it the form must give a positive time
+//    9  rate_filter [-], a strain, not negative; 0: the companion relation sees the rate itself
+//   10  modes              N, 1 to 64
+//   11  decades            d, positive: log-spaced modes, eqs. (4), (5); 0: N ratios and N weights follow
+//   12… ratios tau_j / tau_max, then weights p_j, where decades is 0; then rates and times of a table
+
+#include <cmath>
+#include <limits>
+
+#include "probation/material/parameters.hpp"
+#include "probation/material/status.hpp"
+
+namespace probation::material {
+
+constexpr int fixed_constants = 11;
+constexpr int most_constants = fixed_constants + 2 * most_modes + 2 * most_table_points;
+
+namespace detail {
+
+/// Goes through the list; the first entry that cannot be is kept.
+class ConstantReader {
+ public:
+  ConstantReader(const double* values, int count) noexcept : values_(values), count_(count) {}
+
+  double finite() noexcept { return next(-std::numeric_limits<double>::max()); }
+  double not_negative() noexcept { return next(0.0); }
+  double positive() noexcept {
+    const double value = next(0.0);
+    if (value == 0.0) refuse();
+    return value;
+  }
+  int whole(int least, int most) noexcept {
+    const double value = next(least);
+    if (!(value <= most) || value != std::floor(value)) refuse();
+    return bad_ ? least : static_cast<int>(value);
+  }
+  /// The entry just read is bad, unless an earlier one is.
+  void refuse() noexcept {
+    if (bad_ == 0) bad_ = read_;
+  }
+  void refuse(int constant) noexcept {
+    if (bad_ == 0) bad_ = constant;
+  }
+  /// All entries must have been read.
+  Outcome end() noexcept {
+    if (read_ < count_) refuse(read_ + 1);
+    return bad_ == 0 ? Outcome{} : Outcome{Status::bad_constant, bad_};
+  }
+  bool good() const noexcept { return bad_ == 0; }
+
+ private:
+  double next(double least) noexcept {
+    const double value = read_ < count_ ? values_[read_] : std::numeric_limits<double>::quiet_NaN();
+    ++read_;
+    if (!(value >= least) || !std::isfinite(value)) refuse();
+    return value;
+  }
+
+  const double* values_;
+  int count_, read_ = 0, bad_ = 0;
+};
+
+}  // namespace detail
+
+/// Fills the parameters from the list; on bad_constant they are not to be used.
+inline Outcome read_constants(const double* values, int count, Parameters& out) noexcept {
+  detail::ConstantReader reader(values, count);
+  out.unrelaxed_modulus = reader.not_negative();
+  out.hardening_modulus = reader.not_negative();
+  out.bulk_modulus = reader.positive();
+  out.form = static_cast<Form>(reader.whole(0, 4));
+  const double time_or_factor = reader.positive();
+  (out.form == Form::constant ? out.tau_max : out.alpha) = time_or_factor;
+  const bool table = out.form == Form::table;
+  out.table_points = table ? reader.whole(2, most_table_points) : 0;
+  out.coefficients[0] = table ? 0.0 : reader.finite();
+  out.coefficients[1] = reader.finite();
+  out.rate_floor = reader.positive();
+  out.rate_filter = reader.not_negative();
+  out.modes = reader.whole(1, most_modes);
+  const double decades = reader.not_negative();
+  if (!reader.good()) return reader.end();
+
+  if (decades > 0.0) {
+    out.set_log_spaced(out.modes, decades);
+  } else {
+    for (int j = 0; j < out.modes; ++j) out.relaxation_ratio[j] = reader.positive();
+    for (int j = 0; j < out.modes; ++j) out.modal_weight[j] = reader.not_negative();
+  }
+  for (int i = 0; i < out.table_points; ++i) {
+    out.table_rate[i] = reader.positive();
+    if (i > 0 && !(out.table_rate[i] > out.table_rate[i - 1])) reader.refuse();
+  }
+  for (int i = 0; i < out.table_points; ++i) out.table_tau_max[i] = reader.positive();
+  if (reader.good() && !possible_time(out.relaxation(out.rate_floor).tau_max)) reader.refuse(8);
+  return reader.end();
+}
+
+/// What constant k (1 for the first) is called and must be; `form` is constant 4 where it is known, else any.
+struct ConstantText {
+  const char* name;
+  const char* expected;
+};
+
+inline ConstantText constant_text(int constant, Form form) noexcept {
+  switch (constant) {
+    case 1:
+      return {"unrelaxed_modulus", "a modulus in MPa, not negative"};
+    case 2:
+      return {"hardening_modulus", "a modulus in MPa, not negative"};
+    case 3:
+      return {"bulk_modulus", "a positive modulus in MPa"};
+    case 4:
+      return {"form", "0 (constant), 1 (weissenberg), 2 (exponential), 3 (power) or 4 (table)"};
+    case 5:
+      return form == Form::constant ? ConstantText{"tau_max", "a positive time in s"}
+                                    : ConstantText{"alpha", "a positive number"};
+    case 6:
+      return form == Form::table         ? ConstantText{"table_points", "a whole number from 2 to 32"}
+             : form == Form::weissenberg ? ConstantText{"slope", "a finite number"}
+             : form == Form::constant    ? ConstantText{"(unused)", "a finite number, best 0"}
+                                         : ConstantText{"coefficient", "a finite number of s"};
+    case 7:
+      return form == Form::weissenberg ? ConstantText{"intercept", "a finite number"}
+             : form == Form::constant || form == Form::table
+                 ? ConstantText{"(unused)", "a finite number, best 0"}
+                 : ConstantText{"exponent", "a finite number"};
+    case 8:
+      return {"rate_floor", "a positive rate in 1/s at which the form gives a positive time"};
+    case 9:
+      return {"rate_filter", "a strain, not negative"};
+    case 10:
+      return {"modes", "a whole number from 1 to 64"};
+    case 11:
+      return {"decades", "a positive number, or 0 where ratios and weights follow"};
+    default:
+      return {"beyond decades",
+              "as many ratios and weights (positive, not negative) as modes where decades is 0, then as many "
+              "rates "
+              "(increasing) and times (positive) as table_points, and nothing more"};
+  }
+}
+
+/// Writes what is wrong into a text of `capacity` characters, the closing zero included; nothing if ok.
+inline void describe(Outcome outcome, Form form, char* text, int capacity) noexcept {
+  if (text == nullptr || capacity < 1) return;
+  int length = 0;
+  const auto put = [&](const char* words) {
+    while (*words != '\0' && length + 1 < capacity) text[length++] = *words++;
+  };
+  if (outcome.status == Status::cut_step) {
+    put("probation: no update at this increment; try a smaller one");
+  } else if (outcome.status == Status::bad_constant) {
+    char digits[12] = {};
+    int first = 11;
+    for (int rest = outcome.constant; rest > 0 && first > 0; rest /= 10)
+      digits[--first] = static_cast<char>('0' + rest % 10);
+    const ConstantText known = constant_text(outcome.constant, form);
+    put("probation: constant ");
+    put(digits + first);
+    put(" (");
+    put(known.name);
+    put(") must be ");
+    put(known.expected);
+  } else if (outcome.status == Status::short_state) {
+    put("probation: too few state variables: 10 + 6 modes are needed (3 + modes in one dimension)");
+  } else if (outcome.status == Status::no_element) {
+    put("probation: this element is not offered: use solid, plane strain, axisymmetric or truss elements");
+  }
+  text[length] = '\0';
+}
+
+}  // namespace probation::material

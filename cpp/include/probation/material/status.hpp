@@ -1,0 +1,21 @@
+#pragma once
+// How an update of the material point ended. Nothing here throws, allocates, prints or remembers.
+
+namespace probation::material {
+
+enum class Status {
+  ok = 0,
+  cut_step = 1,      ///< no update at this increment: try a smaller one; the state after is not to be used
+  bad_constant = 2,  ///< `constant` of the outcome cannot be; no increment helps
+  short_state = 3,   ///< the caller keeps fewer state variables than the modes need
+  no_element = 4,    ///< this kind of element (plane stress, say) is not offered
+};
+
+struct Outcome {
+  Status status = Status::ok;
+  int constant = 0;  ///< which constant is bad: 1 for the first; 0 if none is
+
+  bool ok() const noexcept { return status == Status::ok; }
+};
+
+}  // namespace probation::material
