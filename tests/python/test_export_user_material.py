@@ -8,9 +8,10 @@ import subprocess
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from probation.export.constants import MaterialConstants
 
 from probation import Exponential, InputError, Law, PowerLaw, Table, Weissenberg, export
+from probation.fe import MaterialPoint
+from probation.fe.constants import MaterialConstants
 
 E_U, G, ALPHA = 3220.0, 1.85, 1.045
 LAW = Law(unrelaxed_modulus=E_U, alpha=ALPHA, hardening_modulus=G, companion=Weissenberg(0.00464, 0.0367))
@@ -112,11 +113,10 @@ def test_every_law_comes_back_from_its_constants(law, accuracy):
 
 def test_the_compiled_point_takes_the_constants():
     """To 1e-11 MPa of the scheme sa2, which is its own."""
-    fe = pytest.importorskip("probation.fe")
     time = np.linspace(0.0, 100.0, 501)
     strain = np.interp(time, [0.0, 40.0, 80.0, 100.0], [0.0, 0.2, 0.5, 0.45])
     for law in (LAW, LAW.reduced(modes=7), CONSTANT):
-        point, state, stress = fe.MaterialPoint(export(law, "list").content.values), None, [0.0]
+        point, state, stress = MaterialPoint(export(law, "list").content.values), None, [0.0]
         for step, increment in zip(np.diff(time), np.diff(strain), strict=True):
             now, _, state = point.uniaxial(increment, step, state)
             stress.append(now)
