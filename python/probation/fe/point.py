@@ -73,7 +73,7 @@ class MaterialPoint:
     @classmethod
     def from_law(cls, law: Law, bulk_modulus: float, *, rate_filter: float = 0.0) -> MaterialPoint:
         """The point of a law; arguments as in `probation.fe.constants.MaterialConstants.of`."""
-        return cls(MaterialConstants.of(law, bulk_modulus, rate_filter).values)
+        return cls(np.array(MaterialConstants.of(law, bulk_modulus, rate_filter).values))
 
     @property
     def state_size(self) -> int:
