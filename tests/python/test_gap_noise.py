@@ -9,7 +9,7 @@ from scipy.linalg import toeplitz
 
 from campaigns import gap_noise
 from probation import InputError
-from probation.gap.arma import Arma
+from probation.gap.arma import LEAST_RISE, Arma, Periodogram, fit_arma
 from probation.gap.noise import carried_strain_noise, estimate_noise
 from probation.gap.quantisation import quantisation_step
 from probation.gap.spikes import find_spikes
@@ -37,6 +37,15 @@ def test_whitening_is_the_inverse_root_of_the_covariance(phi, theta):
         g.append(phi * g[-1])
     whitener = Arma(phi, theta, 2.0).whiten(np.eye(count))
     assert_allclose(whitener @ (4.0 * toeplitz(g)) @ whitener.T, np.eye(count), atol=1e-5)
+
+
+def test_noise_is_never_said_to_vanish_towards_low_frequencies():
+    """Differences of white noise do; what else a record holds of slow noise, they hide."""
+    frequency = np.pi * (np.arange(2000) + 0.5) / 2000
+    power = (2.0 - 2.0 * np.cos(frequency)) * rng().chisquare(1, 2000)
+    fitted = fit_arma([Periodogram(frequency, power, np.ones(2000))], 0.01).models[0]
+    assert fitted.theta < -0.3
+    assert LEAST_RISE <= fitted.rise < 2.0 * LEAST_RISE
 
 
 def test_a_drawn_series_has_the_variances_of_its_spectrum():

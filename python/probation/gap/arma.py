@@ -34,6 +34,9 @@ STEEP = 4.0
 PROMISED = 2.0
 """Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
 
+LEAST_RISE = 0.1
+"""Noise that all but vanishes towards low frequencies would make a gap of anything slow: bursts can feign it."""
+
 LEAST_KNOWN = 1.0
 """Largest variance of the logarithm of the low frequencies' level: beyond it Fisher's information has run out (phi at
 its border), and a level that could be anything would excuse any gap."""
@@ -221,7 +224,8 @@ def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[fl
         offsets = np.arange(-reach, reach + 1)
         phi = np.minimum(np.tanh(middle[0] + steps[0] * offsets), most_phi)
         theta = np.clip(np.tanh(middle[1] + steps[1] * offsets), -MOST_THETA, MOST_THETA)
-        table = _deviance(binned, _table(phi, theta))
+        rise = np.outer((1.0 + phi**2) / (1.0 - phi) ** 2, (1.0 + theta) ** 2 / (1.0 + theta**2))
+        table = np.where(rise >= LEAST_RISE, _deviance(binned, _table(phi, theta)), np.inf)
         row, column = np.unravel_index(int(np.argmin(table)), table.shape)
         if table[row, column] < deviance:
             deviance, best = float(table[row, column]), (float(phi[row]), float(theta[column]))
