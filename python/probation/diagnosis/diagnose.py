@@ -24,6 +24,7 @@ from probation.diagnosis.thinning import thin
 from probation.gap.gap_test import GapTester
 from probation.gap.isolability import isolability
 from probation.gap.parallel import usual_threads
+from probation.gap.place_left_out import place_left_out
 from probation.gap.registry import effects as catalogue
 from probation.gap.where import locate
 
@@ -121,6 +122,8 @@ def diagnose(
             chosen = answer_set(weighed)
         verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
     best = weighed[0]
+    if best.effects == (UNKNOWN,):
+        where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
