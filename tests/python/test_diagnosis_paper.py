@@ -10,7 +10,7 @@ from probation.paper.twins import SAMPLES, experiment_2, experiment_3, necking_h
 from probation.paper.wavy_bias import drawn_wave
 from probation.records import LawSettings
 
-MISSING = "rate_dependent_relaxation"
+MISSING, UNKNOWN = "rate_dependent_relaxation", "unknown"
 NOISE = 0.04  # MPa
 HELD = {"unrelaxed_modulus_MPa": 3220.0}
 TRUTH = Law(
@@ -34,12 +34,21 @@ def diagnosed(*records, hold=None):
     return diagnose(Campaign("one law", records, LawSettings()), hold=hold, design=False)
 
 
+def nothing_else_is_named(found):
+    """Relaxation alone leads by far; beside it at most "and something unknown", of which no data are ever quite free."""
+    named = {effects for effects in found.answer_set}
+    return (
+        found.best.effects == (MISSING,) and found.best.probability > 0.9 and named <= {(MISSING,), (MISSING, UNKNOWN)}
+    )
+
+
 @pytest.mark.parametrize(("number", "other", "hold"), [(2, 3, HELD), (3, 2, HELD), (3, 2, None)])
 def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
     """Without it 6 to 8 MPa; with it the noise, on the record that was fitted."""
     twins = twin_campaign((number,), held_out=(other,))
     found = diagnose(Campaign(twins.name, twins.records, LawSettings()), hold=hold, design=False)
-    assert (found.verdict, found.answer_set) == ("explained", ((MISSING,),))
+    assert found.verdict == "explained"
+    assert nothing_else_is_named(found)
     assert 6.0 < found.shrink.identify.before_MPa < 8.5
     assert found.shrink.identify.after_MPa < 1.5 * NOISE
     # The twins of 2 and 3 differ by 6 % in alpha and 5 % in G, by 4 to 5 MPa at the end of the test: that is left.
@@ -61,7 +70,7 @@ def test_the_gap_falls_to_the_noise_on_other_kinematics_too(number, other):
     """One law for all: necking otherwise at the same grip speed, and at a grip speed four times another."""
     held_out = [record(number, "P1", "held-out"), record(number, "P3", "held-out"), record(other, "P2", "held-out")]
     found = diagnosed(record(number, "P2", "identify"), *held_out, hold=HELD)
-    assert found.answer_set == ((MISSING,),)
+    assert nothing_else_is_named(found)
     for necking in ("P1", "P3"):
         closure = found.shrink.records[f"{number}-{necking}"]
         assert closure.before_MPa > 6.0
@@ -71,7 +80,8 @@ def test_the_gap_falls_to_the_noise_on_other_kinematics_too(number, other):
 
 def test_two_grip_speeds_together_bring_it_down_to_the_noise():
     found = diagnosed(record(2, "P2", "identify"), record(3, "P2", "identify"), hold=HELD)
-    assert (found.verdict, found.answer_set) == ("explained", ((MISSING,),))
+    assert found.verdict == "explained"
+    assert nothing_else_is_named(found)
     assert found.shrink.identify.after_MPa == pytest.approx(NOISE, rel=0.1)
 
 
@@ -79,9 +89,9 @@ def test_a_wavy_bias_is_told_beside_the_missing_relation():
     """1.5 MPa at its largest, about 0.5 rms: what is left is of that size, and the headline says that it is there."""
     found = diagnosed(record(3, "P2", "identify", bias=1.5), record(3, "P1", "held-out"), hold=HELD)
     assert found.verdict == "unexplained"
-    assert MISSING in found.best.effects
-    assert all(MISSING in effects for effects in found.answer_set)
-    assert "rate-dependent relaxation is part of it" in found.headline
+    assert all({MISSING, UNKNOWN} <= set(effects) for effects in (found.best.effects, *found.answer_set))
+    assert "rate-dependent relaxation" in found.headline
+    assert "part of it" in found.headline
     assert "something outside the catalogue is left" in found.headline
     assert 0.2 < found.shrink.identify.after_MPa < 1.0
     assert found.best.checks.remaining_p_value < 0.005
