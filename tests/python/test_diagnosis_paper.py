@@ -35,8 +35,8 @@ def diagnosed(*records, hold=None):
 
 
 def nothing_else_is_named(found):
-    """Relaxation alone leads by far; beside it at most "and something unknown", of which no data are ever quite free."""
-    named = {effects for effects in found.answer_set}
+    """Relaxation alone leads by far; beside it at most "and something unknown", of which no data are quite free."""
+    named = set(found.answer_set)
     return (
         found.best.effects == (MISSING,) and found.best.probability > 0.9 and named <= {(MISSING,), (MISSING, UNKNOWN)}
     )
