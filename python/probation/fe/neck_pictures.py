@@ -36,7 +36,7 @@ def draw_neck(necking: Necking, path: str | PathLike[str]) -> None:
     with house_style():
         meshes = 0.8 + 0.8 * len(necking.snapshots)
         figure = new_figure(9.0, 3.6 + meshes)
-        above, below = figure.subfigures(2, 1, height_ratios=[3.6, meshes])
+        above, below = np.asarray(figure.subfigures(2, 1, height_ratios=[3.6, meshes]))
         force, rate = above.subplots(1, 2)
         force.plot(necking.nominal_strain, necking.nominal_stress, color=colour("model"))
         force.set(xlabel="grip displacement / half length [–]", ylabel="force / initial area [MPa]", ylim=(0.0, None))
@@ -50,9 +50,7 @@ def _rates_beside_figure_1(axes: Axes, necking: Necking) -> None:
     twins = (("experiment 1", experiment_1(), "muted"), ("experiments 2, 3", experiment_3(), "second"))
     for name, twin, shade in twins:
         relative = twin.strain_rate / twin.strain_rate[0]
-        axes.plot(
-            *thinned(twin.true_strain, relative), color=colour(shade), ls="--", label=f"twin of Figure 1, {name}"
-        )
+        axes.plot(*thinned(twin.true_strain, relative), color=colour(shade), ls="--", label=f"twin of Figure 1, {name}")
     relative = necking.centre_rate / necking.centre_rate[0]
     axes.plot(necking.centre_strain, relative, color=colour("model"), label="centre of the bar")
     axes.set(xlabel="true strain [–]", ylabel="strain rate / that at the start [–]", yscale="log")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from probation.fe.point import MaterialPoint
 
 StrainMeasure = Literal["section", "surface"]
-"""2 ln(initial / current radius) of the centre section; or the logarithm of the stretch along the bar on its surface."""
+"""2 ln(initial / current radius) of the centre section; or the logarithm of the stretch along the surface there."""
 
 STRAIN_MEASURES: tuple[StrainMeasure, ...] = ("section", "surface")
 
@@ -144,10 +144,7 @@ def observe(name: str, control: str, point: MaterialPoint, necking: Necking, str
     """What was seen at the centre, and what is known of it."""
     centre = necking.centre
     radius = np.array([each.radius for each in centre])
-    if strain == "section":
-        seen = necking.centre_strain
-    else:
-        seen = np.log([each.surface_stretch for each in centre])
+    seen = necking.centre_strain if strain == "section" else np.log([each.surface_stretch for each in centre])
     time, seen = np.append(0.0, necking.time), np.append(0.0, seen)
     relative = np.array([each.curvature for each in centre]) * radius
     triaxiality = [each.axis_mean_stress / each.axis_equivalent_stress for each in centre]

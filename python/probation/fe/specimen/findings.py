@@ -155,10 +155,17 @@ def known_table(specimen: Specimen) -> Table:
                 f"{100 * what['largest_volume_change']:.2f}",
             )
         )
-    headings = ("experiment", "fastest rate [1/s]", "ratio", "triaxiality gap [MPa]", "[%]", "Bridgman [%]", "at strain")
-    headings += ("gap at end [MPa]", "triaxiality", "volume [%]")
+    headings = (
+        "experiment",
+        "fastest rate [1/s]",
+        "ratio",
+        "triaxiality gap [MPa]",
+        "[%]",
+        "Bridgman [%]",
+        "at strain",
+    )
     return Table(
-        headings,
+        (*headings, "gap at end [MPa]", "triaxiality", "volume [%]"),
         tuple(rows),
         "What is known: mean axial stress of the centre section less the law's in one dimension along the same strain",
     )
@@ -172,7 +179,10 @@ def _judged(campaign: Campaign, seed: int) -> Judged:
 
 
 def _answers(judged: Judged) -> dict[str, Any]:
-    return {"certificate": json.loads(judged.certificate.to_json()), "diagnosis": json.loads(judged.diagnosis.to_json())}
+    return {
+        "certificate": json.loads(judged.certificate.to_json()),
+        "diagnosis": json.loads(judged.diagnosis.to_json()),
+    }
 
 
 def _relative(gap: FloatArray, experiment: Experiment) -> list[float]:

@@ -37,7 +37,7 @@ class Recording:
 
     samples: int = 601
     stress_noise: float = 0.04
-    strain_noise: float = 1e-4
+    strain_noise: float = 5e-5
     seed: int = 0
 
     def __post_init__(self) -> None:
