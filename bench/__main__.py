@@ -11,6 +11,7 @@ from bench import (
     forward,
     identification,
     machine,
+    material_point,
     overhead,
     record,
     report,
@@ -19,7 +20,7 @@ from bench import (
 from bench.methods import INSTALL, missing_packages
 from bench.rows import Findings
 
-SECTIONS = (forward, fewer_modes, overhead, sensitivities, identification, equal_error, batches)
+SECTIONS = (forward, fewer_modes, material_point, overhead, sensitivities, identification, equal_error, batches)
 
 
 def main() -> int:
