@@ -97,6 +97,7 @@ def test_the_command_leaves_campaigns_and_reports_the_triaxiality_gap(tmp_path, 
     printed = capsys.readouterr().out
     assert "triaxiality gap [MPa]" in printed
     assert "The law is" in printed
+    assert "volume_change" in printed
     campaign = probation.Campaign.load(tmp_path / "neck")
     assert [record.control for record in campaign.records] == ["strain-rate"] + 2 * ["displacement-rate"]
     answer = json.loads((tmp_path / "specimen.json").read_text())

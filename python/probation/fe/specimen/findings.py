@@ -29,6 +29,8 @@ NECK, CONTROL = "neck", "uniaxial"
 
 _IDENTIFIED = "experiment-1"
 
+_LIKELY = 0.01
+
 
 @dataclass(frozen=True, eq=False)
 class Judged:
@@ -70,7 +72,7 @@ class Findings:
             if judged is not None:
                 parts += [f"{words}: probation test\n{judged.certificate.headline}"]
                 parts += [judged.certificate.parameter_table().text(), judged.certificate.prediction_table().text()]
-                parts += [f"{words}: diagnosis\n{judged.diagnosis.summary()}"]
+                parts += [f"{words}: diagnosis\n{judged.diagnosis.summary()}", blame_table(judged).text()]
         return "\n\n".join(parts)
 
     def to_json(self) -> str:
@@ -168,6 +170,23 @@ def known_table(specimen: Specimen) -> Table:
         (*headings, "gap at end [MPa]", "triaxiality", "volume [%]"),
         tuple(rows),
         "What is known: mean axial stress of the centre section less the law's in one dimension along the same strain",
+    )
+
+
+def blame_table(judged: Judged) -> Table:
+    """How likely the diagnosis holds that each effect has a part, over all explanations that name it; 1 % and more.
+
+    A change of volume is listed in any case: it is what a catalogue of uniaxial effects has nearest to triaxiality.
+    """
+    parts: dict[str, float] = {"volume_change": 0.0}
+    for cause in json.loads(judged.diagnosis.to_json())["causes"]:
+        for effect in cause["effects"] or ["no effect is needed"]:
+            parts[effect] = parts.get(effect, 0.0) + cause["probability"]
+    rows = sorted(parts.items(), key=lambda each: -each[1])
+    return Table(
+        ("effect", "has a part [%]"),
+        tuple((name, f"{100 * part:.2g}") for name, part in rows if part >= _LIKELY or name == "volume_change"),
+        "What the diagnosis blames",
     )
 
 
