@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +31,7 @@ not uniaxial: the report shows the answers beside this known fault.
   python -m probation.fe.specimen --out specimen                   (a minute)
   python -m probation.fe.specimen --out specimen --first bar       (experiment 1 in a bar too, driven by video)
   python -m probation.fe.specimen --out specimen --strain surface  (strain along the bar on its surface)
+  python -m probation.fe.specimen --out specimen --bridgman        (stress corrected by the neck's outline)
   python -m probation.fe.specimen --out specimen --imperfection 0.005 --plot specimen.png
   probation certify specimen/neck --held-out experiment-2 --held-out experiment-3 --report certificate.html
   probation diagnose specimen/neck --report diagnosis.html
@@ -56,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
         default="section",
         help="of the bar: 2 ln(initial / current radius), or along the bar on its surface (section)",
     )
+    made.add_argument("--bridgman", action="store_true", help="divide the stress by Bridgman's factor of the outline")
     made.add_argument("--no-control", action="store_true", help="leave out the campaign in one dimension")
     made.add_argument("--plot", type=Path, metavar="FILE", help="strain rates beside Figure 1, and the triaxiality gap")
     group = made.add_argument_group("recording")
@@ -86,6 +89,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         law = law_of(given)
         point = MaterialPoint.from_law(law, given.bulk_modulus, rate_filter=given.rate_filter)
         specimen = make_specimen(law, point, bar_of(given), first=given.first, strain=given.strain)
+        if given.bridgman:
+            specimen = replace(specimen, experiments=tuple(each.corrected() for each in specimen.experiments))
         found = judge(specimen, recording, control=not given.no_control, folder=given.out)
         (given.out / "specimen.json").write_text(found.to_json(), encoding="utf-8")
         if given.plot:

@@ -112,6 +112,10 @@ class Experiment:
             volume_change=np.zeros_like(self.time),
         )
 
+    def corrected(self) -> Experiment:
+        """With the stress divided by Bridgman's factor, as an experimenter can who measures the outline."""
+        return replace(self, true_stress=self.true_stress / self.bridgman)
+
 
 def pull(name: str, point: MaterialPoint, bar: Bar, loading: Loading, strain: StrainMeasure = "section") -> Experiment:
     """Pull the bar.
