@@ -1,6 +1,7 @@
 """The law in felupe: one element against one dimension, and a turned one."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -127,3 +128,9 @@ def test_the_necking_command_prints_its_figures_and_draws_them(tmp_path, capsys)
     assert "centre_rate_ratio" in capsys.readouterr().out
     assert picture.stat().st_size > 5000
     assert len(json.loads(answer.read_text())["centre_rate"]) > 3
+
+
+def test_without_felupe_the_necking_command_says_what_to_install(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "felupe", None)
+    assert main([]) == 2
+    assert "pip install 'probation[fe]'" in capsys.readouterr().err

@@ -126,10 +126,18 @@ class BarModel:
     ----------
     point : MaterialPoint
     bar : Bar
+
+    Raises
+    ------
+    InputError
+        If felupe is not installed.
     """
 
     def __init__(self, point: MaterialPoint, bar: Bar) -> None:
-        import felupe  # noqa: PLC0415 -- an extra
+        try:
+            import felupe  # noqa: PLC0415 -- an extra
+        except ModuleNotFoundError:
+            raise InputError("felupe is not installed; pip install 'probation[fe]' brings it") from None
 
         self.felupe = felupe
         along, across = bar.elements
