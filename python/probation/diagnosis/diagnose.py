@@ -14,7 +14,7 @@ from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import next_test_of
 from probation.diagnosis.probabilities import TEMPERED, answer_set, weigh, with_none_leading, with_unknown_leading
-from probation.diagnosis.remaining import remaining_gap
+from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
 from probation.diagnosis.sharp_gap import with_sharp
@@ -121,13 +121,17 @@ def diagnose(
             weighed = with_unknown_leading(weighed)
             chosen = answer_set(weighed)
         verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-    best = weighed[0]
-    if best.effects == (UNKNOWN,):
+    if weighed[0].effects == (UNKNOWN,):
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
+    shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+    if verdict == "explained" and leaves_too_much(shrink):
+        weighed = with_unknown_leading(weighed)
+        chosen = answer_set(weighed)
+        verdict = "unexplained"
+    best = weighed[0]
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
-    shrink, curves = shrink_of(base, best.hypothesis, campaign, where.located, seed=seed)
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
     following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if design else None
