@@ -34,6 +34,7 @@ def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_no
     found = diagnose(replace(whole, records=tuple(thinned(each, 4) for each in whole.records)), design=False)
     assert found.gap.rejected
     assert found.verdict == "unexplained"  # three times the noise is left
+    assert found.best.checks is not None
     assert all(RATE in effects for effects in found.answer_set)
     assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
     assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
