@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "coupled.hpp"
+#include "flush_subnormals.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
@@ -100,6 +101,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
                      std::to_string(history_.size()) + " are needed");
   const std::lock_guard<std::mutex> lock(work_->busy);
+  const FlushSubnormals flushing;
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -202,6 +204,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
   Workspace& w = *work_;
   const std::lock_guard<std::mutex> lock(w.busy);
+  const FlushSubnormals flushing;
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions)
     direction.validate(change, n, law.spectrum.modes(), history_.rate_given());

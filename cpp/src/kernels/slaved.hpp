@@ -62,16 +62,39 @@ struct SlavedModes {
       for (int n = 0; n < count; ++n) stress[n] += first / steps.scale[n] * u[n];
     }
     for_each(modes, [&](int at) {
-      store(modes.before + at, count > 1 ? state(modes, steps, count - 2, at) : load(modes.state + at));
-      store(modes.state + at, state(modes, steps, count - 1, at));
+      const Vector weight = load(modes.weight + at);
+      const Vector before = count > 1 ? weight * state(modes, steps, count - 2, at) : load(modes.state + at);
+      store(modes.before + at, before);
+      store(modes.state + at, weight * state(modes, steps, count - 1, at));
+    });
+  }
+
+  /// The same along a direction in which the time scale alone moves, in unit-weight states; `before` is left
+  /// alone. d z+ = -p (U / x + V / x - 4 V / x^2) d ln x.
+  void sweep_with_slope(const Modes& modes, const Steps& steps, double* stress,
+                        const TangentDirection& d) const {
+    if (from == 0 && to == modes.padded) return;
+    const int last = steps.count - 1;
+    for (int n = 0; n <= last; ++n) {
+      const double inverse = 1.0 / steps.scale[steps.uniform ? 0 : n];
+      const double v = steps.curvature ? steps.curvature[n] : 0.0, all = first * (steps.forcing[n] + v);
+      stress[n] += inverse * (all - 2.0 * second * inverse * v);
+      d.stress[n] -= d.log_scale[n] * inverse * (all - 4.0 * second * inverse * v);
+    }
+    const double v = steps.curvature ? steps.curvature[last] : 0.0;
+    for_each(modes, [&](int at) {
+      const Vector x = load(modes.inverse_ratio + at) * steps.scale[steps.uniform ? 0 : last];
+      store(modes.state + at, state(modes, steps, last, at));
+      store(d.state + at, (4.0 * v / x - (steps.forcing[last] + v)) / x * d.log_scale[last]);
     });
   }
 
  private:
+  /// Per unit weight.
   static Vector state(const Modes& modes, const Steps& steps, int n, int at) {
     const Vector x = load(modes.inverse_ratio + at) * steps.scale[steps.uniform ? 0 : n];
     const double v = steps.curvature ? steps.curvature[n] : 0.0;
-    return load(modes.weight + at) * ((steps.forcing[n] + v - 2.0 * v / x) / x);
+    return (steps.forcing[n] + v - 2.0 * v / x) / x;
   }
 };
 
