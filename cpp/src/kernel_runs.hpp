@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/kernels.hpp"
+#include "modal_group.hpp"
 #include "probation/history.hpp"
 #include "record_steps.hpp"
 
@@ -37,17 +38,23 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   }
 }
 
-inline kernels::Steps kernel_steps(const RecordSteps<double>& steps, Eigen::Index first, Eigen::Index count,
-                                   bool uniform) {
+/// In even steps SA3's curvature is half the change of its forcing.
+inline kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& steps, Eigen::Index first,
+                                   Eigen::Index count, bool uniform) {
   const auto i = static_cast<std::size_t>(first);
-  const bool curved = steps.rule[i] == StepRule::exponential;
   return {steps.rule[i],
           static_cast<int>(count),
           uniform,
           &steps.scale[i],
           &steps.ratio[i],
           &steps.forcing[i],
-          curved ? &steps.curvature[i] : nullptr};
+          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr,
+          uniform};
+}
+
+inline kernels::Modes modes_for(const kernels::Steps& steps, ModalGroup& group) {
+  return steps.rule == StepRule::exponential && !steps.uniform && steps.count > 1 ? group.view_with_table()
+                                                                                  : group.view();
 }
 
 }  // namespace probation

@@ -62,10 +62,11 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   stress.setZero();
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
-    for_each_run(
-        history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
-          kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
-        });
+    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1,
+                 [&](Index first, Index count, bool uniform) {
+                   const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
+                   kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
+                 });
   };
   if (!w.extra.empty()) {
     extra_inputs(w.inputs, w.extra_in);
@@ -166,27 +167,29 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool coupled =
         std::any_of(tangents.begin(), tangents.end(), [](const TangentState& t) { return !t.linear(); });
     if (!coupled) group.state *= group.weight;
-    for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+    for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+      const kernels::Steps run = kernel_steps(options_.scheme, steps, first, length, uniform);
       if (!coupled) {
-        kernel.sweep(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1);
+        kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
         return;
       }
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));
-      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1,
-                     views.data(), static_cast<int>(views.size()), scratch.data());
+      kernel.tangent(modes_for(run, group), run, stress.data() + first + 1, views.data(),
+                     static_cast<int>(views.size()), scratch.data());
     });
     for (TangentState& t : tangents) {
       if (!t.linear()) continue;
-      ModalGroup alone = group;
-      alone.state = t.state * group.weight;
-      alone.before.setZero();
-      for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
-        kernels::Steps linear = kernel_steps(steps, first, run, uniform);
+      Eigen::ArrayXd state = t.state * group.weight, before = Eigen::ArrayXd::Zero(group.padded());
+      for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+        kernels::Steps linear = kernel_steps(options_.scheme, steps, first, length, uniform);
         linear.forcing = &t.forcing[static_cast<std::size_t>(first)];
         if (linear.curvature) linear.curvature = &t.curvature[static_cast<std::size_t>(first)];
-        kernel.sweep(alone.view(), linear, t.stress.data() + first + 1);
+        kernels::Modes alone = modes_for(linear, group);
+        alone.state = state.data();
+        alone.before = before.data();
+        kernel.sweep(alone, linear, t.stress.data() + first + 1);
       });
     }
   };

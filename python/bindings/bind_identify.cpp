@@ -1,18 +1,8 @@
 #include "bindings.hpp"
 #include "probation/identify/identify_many.hpp"
+#include "rows.hpp"
 
 using namespace probation;
-
-namespace {
-
-/// float32 or float64 in the caller's memory; one row is every record's.
-SampleRows rows(const py::array& samples) {
-  const py::ssize_t stride = samples.ndim() == 2 ? samples.shape(1) : 0;
-  if (samples.dtype().is(py::dtype::of<float>())) return {static_cast<const float*>(samples.data()), stride};
-  return {static_cast<const double*>(samples.data()), stride};
-}
-
-}  // namespace
 
 void bind_identify(py::module_& m) {
   py::native_enum<IdentifyMethod>(m, "IdentifyMethod", "enum.Enum")

@@ -10,13 +10,6 @@
 namespace py = pybind11;
 using namespace pybind11::literals;
 
-/// An interrupt from the keyboard ends a long batch: to be called now and then without the interpreter's
-/// lock.
-inline void raise_signals() {
-  const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 void bind_batch(py::module_& m);
 void bind_companion(py::module_& m);
 void bind_creep(py::module_& m);

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 FloatArray: TypeAlias = NDArray[np.float64]
+Rows: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
 
 
 def as_samples(values: ArrayLike, name: str, length: int | None = None) -> FloatArray:
@@ -42,6 +43,31 @@ def as_samples(values: ArrayLike, name: str, length: int | None = None) -> Float
         first = int(np.flatnonzero(~np.isfinite(samples))[0])
         raise InputError(f"{name}[{first}] is {samples[first]}; a finite number is needed")
     return samples
+
+
+def as_rows(values: ArrayLike, name: str) -> Rows:
+    """One or many contiguous rows of float32 or float64, not copied if they are; masked samples are NaN.
+
+    What the rows hold is not looked at.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what was found and what was expected.
+    """
+    try:
+        given = values.astype(np.float64).filled(np.nan) if np.ma.is_masked(values) else np.asarray(values)
+        if given.dtype.kind not in "biufO":
+            raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
+        kept = given.dtype if given.dtype in (np.float32, np.float64) else np.float64
+        rows: Rows = np.ascontiguousarray(given, dtype=kept)
+    except InputError:
+        raise
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{name} is not an array of numbers: {error}") from None
+    if given.ndim not in (1, 2) or rows.shape[-1] == 0:
+        raise InputError(f"{name} has the shape {given.shape}; expected (n_times,) or (records, n_times)")
+    return rows
 
 
 def as_number(value: object, name: str) -> float:

@@ -48,7 +48,25 @@ def batch_stress(
     threads: int,
     out: _Array,
 ) -> None: ...
+def field_stress(
+    law: Law,
+    parameters: _Array,
+    time: _Array,
+    true_strain: _Rows,
+    find_jumps: bool,
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
 def batch_sum_of_squares(
+    law: Law,
+    parameters: _Array,
+    records: list[BatchRecord],
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
+def batch_normal_equations(
     law: Law,
     parameters: _Array,
     records: list[BatchRecord],

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, as_whole_number, one_of
+from probation._arrays import FloatArray, Rows, as_rows, as_whole_number, one_of
 from probation.errors import InputError
 from probation.history import Jumps
 from probation.law import Law, Scheme, Start
-
-if TYPE_CHECKING:
-    from typing import Any
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
@@ -29,8 +26,6 @@ STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each
 
 SOLVED = (0, 1)
 """The statuses of records whose parameters are a minimum: converged, and at a bound."""
-
-Rows: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,9 +132,9 @@ def identify_many(
         For arguments that do not fit together; never for what a record holds.
     """
     arrays = {
-        "time": _as_rows(time, "time"),
-        "true_strain": _as_rows(true_strain, "true_strain"),
-        "true_stress": _as_rows(true_stress, "true_stress"),
+        "time": as_rows(time, "time"),
+        "true_strain": as_rows(true_strain, "true_strain"),
+        "true_stress": as_rows(true_stress, "true_stress"),
     }
     n_times = arrays["time"].shape[-1]
     shapes = {len(each) for each in arrays.values() if each.ndim == 2}
@@ -197,28 +192,10 @@ def _options(
     )
 
 
-def _as_rows(values: ArrayLike, name: str) -> Rows:
-    """As the engine reads them: one or many contiguous rows of float32 or float64; not copied if they are."""
-    try:
-        given = np.asarray(values)
-        if given.dtype.kind not in "biufO":
-            raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
-        rows: NDArray[Any] = np.ascontiguousarray(
-            given, dtype=given.dtype if given.dtype in (np.float32, np.float64) else np.float64
-        )
-    except InputError:
-        raise
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{name} is not an array of numbers: {error}") from None
-    if given.ndim not in (1, 2) or rows.shape[-1] == 0:
-        raise InputError(f"{name} has the shape {given.shape}; expected (n_times,) or (records, n_times)")
-    return rows
-
-
 def _as_noise(noise: ArrayLike, records: int, n_times: int) -> Rows:
     shape = np.shape(noise)
     if shape in ((n_times,), (records, n_times)):
-        return _as_rows(noise, "noise")
+        return as_rows(noise, "noise")
     try:
         return np.ascontiguousarray(np.broadcast_to(np.asarray(noise, dtype=np.float64), (records, n_times)))
     except (TypeError, ValueError):

@@ -23,17 +23,6 @@ void require_length(Index found, Index expected, const char* name) {
 
 }  // namespace
 
-void SampleRows::read(Index record, Eigen::ArrayXd& samples) const {
-  std::visit(
-      [&](const auto* from) {
-        using Sample = std::remove_const_t<std::remove_pointer_t<decltype(from)>>;
-        samples =
-            Eigen::Map<const Eigen::Array<Sample, Eigen::Dynamic, 1>>(from + record * stride, samples.size())
-                .template cast<double>();
-      },
-      first);
-}
-
 void identify_many(const Law& law, const BulkRecords& records, const IdentifyOptions& options,
                    const BatchRun& run, BulkOutput out) {
   require_length(out.parameters.rows(), records.records, "parameters");

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int most_iterations = 100;
 constexpr double longest_time_step = 1.0;  // of ln time
+constexpr double least_damping = 1e-8;     // of the diagonal of J^T J
+constexpr double slowest = 0.99;           // shrinking of the steps that is still taken for convergence
 
 Eigen::Vector3d values(const FitPoint& p) { return {p.unrelaxed_modulus, p.log_time, p.hardening_modulus}; }
 
@@ -51,9 +53,9 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
         return i == 1 ? std::abs(step[1]) : std::abs(step[i]) / std::max(std::abs(here[i]), 1e-300);
       };
       const double size = std::max({relative(0), relative(1), relative(2)});
-      const double ratio = last_size > 0.0 ? std::min(size / last_size, 0.9) : 0.9;
+      const double ratio = last_size > 0.0 ? std::min(size / last_size, slowest) : slowest;
       const bool last = size <= finest_accuracy * 1e-2 ||
-                        (damping == 0.0 && size * ratio / (1.0 - ratio) <= finest_accuracy);
+                        (!rejected && size * ratio / (1.0 - ratio) <= finest_accuracy);
       if (last) {
         if (rejected) {  // the residual is the rejected point's
           p = fit.evaluate(here[0], here[1], here[2]);
@@ -69,12 +71,12 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
       const FitPoint tried = fit.evaluate(next[0], next[1], next[2]);
       if (tried.cost <= p.cost * (1.0 + 1e-12)) {
         p = tried;
-        damping = damping > 1e-3 ? 0.1 * damping : 0.0;
+        damping = damping > least_damping ? 0.3 * damping : 0.0;
         last_size = size;
         break;
       }
       ++search.iterations;
-      damping = damping > 0.0 ? 10.0 * damping : 1e-3;
+      damping = damping > 0.0 ? 10.0 * damping : least_damping;
       last_size = 0.0;
     }
   }

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "identify/box_fit.hpp"
-#include "identify/unit_solves.hpp"
+#include "unit_solves.hpp"
 
 namespace probation {
 

@@ -3,22 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <variant>
 
 #include "probation/identify/identify.hpp"
+#include "probation/sample_rows.hpp"
 #include "probation/thread_pool.hpp"
 
 namespace probation {
-
-/// Rows of samples in the caller's memory, in either precision. A stride of zero gives all records the same
-/// row.
-struct SampleRows {
-  std::variant<const float*, const double*> first = static_cast<const double*>(nullptr);
-  Eigen::Index stride = 0;  ///< samples from row to row
-
-  /// Copies row `record` into `samples`, which has its length.
-  void read(Eigen::Index record, Eigen::ArrayXd& samples) const;
-};
 
 struct BulkRecords {
   Eigen::Index records, n_times;

@@ -31,6 +31,9 @@ class UnitSolves {
   const Eigen::ArrayXd& u() const { return u_; }  ///< d stress / d E_u [-]; shape (size)
   const Eigen::ArrayXd& v() const { return v_; }  ///< d stress / d G [-]; shape (size)
 
+  /// The stress itself [MPa] in one sweep; shape (size).
+  void stress(double unrelaxed_modulus, double time, double hardening_modulus, Eigen::Ref<Eigen::ArrayXd> out);
+
   /// d stress / d ln tau_max (or ln alpha) [MPa] at the time of the last solve.
   const Eigen::ArrayXd& slope(double unrelaxed_modulus, double hardening_modulus);
 
@@ -44,7 +47,9 @@ class UnitSolves {
     Eigen::ArrayXd forcing, curvature;
   };
 
-  void sweep(const Forcing& forcing, Eigen::ArrayXd& stress);
+  kernels::Steps steps_of(const Run& run, const Forcing& forcing) const;
+  void sweep(const Forcing& forcing, double* stress);
+  void combine(double unrelaxed_modulus, double hardening_modulus);
   void keep(const RecordSteps<double>& steps, Forcing& forcing);
 
   ModalGroup group_;

@@ -1,4 +1,4 @@
-#include "identify/unit_solves.hpp"
+#include "unit_solves.hpp"
 
 #include <algorithm>
 
@@ -77,31 +77,53 @@ void UnitSolves::take_thinned(const UnitSolves& full, Index stride) {
   if (even < steps) runs_.push_back({even, steps - even, false});
 }
 
-void UnitSolves::sweep(const Forcing& forcing, Eigen::ArrayXd& stress) {
+void UnitSolves::sweep(const Forcing& forcing, double* stress) {
   group_.state.setZero();
   group_.before.setZero();
   for (const Run& run : runs_) {
-    const auto m = static_cast<std::size_t>(run.first);
-    kernels::best().sweep(group_.view(),
-                          {rule_[m], static_cast<int>(run.count), run.uniform, &scale_[run.first], &ratio_[m],
-                           &forcing.forcing[run.first], curved_ ? &forcing.curvature[run.first] : nullptr},
-                          stress.data() + run.first + 1);
+    const kernels::Steps part = steps_of(run, forcing);
+    kernels::best().sweep(modes_for(part, group_), part, stress + run.first + 1);
   }
+}
+
+/// In even steps SA3's curvature is half the change of its forcing.
+kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) const {
+  const auto m = static_cast<std::size_t>(run.first);
+  return {rule_[m],
+          static_cast<int>(run.count),
+          run.uniform,
+          &scale_[run.first],
+          &ratio_[m],
+          &forcing.forcing[run.first],
+          curved_ ? &forcing.curvature[run.first] : nullptr,
+          curved_ && run.uniform};
 }
 
 void UnitSolves::solve(double time) {
   scale_ = unit_scale_ * (1.0 / time);
   u_.setZero(size());
-  sweep(stiff_, u_);
+  sweep(stiff_, u_.data());
   v_ = total_weight_ * hardening_;
-  sweep(relaxed_, v_);
+  sweep(relaxed_, v_.data());
+}
+
+/// The forcing of E_u u + G v.
+void UnitSolves::combine(double unrelaxed_modulus, double hardening_modulus) {
+  both_.forcing = unrelaxed_modulus * stiff_.forcing + hardening_modulus * relaxed_.forcing;
+  if (curved_) both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
+}
+
+void UnitSolves::stress(double unrelaxed_modulus, double time, double hardening_modulus,
+                        Eigen::Ref<Eigen::ArrayXd> out) {
+  scale_ = unit_scale_ * (1.0 / time);
+  combine(unrelaxed_modulus, hardening_modulus);
+  out = (total_weight_ * hardening_modulus) * hardening_;
+  sweep(both_, out.data());
 }
 
 const Eigen::ArrayXd& UnitSolves::slope(double unrelaxed_modulus, double hardening_modulus) {
   const Index steps = size() - 1;
-  both_.forcing = unrelaxed_modulus * stiff_.forcing + hardening_modulus * relaxed_.forcing;
-  if (curved_)
-    both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
+  combine(unrelaxed_modulus, hardening_modulus);
   group_.state.setZero();
   group_.before.setZero();
   slope_state_.setZero(group_.padded());
@@ -110,14 +132,7 @@ const Eigen::ArrayXd& UnitSolves::slope(double unrelaxed_modulus, double hardeni
   ignored_.setZero(size());
   minus_one_.setConstant(steps, -1.0);
   for (const Run& run : runs_) {
-    const auto m = static_cast<std::size_t>(run.first);
-    const kernels::Steps part{rule_[m],
-                              static_cast<int>(run.count),
-                              run.uniform,
-                              &scale_[run.first],
-                              &ratio_[m],
-                              &both_.forcing[run.first],
-                              curved_ ? &both_.curvature[run.first] : nullptr};
+    const kernels::Steps part = steps_of(run, both_);
     const kernels::TangentDirection time{nullptr,
                                          nullptr,
                                          minus_one_.data(),
@@ -126,7 +141,7 @@ const Eigen::ArrayXd& UnitSolves::slope(double unrelaxed_modulus, double hardeni
                                          slope_state_.data(),
                                          slope_before_.data(),
                                          slope_.data() + run.first + 1};
-    kernels::best().tangent(group_.view(), part, ignored_.data() + run.first + 1, &time, 1,
+    kernels::best().tangent(modes_for(part, group_), part, ignored_.data() + run.first + 1, &time, 1,
                             kernel_scratch_.data());
   }
   return slope_;
