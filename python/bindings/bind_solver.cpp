@@ -47,7 +47,7 @@ void bind_solver(py::module_& m) {
       .def_property_readonly("history", &Solver::history)
       .def(
           "stress",
-          [](Solver& solver, const Law& law, const LawChange& change, HeldOutput out) {
+          [](Solver& solver, const Law& law, const LawChange& change, Held<double> out) {
             const py::gil_scoped_release others_run;
             solver.stress(law, change, out.view());
           },
@@ -59,13 +59,14 @@ void bind_solver(py::module_& m) {
       .def_property_readonly("cvode_statistics", &Solver::cvode_statistics);
   m.def(
       "stress",
-      [](const Law& law, const LawChange& change, const SolverOptions& options, HeldOutput out,
-         HeldSamples time, HeldSamples true_strain, HeldSamples strain_rate, History::Indices jumps,
-         const Eigen::ArrayXi& direction, bool find_jumps) {
+      [](const Law& law, const LawChange& change, const SolverOptions& options, Held<double> out,
+         Held<const double> time, Held<const double> true_strain, Held<const double> strain_rate,
+         History::Indices jumps, Held<const int> direction, bool find_jumps) {
         const py::gil_scoped_release others_run;
         const auto instants = time.view(), strain = true_strain.view(), rate = strain_rate.view();
-        Solver(find_jumps ? History(FindJumps{}, instants, strain, rate, direction)
-                          : History(instants, strain, rate, std::move(jumps), direction),
+        const Eigen::ArrayXi signs = direction.view();
+        Solver(find_jumps ? History(FindJumps{}, instants, strain, rate, signs)
+                          : History(instants, strain, rate, std::move(jumps), signs),
                options)
             .stress(law, change, out.view());
       },

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_number, as_output, as_samples, as_whole_number, one_of
+from probation._arrays import (
+    FloatArray,
+    as_number,
+    as_output,
+    as_samples,
+    as_whole_number,
+    held_samples,
+    one_of,
+)
 from probation.change import Change, Direction, engine_change
 from probation.companion import Companion
 from probation.errors import InputError
@@ -164,16 +173,14 @@ class Law:
             object.__setattr__(self, "modes", len(self.spectrum.modal_weight))
         for name in self.parameter_names:
             object.__setattr__(self, name, as_number(getattr(self, name), name))
-        object.__setattr__(self, "_engine", self._make_engine())
+        self.engine  # noqa: B018 - refuses what cannot be
 
     def __getstate__(self) -> dict[str, object]:
-        return {name: value for name, value in self.__dict__.items() if name != "_engine"}
+        return {name: value for name, value in self.__dict__.items() if name != "engine"}
 
-    def __setstate__(self, state: dict[str, object]) -> None:
-        self.__dict__.update(state)
-        object.__setattr__(self, "_engine", self._make_engine())
-
-    def _make_engine(self) -> _core.Law:
+    @cached_property
+    def engine(self) -> _core.Law:
+        """The law as the engine holds it."""
         assert self.spectrum is not None
         return _core.Law(
             self.unrelaxed_modulus,
@@ -183,12 +190,6 @@ class Law:
             None if self.companion is None else self.companion._engine(),
             self.spectrum._engine(),
         )
-
-    @property
-    def engine(self) -> _core.Law:
-        """The law as the engine holds it."""
-        engine: _core.Law = self.__dict__["_engine"]
-        return engine
 
     @property
     def parameter_names(self) -> tuple[str, str, str]:
@@ -202,13 +203,14 @@ class Law:
 
     def with_parameters(self, values: ArrayLike) -> Law:
         """The same law with other values of `parameters`, shape (3,)."""
-        numbers = as_samples(values, "values")
+        numbers = held_samples(values, "values").tolist()
         if len(numbers) != len(self.parameter_names):
             raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
+        if not all(map(isfinite, numbers)):
+            as_samples(values, "values")  # says which is not
         law = object.__new__(type(self))  # all else was checked when this law was made
-        law.__dict__.update(self.__dict__)
-        law.__dict__.update(zip(self.parameter_names, numbers.tolist(), strict=True))
-        law.__dict__["_engine"] = law._make_engine()
+        law.__dict__.update(self.__getstate__(), **dict(zip(self.parameter_names, numbers, strict=True)))
+        law.engine  # noqa: B018 - refuses what cannot be
         return law
 
     def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:
@@ -291,7 +293,8 @@ class Law:
         """
         options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
         history = history_arguments(time, true_strain, strain_rate, jumps, direction)
-        stress = as_output(out, (len(history[0]),))
+        shape = history[0].shape
+        stress = np.empty(shape) if out is None else as_output(out, shape)
         _core.stress(self.engine, engine_change(change), options, stress, *history)
         return stress
 
