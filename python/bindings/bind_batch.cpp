@@ -9,9 +9,6 @@ void bind_batch(py::module_& m) {
              return BatchRecord{history, true_stress, change};
            }),
            "history"_a, "true_stress"_a, "change"_a);
-  py::class_<SolverOptions>(m, "SolverOptions")
-      .def(py::init([](Scheme scheme, Start start) { return SolverOptions{scheme, start, {}}; }),
-           "scheme"_a = Scheme::be2, "start"_a = Start::exponential);
   m.def("batch_stress", &batch_stress, "law"_a, "parameters"_a, "history"_a, "change"_a, "options"_a,
         "threads"_a, "out"_a, py::call_guard<py::gil_scoped_release>());
   m.def("batch_sum_of_squares", &batch_sum_of_squares, "law"_a, "parameters"_a, "records"_a, "options"_a,

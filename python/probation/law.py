@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from probation._arrays import FloatArray, as_number, as_output, as_samples, as_w
 from probation.change import Change, Direction, engine_change
 from probation.companion import Companion
 from probation.errors import InputError
-from probation.history import Jumps, make_history
+from probation.history import Jumps, history_arguments, make_history
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -205,7 +205,11 @@ class Law:
         numbers = as_samples(values, "values")
         if len(numbers) != len(self.parameter_names):
             raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
-        return replace(self, **dict(zip(self.parameter_names, numbers.tolist(), strict=True)))
+        law = object.__new__(type(self))  # all else was checked when this law was made
+        law.__dict__.update(self.__dict__)
+        law.__dict__.update(zip(self.parameter_names, numbers.tolist(), strict=True))
+        law.__dict__["_engine"] = law._make_engine()
+        return law
 
     def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:
         """The same law with fewer modes; as in `reduce_spectrum`."""
@@ -285,20 +289,10 @@ class Law:
         ConvergenceError
             If CVODE or the iteration of a feedback fails; it has `time` and `residual_norm`.
         """
-        solver = self.solver(
-            time,
-            true_strain,
-            scheme,
-            strain_rate=strain_rate,
-            start=start,
-            jumps=jumps,
-            direction=direction,
-            relative_tolerance=relative_tolerance,
-            absolute_tolerance=absolute_tolerance,
-            max_steps=max_steps,
-        )
-        stress = as_output(out, (len(solver.history),))
-        solver.stress(self.engine, engine_change(change), stress)
+        options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        history = history_arguments(time, true_strain, strain_rate, jumps, direction)
+        stress = as_output(out, (len(history[0]),))
+        _core.stress(self.engine, engine_change(change), options, stress, *history)
         return stress
 
     def sensitivity(
@@ -378,8 +372,28 @@ def make_solver(
     max_steps: int = 200_000,
 ) -> _core.Solver:
     """The engine's solver for one history."""
-    return _core.Solver(
-        history,
+    return _core.Solver(history, *_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+def solver_options(
+    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+) -> _core.SolverOptions:
+    """How a solver solves, as the engine takes it; what was asked for before is there already."""
+    try:
+        return _kept_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+    except TypeError:  # an argument that is not hashable: it is refused by its name
+        return _core.SolverOptions(*_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+@lru_cache(maxsize=64, typed=True)
+def _kept_options(*arguments: Any) -> _core.SolverOptions:
+    return _core.SolverOptions(*_checked(*arguments))
+
+
+def _checked(
+    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+) -> tuple[_core.Scheme, _core.Start, float, float, int]:
+    return (
         getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
         getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
         as_number(relative_tolerance, "relative_tolerance"),
