@@ -7,12 +7,23 @@
 
 namespace probation::kernels {
 
-const SamplePasses& sample_passes() {
+namespace {
+
+const SamplePasses& choose() {
 #ifdef PROBATION_HAVE_V3
-  static const bool v3_runs = std::strcmp(best().name, "v3") == 0;
-  if (v3_runs) return v3::sample_passes;
+  if (std::strcmp(best().name, "v3") == 0) return v3::sample_passes;
 #endif
-  return baseline::sample_passes;
+#ifdef PROBATION_HAVE_BASELINE
+  if (std::strcmp(best().name, "baseline") == 0) return baseline::sample_passes;
+#endif
+  return portable::sample_passes;
+}
+
+}  // namespace
+
+const SamplePasses& sample_passes() {
+  static const SamplePasses& chosen = choose();
+  return chosen;
 }
 
 }  // namespace probation::kernels

@@ -2,6 +2,9 @@
 
 #include "kernels/samples.hpp"
 
+#include <cmath>
+#include <cstring>
+
 #include "probation/inline.hpp"
 
 namespace probation::kernels::PROBATION_ISA {
@@ -20,10 +23,10 @@ PROBATION_INLINE double haward_thackray_strain(double x) {
   const double n = rounded - magic;
   const double r = (limited - n * 0.693147180369123816490) - n * 1.90821492927058770002e-10;
   std::int64_t bits;
-  __builtin_memcpy(&bits, &rounded, sizeof bits);
+  std::memcpy(&bits, &rounded, sizeof bits);
   bits = static_cast<std::int64_t>((static_cast<std::uint64_t>(bits) << 52) + 0x3FF0000000000000u);
   double power;
-  __builtin_memcpy(&power, &bits, sizeof power);
+  std::memcpy(&power, &bits, sizeof power);
   // (q - r) / r^2 by the polynomial of degree 9 that is best on |r| <= ln 2 / 2, to 1.1e-16 (Chebyshev points),
   // in pairs, so that sums do not wait for one another.
   const double s = r * r, t = s * s;
@@ -37,10 +40,10 @@ PROBATION_INLINE double haward_thackray_strain(double x) {
   return m * (2.0 + m) + m / (power * (1.0 + q));
 }
 
-PROBATION_INLINE double magnitude(double x) { return __builtin_fabs(x); }
+PROBATION_INLINE double magnitude(double x) { return std::fabs(x); }
 
-bool haward_thackray(const double* __restrict__ true_strain, std::int64_t count,
-                     double* __restrict__ result) {
+bool haward_thackray(const double* __restrict true_strain, std::int64_t count,
+                     double* __restrict result) {
   std::int64_t beyond = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     const double strain = haward_thackray_strain(true_strain[i]);

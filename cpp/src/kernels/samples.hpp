@@ -23,6 +23,9 @@ struct SamplePasses {
 /// In the build of the kernels that runs.
 const SamplePasses& sample_passes();
 
+namespace portable {
+extern const SamplePasses sample_passes;
+}
 namespace baseline {
 extern const SamplePasses sample_passes;
 }
