@@ -105,7 +105,9 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   int n = 0;
   while (modes.table && n < last) {
     const TabledSteps tabled(modes, steps.scale + n, last - n);
-    const int count = tabled.count > 0 ? tabled.count : last - n < TabledSteps::most ? last - n : TabledSteps::most;
+    const int count = tabled.count > 0               ? tabled.count
+                      : last - n < TabledSteps::most ? last - n
+                                                     : TabledSteps::most;
     const Steps part = part_of(steps, n, count);
     if (tabled.count > 0)
       tabled_sweep(modes, part, tabled, stress + n);
