@@ -81,8 +81,9 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   sweep(w.main, w.inputs, w.steps);
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();
-  for (Index i = 0; i < history_.size(); ++i)
-    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+  stress += total_weight * Eigen::Map<const Eigen::ArrayXd>(w.inputs.relaxed_stress.data(), stress.size());
+  if (change.load_bearing_area.size() > 0)
+    for (Index i = 0; i < history_.size(); ++i) stress[i] *= area[i];
 }
 
 namespace {

@@ -10,9 +10,6 @@ void bind_batch(py::module_& m) {
              return BatchRecord{history, true_stress, change};
            }),
            "history"_a, "true_stress"_a, "change"_a);
-  py::class_<SolverOptions>(m, "SolverOptions")
-      .def(py::init([](Scheme scheme, Start start) { return SolverOptions{scheme, start, {}}; }),
-           "scheme"_a = Scheme::be2, "start"_a = Start::exponential);
   using Matrix = Eigen::Ref<RowMajorMatrix>;
   using ConstMatrix = Eigen::Ref<const RowMajorMatrix>;
   using Records = std::vector<BatchRecord>;

@@ -15,4 +15,5 @@ PYBIND11_MODULE(_core, m) {
   bind_creep(m);
   bind_batch(m);
   bind_identify(m);
+  bind_build(m);
 }

@@ -21,6 +21,7 @@ class ConvergenceError(RuntimeError):
 def haward_thackray_strain(true_strain: _Array) -> _Array: ...
 def ramp_stress(law: Law, strain_rate: float, time: _Array) -> _Array: ...
 def kernel_build() -> str: ...
+def build_information() -> dict[str, str]: ...
 def parameter_directions(law: Law, change: LawChange, history: History) -> list[Direction]: ...
 def identify_many(
     law: Law,
@@ -176,6 +177,7 @@ class History:
         strain_rate: _Array = ...,
         jumps: list[int] = ...,
         direction: _Signs = ...,
+        find_jumps: bool = False,
     ) -> None: ...
     @staticmethod
     def find_rate_jumps(time: _Array, true_strain: _Array) -> list[int]: ...
@@ -290,7 +292,27 @@ class Solver:
     def cvode_statistics(self) -> CvodeStatistics: ...
 
 class SolverOptions:
-    def __init__(self, scheme: Scheme = ..., start: Start = ...) -> None: ...
+    def __init__(
+        self,
+        scheme: Scheme = ...,
+        start: Start = ...,
+        relative_tolerance: float = 1e-10,
+        absolute_tolerance: float = 1e-10,
+        max_steps: int = 200000,
+    ) -> None: ...
+
+def stress(
+    law: Law,
+    change: LawChange,
+    options: SolverOptions,
+    out: _Array,
+    time: _Array,
+    true_strain: _Array,
+    strain_rate: _Array,
+    jumps: list[int],
+    direction: _Signs,
+    find_jumps: bool,
+) -> None: ...
 
 class BatchRecord:
     def __init__(self, history: History, true_stress: _Array, change: LawChange) -> None: ...

@@ -13,8 +13,8 @@ struct Size {
   static constexpr int value = K;
 };
 
-/// Calls body(Size<K>, at) for blocks of K vectors of the modes from..to, then for ever smaller ones of what is
-/// left.
+/// Calls body(Size<K>, at) for blocks of K vectors of the modes from..to, then for ever smaller ones of what
+/// is left.
 template <int K, class Body>
 PROBATION_INLINE void in_blocks(int from, int to, Body body) {
   for (; to - from >= K * lanes; from += K * lanes) body(Size<K>{}, from);

@@ -79,8 +79,8 @@ void curved_block(const Modes& modes, const Steps& steps, int at, double* stress
   for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k]);
 }
 
-/// The exponential rule where V is half the change of U: z+ = e z + a U + b U-, a = phi + psi / 2, b = -psi / 2.
-/// The states y = z - a U see U- alone,
+/// The exponential rule where V is half the change of U: z+ = e z + a U + b U-, a = phi + psi / 2, b = -psi
+/// / 2. The states y = z - a U see U- alone,
 ///
 ///   y+ = e y + (e a + b) U-,    sum z+ = sum y+ + U sum a,
 ///
@@ -112,8 +112,7 @@ double parabolic_block(const Modes& modes, const Steps& steps, int at, double* s
     for (int k = 0; k < K; ++k) state[k] = of_state[k] * state[k] + of_forcing[k] * u;
     return total_of();
   });
-  for (int k = 0; k < K; ++k)
-    store(modes.state + at + k * lanes, state[k] + direct[k] * steps.forcing[last]);
+  for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k] + direct[k] * steps.forcing[last]);
   return sum(all_direct);
 }
 

@@ -4,11 +4,11 @@
 //
 //   chi(x) = (1 - phi(x)) / x,    phi = 1 - x chi,    e^-x = 1 - x phi,    psi = 2 chi - phi,
 //
-// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 16 in each octave; within a
-// cell the chi of each mode is a polynomial of degree 7 in t, the place in the cell from -1 to 1, through
-// Chebyshev's points: chi is entire, its n-th term is below (1 / 32)^n, and the interpolation's error some 1e-15
-// (measured: see tests/cpp/test_scale_table.cpp). No mode needs to be spaced like its neighbours for that. Cells
-// are formed where steps fall into them, and kept.
+// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 16 in each octave; within
+// a cell the chi of each mode is a polynomial of degree 7 in t, the place in the cell from -1 to 1, through
+// Chebyshev's points: chi is entire, its n-th term is below (1 / 32)^n, and the interpolation's error some
+// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). No mode needs to be spaced like its neighbours for
+// that. Cells are formed where steps fall into them, and kept.
 
 #include <cstring>
 
@@ -93,7 +93,8 @@ inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
       const Vector chi = 0.5 * (c.forcing + c.curvature);
       for (int p = 0; p < terms; ++p) power[p] += chi * transform.power[p][i];
     }
-    for (int p = 0; p < terms; ++p) store(rows + static_cast<std::ptrdiff_t>(at) * terms + p * lanes, power[p]);
+    for (int p = 0; p < terms; ++p)
+      store(rows + static_cast<std::ptrdiff_t>(at) * terms + p * lanes, power[p]);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Modes so fast that nothing of their state outlasts a step: e^-x is below rounding, and the exponential rule is
+// Modes so fast that nothing of their state outlasts a step: e^-x is below rounding, and the exponential rule
+// is
 //
 //   phi = 1 / x,   psi = 1 / x - 2 / x^2,   sum z+ = (U + V) sum p / x - 2 V sum p / x^2.
 
@@ -9,8 +10,8 @@ namespace probation::kernels::PROBATION_ISA {
 
 constexpr double slaved_from = 36.8;  // e^-x < 2^-53
 
-/// The modes from..to, by vectors, follow their own states; those outside are slaved. sum p / q and sum p / q^2
-/// are theirs, q = inverse_ratio.
+/// The modes from..to, by vectors, follow their own states; those outside are slaved. sum p / q and sum p /
+/// q^2 are theirs, q = inverse_ratio.
 struct SlavedModes {
   int from, to;
   double first = 0.0, second = 0.0;

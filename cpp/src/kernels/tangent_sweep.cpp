@@ -144,7 +144,9 @@ void time_tangent_block(const Modes& modes, const Steps& steps, int at, double* 
     const std::ptrdiff_t j = at + k * lanes;
     const Vector weight = load(modes.weight + j);
     // A mode of weight zero is nobody's: no direction here has weights of its own.
-    const auto put = [&](double* to, Vector z) { store(to + j, choose(weight == 0.0, Vector{}, z / weight)); };
+    const auto put = [&](double* to, Vector z) {
+      store(to + j, choose(weight == 0.0, Vector{}, z / weight));
+    };
     put(modes.state, b.state[k]);
     put(d.state, b.slope[k]);
     if constexpr (two_step) {
@@ -188,7 +190,7 @@ void tangent_by_rule(const Modes& modes, const Steps& steps, double* stress,
 }  // namespace
 
 void tangent_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions,
-             int count, double* scratch) {
+                   int count, double* scratch) {
   switch (steps.rule) {
     case StepRule::backward_euler:
       return tangent_by_rule<BackwardEulerStep, false>(modes, steps, stress, directions, count, scratch);

@@ -3,11 +3,13 @@
 #include "scale_table.hpp"
 #include "slaved.hpp"
 #include "sweeps.hpp"
+#include "uneven_bdf2.hpp"
 
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-constexpr int largest_block = 4;
+// Vectors of four modes in a block: coefficients from a table or a reciprocal, or formed by an exponential.
+constexpr int largest_block = 4, largest_formed_block = 2;
 
 /// K vectors of modes whose coefficients are formed in every step.
 template <class Step, bool two_step, bool curved, int K>
@@ -42,7 +44,7 @@ void formed_block(const Modes& modes, const Steps& steps, int at, double* stress
 
 template <class Step, bool two_step, bool curved>
 void formed_sweep(const Modes& modes, const Steps& steps, double* stress) {
-  in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
+  in_blocks<largest_formed_block>(0, modes.padded, [&](auto size, int at) {
     formed_block<Step, two_step, curved, decltype(size)::value>(modes, steps, at, stress);
   });
 }
@@ -103,7 +105,9 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   int n = 0;
   while (modes.table && n < last) {
     const TabledSteps tabled(modes, steps.scale + n, last - n);
-    const int count = tabled.count > 0 ? tabled.count : last - n < TabledSteps::most ? last - n : TabledSteps::most;
+    const int count = tabled.count > 0               ? tabled.count
+                      : last - n < TabledSteps::most ? last - n
+                                                     : TabledSteps::most;
     const Steps part = part_of(steps, n, count);
     if (tabled.count > 0)
       tabled_sweep(modes, part, tabled, stress + n);
@@ -114,6 +118,52 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   formed_exponential_sweep(modes, part_of(steps, n, steps.count - n), stress + n);
 }
 
+template <int K>
+void bdf2_block(const Modes& modes, const Steps& steps, const Bdf2Steps& a, int at, double* stress) {
+  Vector state[K], before[K], inverse_ratio[K], weight[K];
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    state[k] = load(modes.state + j);
+    before[k] = load(modes.before + j);
+    inverse_ratio[k] = load(modes.inverse_ratio + j);
+    weight[k] = load(modes.weight + j);
+  }
+  add_sums(steps.count, stress, [&](int n) {
+    Vector inverse[K], total{};
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) inverse[k] = inverse_ratio[k] * steps.scale[n] + a.next[n];
+    invert(inverse);
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) {
+      const Vector drive = before[k] * a.before[n] + weight[k] * steps.forcing[n];
+      const Vector next = (state[k] * a.here[n] + drive) * inverse[k];
+      before[k] = state[k];
+      state[k] = next;
+      total += next;
+    }
+    return total;
+  });
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    store(modes.state + j, state[k]);
+    store(modes.before + j, before[k]);
+  }
+}
+
+void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  for (int n = 0; n < steps.count; n += Bdf2Steps::most) {
+    const int rest = steps.count - n;
+    const Steps part = part_of(steps, n, rest < Bdf2Steps::most ? rest : Bdf2Steps::most);
+    const Bdf2Steps a(part);
+    if (a.in_range(modes, 0, modes.padded))
+      in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
+        bdf2_block<decltype(size)::value>(modes, part, a, at, stress + n);
+      });
+    else
+      formed_sweep<Bdf2Step, true, false>(modes, part, stress + n);
+  }
+}
+
 }  // namespace
 
 void uneven_sweep(const Modes& modes, const Steps& steps, double* stress) {
@@ -121,7 +171,7 @@ void uneven_sweep(const Modes& modes, const Steps& steps, double* stress) {
     case StepRule::backward_euler:
       return formed_sweep<BackwardEulerStep, false, false>(modes, steps, stress);
     case StepRule::bdf2:
-      return formed_sweep<Bdf2Step, true, false>(modes, steps, stress);
+      return bdf2_sweep(modes, steps, stress);
     case StepRule::exponential:
       return exponential_sweep(modes, steps, stress);
   }

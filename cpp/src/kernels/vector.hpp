@@ -75,6 +75,6 @@ PROBATION_INLINE Vector decay(Vector x) {
 
 #endif
 
-// After decay(Vector) and choose(): a template finds an overload for a built-in vector type only where it is declared
-// first.
+// After decay(Vector) and choose(): a template finds an overload for a built-in vector type only where it is
+// declared first.
 #include "probation/schemes/step.hpp"
