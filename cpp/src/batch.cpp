@@ -20,7 +20,8 @@ bool changes_nothing(const LawChange& c) {
   return c.relaxation_time_factor.size() == 0 && c.unrelaxed_modulus_factor.size() == 0 &&
          c.hardening_factor.size() == 0 && c.added_relaxed_stress.size() == 0 &&
          c.load_bearing_area.size() == 0 && c.initial_modal_stress.size() == 0 &&
-         c.extra_modes.modulus.size() == 0 && c.extra_modes.relaxation_time.size() == 0 && c.feedbacks.empty();
+         c.extra_modes.modulus.size() == 0 && c.extra_modes.relaxation_time.size() == 0 &&
+         c.feedbacks.empty();
 }
 
 bool by_steps(Scheme scheme) { return scheme != Scheme::exact && scheme != Scheme::cvode; }
@@ -144,8 +145,7 @@ void batch_stress(const Law& law, const Parameters& parameters, const History& h
   require_shape(out, parameters.rows(), history.size());
   change.validate(history.size(), law.spectrum.modes());
   over_sets<RepeatedSolve>(
-      parameters.rows(), run,
-      [&] { return std::make_unique<RepeatedSolve>(law, history, change, options); },
+      parameters.rows(), run, [&] { return std::make_unique<RepeatedSolve>(law, history, change, options); },
       [&](RepeatedSolve& solve, Index set) {
         Eigen::Map<Eigen::ArrayXd> stress(out.row(set).data(), out.cols());
         solve.stress(parameters.row(set).transpose().array(), shares_time(parameters, set), stress);
@@ -177,9 +177,8 @@ void field_stress(const Law& law, const Parameters& parameters, const Samples& t
     const Eigen::Array3d p = parameters.row(parameters.rows() == 1 ? 0 : pixel).transpose().array();
     Eigen::Map<Eigen::ArrayXd> stress(out.row(pixel).data(), out.cols());
     try {
-      const History history(
-          time, s.true_strain, Eigen::ArrayXd(),
-          find_jumps ? History::find_rate_jumps(time, s.true_strain) : History::Indices());
+      const History history =
+          find_jumps ? History(FindJumps{}, time, s.true_strain) : History(time, s.true_strain);
       if (by_steps(options.scheme)) {
         s.solves.take(law, history, options.scheme, options.start);
         s.solves.stress(p[0], p[1], p[2], stress);

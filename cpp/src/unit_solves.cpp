@@ -99,8 +99,17 @@ kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) cons
           curved_ && run.uniform};
 }
 
+/// An even run needs the scale of its first step alone.
+void UnitSolves::set_time(double time) {
+  scale_.resize(unit_scale_.size());
+  for (const Run& run : runs_) {
+    const Index count = run.uniform ? 1 : run.count;
+    scale_.segment(run.first, count) = unit_scale_.segment(run.first, count) * (1.0 / time);
+  }
+}
+
 void UnitSolves::solve(double time) {
-  scale_ = unit_scale_ * (1.0 / time);
+  set_time(time);
   u_.setZero(size());
   sweep(stiff_, u_.data());
   v_ = total_weight_ * hardening_;
@@ -110,12 +119,13 @@ void UnitSolves::solve(double time) {
 /// The forcing of E_u u + G v.
 void UnitSolves::combine(double unrelaxed_modulus, double hardening_modulus) {
   both_.forcing = unrelaxed_modulus * stiff_.forcing + hardening_modulus * relaxed_.forcing;
-  if (curved_) both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
+  if (curved_)
+    both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
 }
 
 void UnitSolves::stress(double unrelaxed_modulus, double time, double hardening_modulus,
                         Eigen::Ref<Eigen::ArrayXd> out) {
-  scale_ = unit_scale_ * (1.0 / time);
+  set_time(time);
   combine(unrelaxed_modulus, hardening_modulus);
   out = (total_weight_ * hardening_modulus) * hardening_;
   sweep(both_, out.data());

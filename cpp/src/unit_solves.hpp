@@ -32,7 +32,8 @@ class UnitSolves {
   const Eigen::ArrayXd& v() const { return v_; }  ///< d stress / d G [-]; shape (size)
 
   /// The stress itself [MPa] in one sweep; shape (size).
-  void stress(double unrelaxed_modulus, double time, double hardening_modulus, Eigen::Ref<Eigen::ArrayXd> out);
+  void stress(double unrelaxed_modulus, double time, double hardening_modulus,
+              Eigen::Ref<Eigen::ArrayXd> out);
 
   /// d stress / d ln tau_max (or ln alpha) [MPa] at the time of the last solve.
   const Eigen::ArrayXd& slope(double unrelaxed_modulus, double hardening_modulus);
@@ -49,6 +50,7 @@ class UnitSolves {
 
   kernels::Steps steps_of(const Run& run, const Forcing& forcing) const;
   void sweep(const Forcing& forcing, double* stress);
+  void set_time(double time);
   void combine(double unrelaxed_modulus, double hardening_modulus);
   void keep(const RecordSteps<double>& steps, Forcing& forcing);
 

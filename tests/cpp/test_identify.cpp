@@ -84,7 +84,8 @@ TEST_CASE("E_u u + G v is the stress, and its slope that of a tangent") {
         const double scale = stress.abs().maxCoeff();
         CHECK((3220.0 * solves.u() + 2.5 * solves.v() - stress).abs().maxCoeff() < 1e-12 * scale);
         CHECK((solves.u() - columns.col(0).array()).abs().maxCoeff() < 1e-12 * scale);
-        CHECK((solves.slope(3220.0, 2.5) - parameter * columns.col(1).array()).abs().maxCoeff() < 1e-11 * scale);
+        CHECK((solves.slope(3220.0, 2.5) - parameter * columns.col(1).array()).abs().maxCoeff() <
+              1e-11 * scale);
         ArrayXd at_once(301);
         solves.stress(3220.0, parameter, 2.5, at_once);
         CHECK((at_once - stress).abs().maxCoeff() < 1e-12 * scale);

@@ -122,9 +122,8 @@ Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strai
 
   SearchSpace space{options.held, {}, {}, {}};
   try {
-    const History history(
-        time, true_strain, ArrayXd(),
-        options.find_jumps ? History::find_rate_jumps(time, true_strain) : History::Indices());
+    const History history =
+        options.find_jumps ? History(FindJumps{}, time, true_strain) : History(time, true_strain);
     w.full.solves.take(law, history, options.scheme, options.start);
     space.log_time = w.log_time(history);
   } catch (const InputError&) {

@@ -54,8 +54,8 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
       };
       const double size = std::max({relative(0), relative(1), relative(2)});
       const double ratio = last_size > 0.0 ? std::min(size / last_size, slowest) : slowest;
-      const bool last = size <= finest_accuracy * 1e-2 ||
-                        (!rejected && size * ratio / (1.0 - ratio) <= finest_accuracy);
+      const bool last =
+          size <= finest_accuracy * 1e-2 || (!rejected && size * ratio / (1.0 - ratio) <= finest_accuracy);
       if (last) {
         if (rejected) {  // the residual is the rejected point's
           p = fit.evaluate(here[0], here[1], here[2]);

@@ -39,8 +39,8 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     }
     const double step = std::clamp(-gradient / slope, -longest_step, longest_step);
     // What a secant step leaves is about the product of this step and the one before.
-    const bool small = std::abs(step) <= accuracy ||
-                       (search.iterations > 1 && std::abs(step * last_step) <= accuracy);
+    const bool small =
+        std::abs(step) <= accuracy || (search.iterations > 1 && std::abs(step * last_step) <= accuracy);
     double next = theta + step;
     const bool beyond = next <= bracket.lower || next >= bracket.upper;
     const double end = gradient < 0.0 ? space.log_time.upper : space.log_time.lower;
