@@ -44,6 +44,10 @@ def _median(section: str, method: str, scale: float) -> Value:
     return value
 
 
+def _identified(slow: str, fast: str) -> Value:
+    return _ratio("identification", slow, fast)
+
+
 def _sa3_error(found: Findings) -> float | None:
     row = found.find("forward", "sa3", "ramp")
     return None if row is None else row.error
@@ -72,10 +76,10 @@ GOALS = (
     Target("bE2, three sensitivities over a solve", _ratio("sensitivities", "be2", "beside"), 4.5, at_least=False),
     Target("SA3, three sensitivities over a solve", _ratio("sensitivities", "sa3", "beside"), 4.5, at_least=False),
     Target("10^4 solves as a batch, CPU", _median("batch", "batch", 1e3), 90, at_least=False, unit=" ms"),
-    Target("variable projection faster than scipy on numpy", lambda found: None, 800),
-    Target("variable projection faster than scipy on numba", lambda found: None, 25),
-    Target("Levenberg-Marquardt faster than scipy on numpy", lambda found: None, 350),
-    Target("Levenberg-Marquardt faster than scipy on numba", lambda found: None, 12),
+    Target("variable projection faster than scipy on numpy", _identified("numpy", "variable projection"), 800),
+    Target("variable projection faster than scipy on numba", _identified("numba", "variable projection"), 25),
+    Target("Levenberg-Marquardt faster than scipy on numpy", _identified("numpy", "levenberg-marquardt"), 350),
+    Target("Levenberg-Marquardt faster than scipy on numba", _identified("numba", "levenberg-marquardt"), 12),
     Target("compiled call with out=", _median("overhead", "one step", 1e6), 1, at_least=False, unit=" us"),
     Target("law.stress beyond the compiled call", _median("overhead", "beyond", 1e6), 5, at_least=False, unit=" us"),
 )
