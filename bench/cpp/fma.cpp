@@ -1,5 +1,5 @@
-// Fused multiply-adds that wait for nothing: twelve chains of four doubles, more than two units of four cycles' latency
-// can be busy with.
+// Fused multiply-adds that wait for nothing: twelve chains of four doubles, more than two units of four
+// cycles' latency can be busy with.
 
 using Vector = double __attribute__((vector_size(32)));
 

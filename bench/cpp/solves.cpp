@@ -1,5 +1,5 @@
-// Solves one case as often as it is told: `probation_bench_solves CASE TIMES`. What two runs differ by is that of the
-// solves alone. bench/instructions.py lists the cases.
+// Solves one case as often as it is told: `probation_bench_solves CASE TIMES`. What two runs differ by is
+// that of the solves alone. bench/instructions.py lists the cases.
 
 #include <cmath>
 #include <cstdio>

@@ -181,6 +181,9 @@ class Law:
     @cached_property
     def engine(self) -> _core.Law:
         """The law as the engine holds it."""
+        return self._make_engine()
+
+    def _make_engine(self) -> _core.Law:
         assert self.spectrum is not None
         return _core.Law(
             self.unrelaxed_modulus,
@@ -209,8 +212,10 @@ class Law:
         if not all(map(isfinite, numbers)):
             as_samples(values, "values")  # says which is not
         law = object.__new__(type(self))  # all else was checked when this law was made
-        law.__dict__.update(self.__getstate__(), **dict(zip(self.parameter_names, numbers, strict=True)))
-        law.engine  # noqa: B018 - refuses what cannot be
+        held = law.__dict__
+        held.update(self.__dict__)
+        held.update(zip(self.parameter_names, numbers, strict=True))
+        held["engine"] = law._make_engine()
         return law
 
     def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:

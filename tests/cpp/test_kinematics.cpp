@@ -53,7 +53,9 @@ TEST_CASE("samples in one pass keep every digit, near zero and far from it") {
   Eigen::ArrayXd strain(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double u = static_cast<double>(i) / 2000.0 - 1.0;
-    strain[i] = i % 3 == 0 ? 5.0 * u : i % 3 == 1 ? std::copysign(std::pow(10.0, -15.0 * std::abs(u)), u) : 300.0 * u;
+    strain[i] = i % 3 == 0   ? 5.0 * u
+                : i % 3 == 1 ? std::copysign(std::pow(10.0, -15.0 * std::abs(u)), u)
+                             : 300.0 * u;
   }
   const Eigen::ArrayXd found = haward_thackray_strain(strain);
   double worst = 0.0;

@@ -22,13 +22,13 @@ PROBATION_INLINE double haward_thackray_strain(double x) {
   const double rounded = limited * 1.4426950408889634074 + magic;
   const double n = rounded - magic;
   const double r = (limited - n * 0.693147180369123816490) - n * 1.90821492927058770002e-10;
-  std::int64_t bits;
+  std::uint64_t bits;
   std::memcpy(&bits, &rounded, sizeof bits);
-  bits = static_cast<std::int64_t>((static_cast<std::uint64_t>(bits) << 52) + 0x3FF0000000000000u);
+  bits = (bits << 52U) + 0x3FF0000000000000U;
   double power;
   std::memcpy(&power, &bits, sizeof power);
-  // (q - r) / r^2 by the polynomial of degree 9 that is best on |r| <= ln 2 / 2, to 1.1e-16 (Chebyshev points),
-  // in pairs, so that sums do not wait for one another.
+  // (q - r) / r^2 by the polynomial of degree 9 that is best on |r| <= ln 2 / 2, to 1.1e-16 (Chebyshev
+  // points), in pairs, so that sums do not wait for one another.
   const double s = r * r, t = s * s;
   const double low = (r * 0.16666666666666667452 + 0.50000000000000010211) +
                      s * (r * 0.0083333333333300644494 + 0.041666666666624161902);
@@ -40,46 +40,42 @@ PROBATION_INLINE double haward_thackray_strain(double x) {
   return m * (2.0 + m) + m / (power * (1.0 + q));
 }
 
-PROBATION_INLINE double magnitude(double x) { return std::fabs(x); }
-
-bool haward_thackray(const double* __restrict true_strain, std::int64_t count,
-                     double* __restrict result) {
-  std::int64_t beyond = 0;
+bool haward_thackray(const double* __restrict true_strain, std::int64_t count, double* __restrict result) {
+  std::uint64_t beyond = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     const double strain = haward_thackray_strain(true_strain[i]);
     result[i] = strain;
-    beyond |= magnitude(strain) <= largest ? 0 : 1;
+    beyond |= std::fabs(strain) <= largest ? 0U : 1U;
   }
   return beyond == 0;
 }
 
 StepTraits inspect_steps(const double* time, std::int64_t count, double allowed_difference) {
   const double first = time[1] - time[0];
-  std::int64_t odd = 0, uneven = 0;
+  std::uint64_t odd = 0, uneven = 0;
   for (std::int64_t i = 0; i + 1 < count; ++i) {
     const double step = time[i + 1] - time[i];
-    odd |= step > 0.0 ? 0 : 1;
-    odd |= step <= largest ? 0 : 1;
-    uneven |= magnitude(step - first) <= allowed_difference ? 0 : 1;
+    odd |= step > 0.0 ? 0U : 1U;
+    odd |= step <= largest ? 0U : 1U;
+    uneven |= std::fabs(step - first) <= allowed_difference ? 0U : 1U;
   }
   return {odd == 0, uneven == 0};
 }
 
 /// |d1 / h1 - d0 / h0| > least max(|d0 / h0|, |d1 / h1|), without the divisions.
 bool secant_changes(const double* time, const double* values, std::int64_t count, double least) {
-  std::int64_t large = 0;
+  std::uint64_t large = 0;
   for (std::int64_t i = 1; i + 1 < count; ++i) {
     const double before = (values[i] - values[i - 1]) * (time[i + 1] - time[i]);
     const double after = (values[i + 1] - values[i]) * (time[i] - time[i - 1]);
-    const double a = magnitude(before), b = magnitude(after);
-    large |= magnitude(after - before) > least * (a > b ? a : b) ? 1 : 0;
+    const double a = std::fabs(before), b = std::fabs(after);
+    large |= std::fabs(after - before) > least * (a > b ? a : b) ? 1U : 0U;
   }
   return large != 0;
 }
 
 }  // namespace
 
-extern const SamplePasses sample_passes;
 const SamplePasses sample_passes = {haward_thackray, inspect_steps, secant_changes};
 
 }  // namespace probation::kernels::PROBATION_ISA
