@@ -1,8 +1,9 @@
 #pragma once
-// The polynomial of kernels::Expansion, evaluated with slopes.
+// The stress at the end of a step as a function of the step's inputs, near the scale of a cell of coefficients.
 
 #include <cmath>
 
+#include "coefficient_table.hpp"
 #include "kernels/kernels.hpp"
 #include "probation/schemes/forcing.hpp"
 
@@ -18,37 +19,78 @@ inline StepForcing<double> values(const StepForcing<Dual>& s) {
   return {s.rule, s.scale.value, s.forcing.value, s.curvature.value};
 }
 
-/// A step expanded at `tried`.
-struct ExpandedStep {
-  StepForcing<double> tried;
-  kernels::Expansion at;
+/// sum_k row[k] e^k with its slope.
+inline Dual polynomial(const double* row, Dual e) {
+  double value = row[kernels::CoefficientRows::terms - 1], by_e = 0.0;
+  for (int k = kernels::CoefficientRows::terms - 2; k >= 0; --k) {
+    by_e = by_e * e.value + value;
+    value = value * e.value + row[k];
+  }
+  return {value, by_e * e.slope};
+}
 
-  Dual eta(const StepForcing<Dual>& step) const {
-    const double inverse = 1.0 / (step.scale.value + tried.scale);
-    return {(step.scale.value - tried.scale) * inverse,
-            2.0 * tried.scale * inverse * inverse * step.scale.slope};
+/// A step whose modes have been looked at near the scale of a cell; see kernels::NearStep.
+struct ExpandedStep {
+  const CoefficientCell* cell = nullptr;
+  kernels::NearStep near{true, {}, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0};
+  double unit = 1.0;  ///< 1 / a of a two-step rule
+  kernels::StressNearby modes{};
+
+  /// Turns to a rule; nothing of its modes is known then.
+  void set(StepRule rule, double ratio) {
+    cell = nullptr;
+    if (rule == rule_ && (ratio == ratio_ || rule != StepRule::bdf2)) return;
+    rule_ = rule;
+    ratio_ = ratio;
+    near.exponential = rule == StepRule::exponential;
+    unit = near.here = 1.0;
+    near.before = 0.0;
+    if (rule != StepRule::bdf2) return;
+    const Bdf2Difference a(ratio);
+    unit = 1.0 / a.next;
+    near.here = -a.here * unit;
+    near.before = -a.before * unit;
+  }
+  /// Turns to a cell of the rule's table.
+  void set(const CoefficientCell* to) {
+    cell = to;
+    if (!cell) return;
+    near.rows = cell->rows;
+    near.slaved = cell->slaved;
   }
   bool reaches(const StepForcing<Dual>& step) const {
-    return step.rule == tried.rule && std::abs(eta(step).value) <= at.reach;
+    return cell && std::abs(cell->distance(unit * step.scale.value)) <= kernels::CoefficientRows::reach;
   }
-  /// Sum of z_j at the end of a step nearby, with its slope.
-  Dual stress(const StepForcing<Dual>& step) const {
-    const Dual e = eta(step);
-    const double u = step.forcing.value - tried.forcing, v = step.curvature.value - tried.curvature;
-    double sum = 0.0, by_eta = 0.0, by_forcing = 0.0;
-    for (int k = kernels::Expansion::terms - 1; k >= 0; --k) {
-      by_eta = by_eta * e.value + sum;
-      sum = sum * e.value + (at.stress[k] + u * at.by_forcing[k]);
-      by_forcing = by_forcing * e.value + at.by_forcing[k];
-    }
-    const double rest = 1.0 - e.value;
-    return {rest * sum + v * at.by_curvature, (rest * by_eta - sum) * e.slope +
-                                                  rest * by_forcing * step.forcing.slope +
-                                                  at.by_curvature * step.curvature.slope};
+  /// How the stress follows the forcing U.
+  Dual by_forcing(const StepForcing<Dual>& step) const {
+    return unit * polynomial(cell->by_forcing, distance(step));
   }
-  kernels::Nearby nearby(const StepForcing<double>& step) const {
-    return {(step.scale - tried.scale) / (step.scale + tried.scale), step.forcing - tried.forcing,
-            step.curvature - tried.curvature};
+  /// Sum of z_j at the end of the step.
+  Dual stress(const StepForcing<Dual>& step, Dual by_forcing) const {
+    const Dual e = distance(step), state = polynomial(modes.by_distance, e);
+    const Dual driven = step.forcing * by_forcing;
+    if (!near.exponential) return state + driven;
+    Dual sum = Dual(modes.kept) - step.scale * state + driven;
+    if (near.rows.curvature) sum = sum + step.curvature * polynomial(cell->by_curvature, e);
+    return sum;
+  }
+  /// As the kernel takes it.
+  kernels::NearStep taken(const StepForcing<Dual>& step) const {
+    kernels::NearStep s = near;
+    s.distance = cell->distance(unit * step.scale.value);
+    s.scale = step.scale.value;
+    s.forcing = unit * step.forcing.value;
+    s.curvature = step.curvature.value;
+    return s;
+  }
+
+ private:
+  StepRule rule_ = StepRule::exponential;
+  double ratio_ = 0.0;
+
+  Dual distance(const StepForcing<Dual>& step) const {
+    const double per_scale = unit * cell->inverse_centre;
+    return {step.scale.value * per_scale - 1.0, step.scale.slope * per_scale};
   }
 };
 

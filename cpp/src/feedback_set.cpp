@@ -44,7 +44,7 @@ FeedbackFactor<Dual> FeedbackSet::at_start(Dual stress, const Direction& directi
 void FeedbackSet::enter(double h, double stress_here, double rise, double modulus) {
   stress_here_ = stress_here;
   rise_ = rise;
-  modulus_ = modulus;
+  compliance_ = modulus > 0.0 ? 1.0 / modulus : 0.0;
   if (h == h_) return;
   h_ = h;
   for (One& one : all_) {
@@ -55,11 +55,21 @@ void FeedbackSet::enter(double h, double stress_here, double rise, double modulu
 }
 
 FeedbackFactor<Dual> FeedbackSet::at(Dual stress) {
-  const Dual work = plastic_work<Dual>(stress, stress_here_, rise_, modulus_);
+  // plastic_work() with the modulus' inverse at hand
+  const double mean_stress = 0.5 * (stress_here_ + stress.value);
+  const double plastic = rise_ - (stress.value - stress_here_) * compliance_;
+  const Dual work{mean_stress * plastic,
+                  (0.5 * plastic - mean_stress * compliance_) * stress.slope};
   FeedbackFactor<Dual> total;
+  bool first = true;
   for (One& one : all_) {
     one.next = {one.kept * one.memory + one.taken * work.value, one.taken * work.slope};
-    multiply(total, one.feedback->factor(stress, one.next, Feedback::no_parameter));
+    const FeedbackFactor<Dual> factor = one.feedback->factor(stress, one.next, Feedback::no_parameter);
+    if (first)
+      total = factor;
+    else
+      multiply(total, factor);
+    first = false;
   }
   return total;
 }

@@ -62,7 +62,7 @@ class FeedbackSet {
     FeedbackFactor<double> by_memory;  // d ln factor / d memory
   };
   std::vector<One> all_;
-  double h_ = 0.0, stress_here_ = 0.0, rise_ = 0.0, modulus_ = 0.0;
+  double h_ = 0.0, stress_here_ = 0.0, rise_ = 0.0, compliance_ = 0.0;
 };
 
 }  // namespace probation

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "coefficient_rows.hpp"
 #include "coupled_step.hpp"
 #include "kernels.hpp"
 #include "vector.hpp"
@@ -407,6 +408,7 @@ Trial trial(const Modes& modes, const Steps& steps) {
 #define PROBATION_TEXT_OF(name) #name
 #define PROBATION_TEXT(name) PROBATION_TEXT_OF(name)
 const Kernels table{
-    PROBATION_TEXT(PROBATION_ISA), sweep, tangent, trial, expand, take, linearise, drift, move};
+    PROBATION_TEXT(PROBATION_ISA), sweep, tangent,   trial, fill_rows, weigh_rows, look, advance,
+    linearise,                     drift, move};
 
 }  // namespace probation::kernels::PROBATION_ISA
