@@ -7,6 +7,7 @@ import time
 from bench import (
     batches,
     equal_error,
+    feedbacks,
     fewer_modes,
     forward,
     identification,
@@ -19,7 +20,7 @@ from bench import (
 from bench.methods import INSTALL, missing_packages
 from bench.rows import Findings
 
-SECTIONS = (forward, fewer_modes, overhead, sensitivities, identification, equal_error, batches)
+SECTIONS = (forward, fewer_modes, overhead, sensitivities, feedbacks, identification, equal_error, batches)
 
 
 def main() -> int:

@@ -16,6 +16,9 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
         *_equal_error(found),
         *_plain(found, "overhead", "Calls from Python"),
         *_plain(found, "sensitivities", "Sensitivities"),
+        *_plain(
+            found, "feedbacks", "Feedbacks, beside one solve without (even: of the ramp in even steps)"
+        ),
         *_plain(found, "batch", "Batches (processor time of all threads)"),
         *_identification(found),
         *_goals(found),
@@ -86,6 +89,8 @@ def _plain(found: Findings, section: str, title: str) -> list[str]:
         extra = ""
         if "beside" in row.ratios:
             extra = f"  {row.ratios['beside']:.2f} x one solve"
+        if "even" in row.ratios:
+            extra += f"  {row.ratios['even']:.2f} x even"
         if "chosen" in row.ratios:
             extra = f"  {row.ratios['chosen']:.2f} x those chosen here"
         out.append(f"  {row.label:<66}{_time(row.median):>11} +-{row.spread / 2:>4.0%}{extra}")

@@ -10,13 +10,13 @@ using Eigen::Index;
 using std::int64_t;
 
 constexpr int terms = kernels::CoefficientRows::terms;
-constexpr double widest_cell = 6e-3;       // in ln scale
-constexpr double span_of_scales = 12.0;    // in ln scale: what a block of a log-spaced spectrum serves at least
-constexpr double same_spacing = 1e-14;     // relative
+constexpr double widest_cell = 6e-3;     // in ln scale
+constexpr double span_of_scales = 12.0;  // in ln scale: what a block of a log-spaced spectrum serves at least
+constexpr double same_spacing = 1e-14;   // relative
 constexpr int64_t most_blocks = 512, cells_kept = 1024;
-constexpr double most_numbers = 1e6;       // in all blocks
+constexpr double most_numbers = 1e6;  // in all blocks
 constexpr double usable = 1e100;
-constexpr double forgotten = 37.0;         // e^-x is below rounding
+constexpr double forgotten = 37.0;  // e^-x is below rounding
 
 int64_t floor_of_quotient(int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
@@ -24,7 +24,8 @@ int64_t floor_of_quotient(int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 
 
 void CoefficientTable::set(const ModalGroup& modes, bool curved) {
   const bool same = curved == curved_ && modes.padded() == modes_.padded() &&
-                    (modes.inverse_ratio == modes_.inverse_ratio).all() && (modes.weight == modes_.weight).all();
+                    (modes.inverse_ratio == modes_.inverse_ratio).all() &&
+                    (modes.weight == modes_.weight).all();
   if (same && !cells_.empty()) return;
   curved_ = curved;
   modes_ = modes;

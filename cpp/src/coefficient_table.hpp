@@ -1,6 +1,6 @@
 #pragma once
-// Step coefficients as functions of the scale: cells so narrow that in each a polynomial has all digits. Filled
-// where they are asked for, and kept from solve to solve.
+// Step coefficients as functions of the scale: cells so narrow that in each a polynomial has all digits.
+// Filled where they are asked for, and kept from solve to solve.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -53,7 +53,7 @@ class CoefficientTable {
   Eigen::Index entries_ = 0;               // in a row
   Eigen::ArrayXd inverse_ratio_, scaled_;  // of the entries; times the scale of the block being filled
   std::vector<Block> blocks_;
-  std::vector<double> before_;             // the rows that went last
+  std::vector<double> before_;  // the rows that went last
   std::vector<CoefficientCell> cells_;
   CoefficientCell* last_ = nullptr;
 };

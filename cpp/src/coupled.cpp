@@ -139,53 +139,63 @@ const CoefficientCell* CoupledSolver::cell_ahead() {
   return table().near(expanded_.unit * data_.h * (pace > 0.0 ? pace : pace_));
 }
 
-void CoupledSolver::evaluate(double stress) {
-  step_.factor = feedbacks_.at({stress, 1.0});
-  data_.relaxed_stress.next = step_.relaxed_stress = law_relaxed_ * step_.factor.hardening;
-  data_.fluidity.next = step_.fluidity = law_fluidity_ * step_.factor.fluidity;
-  step_.forcing = step_forcing(scheme_, start_, data_, stiff_);
+inline StepEnd CoupledSolver::evaluate(double stress) {
+  StepEnd end;
+  end.factor = feedbacks_.at(stress);
+  end.relaxed_stress = law_relaxed_ * end.factor.hardening;
+  end.fluidity = law_fluidity_ * end.factor.fluidity;
+  data_.relaxed_stress.next = end.relaxed_stress;
+  data_.fluidity.next = end.fluidity;
+  end.forcing = step_forcing(scheme_, start_, data_, stiff_);
+  return end;
 }
 
-bool CoupledSolver::look() {
-  expanded_.set(table().near(expanded_.unit * step_.forcing.scale.value));
+bool CoupledSolver::look(double scale) {
+  expanded_.set(table().near(expanded_.unit * scale));
   if (expanded_.cell) kernel_.look(main_.view(), expanded_.near, expanded_.modes);
   return expanded_.cell != nullptr;
 }
 
-void CoupledSolver::solve_step(double extra_stress) {
-  if (iterate(stress_here_ + continuation_.change(data_.fresh, data_.ratio, rise_), extra_stress)) return;
-  // Where that leads nowhere, a straight continuation may lead there.
-  if (!iterate(stress_here_ + continuation_.straight(data_.fresh, data_.ratio), extra_stress)) fail();
+/// So near the solution that everything goes straight there.
+inline void CoupledSolver::finish(const StepEnd& end, double stress, double correction, double by_forcing) {
+  continuation_.add(stress - stress_here_, rise_, by_forcing * modulus_ * end_weight(end.forcing.rule));
+  feedbacks_.settle(correction);
+  step_.stress = stress;
+  step_.relaxed_stress = moved(end.relaxed_stress, correction);
+  step_.fluidity = moved(end.fluidity, correction);
+  step_.factor.fluidity = moved(end.factor.fluidity, correction);
+  step_.factor.hardening = moved(end.factor.hardening, correction);
+  step_.forcing.rule = end.forcing.rule;
+  step_.forcing.scale = moved(end.forcing.scale, correction);
+  step_.forcing.forcing = moved(end.forcing.forcing, correction);
+  step_.forcing.curvature = moved(end.forcing.curvature, correction);
 }
 
 /// Newton on the stress at the end of the step.
 bool CoupledSolver::iterate(double stress, double extra_stress) {
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    evaluate(stress);
-    if (!expanded_.reaches(step_.forcing) && !look()) return false;
-    const Dual by_forcing = expanded_.by_forcing(step_.forcing);
-    const Dual excess = expanded_.stress(step_.forcing, by_forcing) + total_weight_ * step_.relaxed_stress +
-                        Dual(extra_stress - stress, -1.0);
+    const StepEnd end = evaluate(stress);
+    const double scale = end.forcing.scale.value;
+    if (!expanded_.reaches(scale) && !look(scale)) return false;
+    const StressAtEnd found = expanded_.stress(end.forcing);
+    const Dual excess{found.stress.value + total_weight_ * end.relaxed_stress.value + extra_stress - stress,
+                      found.stress.slope + total_weight_ * end.relaxed_stress.slope - 1.0};
     residual_ = excess.value;
     const double compliance = -1.0 / excess.slope, correction = excess.value * compliance;
     if (!std::isfinite(correction)) return false;
     stress += correction;
     if (small(correction, stress, tolerance_)) {
-      finish(stress, correction, compliance * by_forcing.value);
+      finish(end, stress, correction, compliance * found.by_forcing);
       return true;
     }
   }
   return false;
 }
 
-/// So near the solution that everything goes straight there.
-void CoupledSolver::finish(double stress, double correction, double by_forcing) {
-  continuation_.add(stress - stress_here_, rise_, by_forcing * modulus_ * end_weight(step_.forcing.rule));
-  feedbacks_.settle(correction);
-  step_.stress = stress;
-  for (Dual* one : {&step_.relaxed_stress, &step_.fluidity, &step_.factor.fluidity, &step_.factor.hardening,
-                    &step_.forcing.scale, &step_.forcing.forcing, &step_.forcing.curvature})
-    *one = moved(*one, correction);
+void CoupledSolver::solve_step(double extra_stress) {
+  if (iterate(stress_here_ + continuation_.change(data_.fresh, data_.h, rise_), extra_stress)) return;
+  // Where that leads nowhere, a straight continuation may lead there.
+  if (!iterate(stress_here_ + continuation_.straight(data_.fresh), extra_stress)) fail();
 }
 
 void CoupledSolver::leave() {

@@ -14,14 +14,18 @@
 
 namespace probation {
 
-/// A step that has been solved, with slopes along the stress at its end.
-struct CoupledStep {
-  Eigen::Index m = 0;
-  double ratio = 1.0;             // h / h0
-  double stress = 0.0;            // at its end, before the load-bearing area
-  Dual relaxed_stress, fluidity;  // there
-  FeedbackFactor<Dual> factor;    // there
+/// What holds at the end of a step, with slopes along the stress there.
+struct StepEnd {
+  Dual relaxed_stress, fluidity;
+  FeedbackFactor<Dual> factor;
   StepForcing<Dual> forcing;
+};
+
+/// A step that has been solved.
+struct CoupledStep : StepEnd {
+  Eigen::Index m = 0;
+  double ratio = 1.0;   // h / h0
+  double stress = 0.0;  // at its end, before the load-bearing area
 };
 
 /// What a solve with feedbacks keeps for the next one.
@@ -32,8 +36,8 @@ struct CoupledTables {
 /// One pass along a record with feedbacks. The unknown of a step is the stress at its end: given it, the
 /// memories, the feedbacks' factors, the step's inputs and with them the modes follow in closed form, so that
 /// one scalar Newton iteration solves the step for any number of modes and feedbacks. The modes are passed
-/// through once per step: while they take a step, they are looked at near the scale that the next one is thought
-/// to have, where the stress at its end is a polynomial (ExpandedStep).
+/// through once per step: while they take a step, they are looked at near the scale that the next one is
+/// thought to have, where the stress at its end is a polynomial (ExpandedStep).
 class CoupledSolver {
  public:
   /// `main` holds the initial states; with initial_modal_stress not relaxed, they are set here.
@@ -55,15 +59,15 @@ class CoupledSolver {
   /// The cell in which the step's scale is thought to be, as the scales of the steps before go on.
   const CoefficientCell* cell_ahead();
   /// Everything but the modes, at a stress at the end of the step.
-  void evaluate(double stress);
+  StepEnd evaluate(double stress);
   /// Solves the step; the stress of the extra modes at its end is known.
   void solve_step(double extra_stress);
   bool iterate(double stress, double extra_stress);
-  void finish(double stress, double correction, double by_forcing);
+  void finish(const StepEnd& end, double stress, double correction, double by_forcing);
   /// Leaves the step that has been solved: all but its modes.
   void leave();
-  /// Looks at the step where its scale is now.
-  bool look();
+  /// Looks at the step near a scale.
+  bool look(double scale);
   CoefficientTable& table() { return expanded_.near.exponential ? tables_.exponential : tables_.rational; }
   bool given_start() const { return change_.initial_modal_stress.size() > 0; }
   [[noreturn]] void fail() const;
@@ -81,7 +85,7 @@ class CoupledSolver {
   const RecordInputs<double>* base_ = nullptr;  // what the law gives
   double relaxed_start_ = 0.0;
   FeedbackSet feedbacks_;
-  FeedbackFactor<Dual> begun_;  // at the start, with slopes along the stress
+  FeedbackFactor<Dual> begun_;   // at the start, with slopes along the stress
   StepData<double> strained_{};  // what the strain makes of the current step
   StepData<Dual> data_{};        // and what the feedbacks do: tau_max and the relaxed stress alone
   double stiff_ = 0.0;           // the part of U that the strain alone makes

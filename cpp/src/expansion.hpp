@@ -1,5 +1,6 @@
 #pragma once
-// The stress at the end of a step as a function of the step's inputs, near the scale of a cell of coefficients.
+// The stress at the end of a step as a function of the step's inputs, near the scale of a cell of
+// coefficients.
 
 #include <cmath>
 
@@ -19,15 +20,20 @@ inline StepForcing<double> values(const StepForcing<Dual>& s) {
   return {s.rule, s.scale.value, s.forcing.value, s.curvature.value};
 }
 
-/// sum_k row[k] e^k with its slope.
-inline Dual polynomial(const double* row, Dual e) {
-  double value = row[kernels::CoefficientRows::terms - 1], by_e = 0.0;
-  for (int k = kernels::CoefficientRows::terms - 2; k >= 0; --k) {
-    by_e = by_e * e.value + value;
-    value = value * e.value + row[k];
-  }
-  return {value, by_e * e.slope};
+/// sum_k row[k] e^k and its slope along e, for which some digits less will do: Newton's iteration corrects
+/// it.
+inline Dual polynomial(const double (&row)[6], double e) {
+  static_assert(kernels::CoefficientRows::terms == 6);
+  const double square = e * e;
+  return {(row[0] + row[1] * e) + square * ((row[2] + row[3] * e) + square * (row[4] + row[5] * e)),
+          row[1] + e * (2.0 * row[2] + 3.0 * row[3] * e)};
 }
+
+/// Sum of z_j at the end of a step, and its derivative with respect to U.
+struct StressAtEnd {
+  Dual stress;
+  double by_forcing;
+};
 
 /// A step whose modes have been looked at near the scale of a cell; see kernels::NearStep.
 struct ExpandedStep {
@@ -58,21 +64,27 @@ struct ExpandedStep {
     near.rows = cell->rows;
     near.slaved = cell->slaved;
   }
-  bool reaches(const StepForcing<Dual>& step) const {
-    return cell && std::abs(cell->distance(unit * step.scale.value)) <= kernels::CoefficientRows::reach;
+  bool reaches(double scale) const {
+    return cell && std::abs(cell->distance(unit * scale)) <= kernels::CoefficientRows::reach;
   }
-  /// How the stress follows the forcing U.
-  Dual by_forcing(const StepForcing<Dual>& step) const {
-    return unit * polynomial(cell->by_forcing, distance(step));
-  }
-  /// Sum of z_j at the end of the step.
-  Dual stress(const StepForcing<Dual>& step, Dual by_forcing) const {
-    const Dual e = distance(step), state = polynomial(modes.by_distance, e);
-    const Dual driven = step.forcing * by_forcing;
-    if (!near.exponential) return state + driven;
-    Dual sum = Dual(modes.kept) - step.scale * state + driven;
-    if (near.rows.curvature) sum = sum + step.curvature * polynomial(cell->by_curvature, e);
-    return sum;
+  /// Slopes along the stress are good to some digits.
+  StressAtEnd stress(const StepForcing<Dual>& step) const {
+    const double per_scale = unit * cell->inverse_centre;
+    const double e = step.scale.value * per_scale - 1.0, e_slope = step.scale.slope * per_scale;
+    const Dual forced = polynomial(cell->by_forcing, e), state = polynomial(modes.by_distance, e);
+    const double by_forcing = unit * forced.value;
+    const double driven = by_forcing * step.forcing.value,
+                 driven_slope =
+                     by_forcing * step.forcing.slope + unit * forced.slope * step.forcing.value * e_slope;
+    if (!near.exponential) return {{state.value + driven, state.slope * e_slope + driven_slope}, by_forcing};
+    Dual sum{(modes.kept - step.scale.value * state.value) + driven,
+             driven_slope - (step.scale.slope * state.value + step.scale.value * state.slope * e_slope)};
+    if (near.rows.curvature) {
+      const Dual curved = polynomial(cell->by_curvature, e);
+      sum.value += step.curvature.value * curved.value;
+      sum.slope += step.curvature.slope * curved.value + step.curvature.value * curved.slope * e_slope;
+    }
+    return {sum, by_forcing};
   }
   /// As the kernel takes it.
   kernels::NearStep taken(const StepForcing<Dual>& step) const {
@@ -87,11 +99,6 @@ struct ExpandedStep {
  private:
   StepRule rule_ = StepRule::exponential;
   double ratio_ = 0.0;
-
-  Dual distance(const StepForcing<Dual>& step) const {
-    const double per_scale = unit * cell->inverse_centre;
-    return {step.scale.value * per_scale - 1.0, step.scale.slope * per_scale};
-  }
 };
 
 }  // namespace probation

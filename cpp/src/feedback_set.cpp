@@ -48,29 +48,24 @@ void FeedbackSet::enter(double h, double stress_here, double rise, double modulu
   if (h == h_) return;
   h_ = h;
   for (One& one : all_) {
+    if (one.loss_rate == 0.0) continue;
     const double loss = one.loss_rate * h;
     one.kept = std::exp(-loss);
     one.taken = mean_decay(loss, one.kept);
   }
 }
 
-FeedbackFactor<Dual> FeedbackSet::at(Dual stress) {
+FeedbackFactor<Dual> FeedbackSet::at(double stress) {
   // plastic_work() with the modulus' inverse at hand
-  const double mean_stress = 0.5 * (stress_here_ + stress.value);
-  const double plastic = rise_ - (stress.value - stress_here_) * compliance_;
-  const Dual work{mean_stress * plastic,
-                  (0.5 * plastic - mean_stress * compliance_) * stress.slope};
-  FeedbackFactor<Dual> total;
-  bool first = true;
-  for (One& one : all_) {
+  const double mean_stress = 0.5 * (stress_here_ + stress),
+               plastic = rise_ - (stress - stress_here_) * compliance_;
+  const Dual work{mean_stress * plastic, 0.5 * plastic - mean_stress * compliance_};
+  const auto of = [&](One& one) {
     one.next = {one.kept * one.memory + one.taken * work.value, one.taken * work.slope};
-    const FeedbackFactor<Dual> factor = one.feedback->factor(stress, one.next, Feedback::no_parameter);
-    if (first)
-      total = factor;
-    else
-      multiply(total, factor);
-    first = false;
-  }
+    return one.feedback->factor({stress, 1.0}, one.next, Feedback::no_parameter);
+  };
+  FeedbackFactor<Dual> total = of(all_[0]);
+  for (std::size_t k = 1; k < all_.size(); ++k) multiply(total, of(all_[k]));
   return total;
 }
 

@@ -1,4 +1,5 @@
-// The Taylor terms of step coefficients in the relative distance of the scale. Compiled once per instruction set.
+// The Taylor terms of step coefficients in the relative distance of the scale. Compiled once per instruction
+// set.
 //
 // The coefficient of bE2 and backward Euler is a multiple of 1 / (1 + x), whose terms are powers of
 // -x / (1 + x). Those of the exponential rule are phi and psi of schemes/step.hpp, which satisfy

@@ -1,8 +1,8 @@
 // Single steps whose inputs depend on the stress at their end. Compiled once per instruction set.
 //
 // Coefficients near a scale are polynomials (kernels::CoefficientRows), and so is the stress at the end of a
-// step: its terms are had from one pass over the modes before its scale is known. That pass is the one in which
-// the step before is taken.
+// step: its terms are had from one pass over the modes before its scale is known. That pass is the one in
+// which the step before is taken.
 
 #include "coupled_step.hpp"
 
@@ -33,8 +33,8 @@ PROBATION_INLINE Vector polynomial(const double* row, std::ptrdiff_t stride, dou
   return value;
 }
 
-/// Coefficients of four modes, and what a rule makes of them; `curved`: V is not zero. Numbers and pointers are
-/// copied: stores to the states could otherwise change them, as far as a compiler knows.
+/// Coefficients of four modes, and what a rule makes of them; `curved`: V is not zero. Numbers and pointers
+/// are copied: stores to the states could otherwise change them, as far as a compiler knows.
 template <bool curved>
 struct ExponentialNear {
   static constexpr bool two_step = false;
@@ -54,8 +54,7 @@ struct ExponentialNear {
   PROBATION_INLINE Vector taken(std::ptrdiff_t at, Vector z, Vector, Vector inverse, Vector weight) const {
     const Vector c = polynomial(forcing_rows + at, stride, distance);
     Vector next = z + c * (weight * forcing - inverse * scale * z);
-    if constexpr (curved)
-      next += polynomial(curvature_rows + at, stride, distance) * (weight * curvature);
+    if constexpr (curved) next += polynomial(curvature_rows + at, stride, distance) * (weight * curvature);
     return next;
   }
 };
@@ -141,7 +140,8 @@ StepSlopes linearise_by(const Modes modes, const OneStep step, double* rows) {
 }  // namespace
 
 void look(const Modes& modes, const NearStep& next, StressNearby& found) {
-  if (next.exponential) return pass<ExponentialNear<false>, false, true>(modes, next.slaved, next, next, found);
+  if (next.exponential)
+    return pass<ExponentialNear<false>, false, true>(modes, next.slaved, next, next, found);
   pass<RationalNear, false, true>(modes, 0, next, next, found);
 }
 

@@ -46,8 +46,8 @@ struct Trial {
   double by_curvature;  ///< d stress / d V
 };
 
-/// Coefficients of all modes near one scale, as polynomials in the scale's relative distance from it: the term
-/// of distance^k of mode j stands in [k * stride + j]. Of bE2 on uneven steps the scale is x / a, a the
+/// Coefficients of all modes near one scale, as polynomials in the scale's relative distance from it: the
+/// term of distance^k of mode j stands in [k * stride + j]. Of bE2 on uneven steps the scale is x / a, a the
 /// coefficient of Bdf2Difference at the end of the step, and the coefficients are a times as large.
 struct CoefficientRows {
   static constexpr int terms = 6;
@@ -111,8 +111,8 @@ struct Kernels {
   void (*weigh_rows)(const Modes&, const CoefficientRows&, double* by_forcing, double* by_curvature);
   /// Looks at a step that is still to be taken.
   void (*look)(const Modes&, const NearStep&, StressNearby& found);
-  /// Takes a step and, if there is a next one, looks at it in the same pass. Modes that both steps enslave stay
-  /// behind: whatever they are, nothing of it is left afterwards.
+  /// Takes a step and, if there is a next one, looks at it in the same pass. Modes that both steps enslave
+  /// stay behind: whatever they are, nothing of it is left afterwards.
   void (*advance)(const Modes&, const NearStep& taken, const NearStep* next, StressNearby& found);
   /// One step's coefficients and slopes, for drift() and move(), to rows (5 * padded entries); not taken.
   StepSlopes (*linearise)(const Modes&, const Steps&, double* rows);

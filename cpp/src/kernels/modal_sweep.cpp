@@ -407,8 +407,16 @@ Trial trial(const Modes& modes, const Steps& steps) {
 
 #define PROBATION_TEXT_OF(name) #name
 #define PROBATION_TEXT(name) PROBATION_TEXT_OF(name)
-const Kernels table{
-    PROBATION_TEXT(PROBATION_ISA), sweep, tangent,   trial, fill_rows, weigh_rows, look, advance,
-    linearise,                     drift, move};
+const Kernels table{PROBATION_TEXT(PROBATION_ISA),
+                    sweep,
+                    tangent,
+                    trial,
+                    fill_rows,
+                    weigh_rows,
+                    look,
+                    advance,
+                    linearise,
+                    drift,
+                    move};
 
 }  // namespace probation::kernels::PROBATION_ISA

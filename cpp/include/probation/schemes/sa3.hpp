@@ -29,7 +29,8 @@ template <class Real, class Stiff>
 PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s, const Stiff& stiff) {
   if (s.fresh) return sa2_step(s, stiff);
   Real scale = parabolic_reduced_time(s);
-  if (!(scale > 0.0)) return sa2_step(s, stiff);  // f fell by more than 13 times: the parabola dips below zero
+  if (!(scale > 0.0))
+    return sa2_step(s, stiff);  // f fell by more than 13 times: the parabola dips below zero
   const Real change = stiff - (s.relaxed_stress.next - s.relaxed_stress.here);
   const Real curvature =
       scale * (change - s.previous_forcing * scale / s.previous_scale) / (scale + s.previous_scale);
