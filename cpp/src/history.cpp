@@ -198,8 +198,16 @@ StepRates History::take_given(const Samples& true_strain, const Samples& strain_
 }
 
 double History::companion_rate(Index m, double rate, double floor) const {
-  const int direction = direction_.size() > 0 ? direction_[m] : 0;
-  return std::max(direction == 0 ? std::abs(rate) : direction * rate, floor);
+  const int commanded = direction(m);
+  return std::max(commanded == 0 ? std::abs(rate) : commanded * rate, floor);
+}
+
+void History::see_companion_rates(Eigen::ArrayXd& rate, double floor) const {
+  if (direction_.size() == 0) {
+    rate = rate.abs().max(floor);
+    return;
+  }
+  for (Index m = 0; m < steps(); ++m) rate[m] = companion_rate(m, rate[m], floor);
 }
 
 double History::companion_rate_slope(Index m, double rate, double floor) const {

@@ -104,18 +104,19 @@ StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>&
   return step_forcing(scheme, start, s, stiff_part(scheme, start, s));
 }
 
-/// form_steps where E_u and tau_max are constant: the forcing's integral F = E_u e - sigma^r is formed once,
-/// and its differences are all that a step needs. The same numbers as step_forcing to rounding.
-void form_constant_steps(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
-                         RecordSteps<double>& out);
+/// form_steps where E_u is constant and the rate is the scheme's own: the forcing's integral F = E_u e -
+/// sigma^r is formed once, and its differences are all that a step needs. The same numbers as step_forcing to
+/// rounding. False, with nothing formed, where SA3's parabola through the fluidity dips below zero.
+bool form_steps_at_once(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
+                        RecordSteps<double>& out);
 
 template <class Real>
 void form_steps(Scheme scheme, Start start, const History& history, const RecordInputs<Real>& in,
                 RecordSteps<Real>& out) {
   if constexpr (std::is_same_v<Real, double>) {
-    const bool constant =
-        in.unrelaxed_modulus.size() == 1 && in.fluidity_end.size() == 1 && in.end_rate.empty();
-    if (constant) return form_constant_steps(scheme, start, history, in, out);
+    if (in.unrelaxed_modulus.size() == 1 && in.end_rate.empty() &&
+        form_steps_at_once(scheme, start, history, in, out))
+      return;
   }
   const Eigen::Index steps = history.steps();
   out.resize(static_cast<std::size_t>(steps));

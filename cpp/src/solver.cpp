@@ -43,16 +43,23 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   }
 }
 
-kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index count, bool uniform) {
+/// In even steps SA3's curvature is half the change of its forcing.
+kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& steps, Index first, Index count,
+                            bool uniform) {
   const auto i = static_cast<std::size_t>(first);
-  const bool curved = steps.rule[i] == StepRule::exponential;
   return {steps.rule[i],
           static_cast<int>(count),
           uniform,
           &steps.scale[i],
           &steps.ratio[i],
           &steps.forcing[i],
-          curved ? &steps.curvature[i] : nullptr};
+          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr,
+          uniform};
+}
+
+kernels::Modes modes_for(const kernels::Steps& steps, ModalGroup& group) {
+  return steps.rule == StepRule::exponential && !steps.uniform && steps.count > 1 ? group.view_with_table()
+                                                                                  : group.view();
 }
 
 }  // namespace
@@ -107,7 +114,8 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
     for_each_run(
         history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
-          kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
+          const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
+          kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
         });
   };
   if (!w.extra.empty()) {
@@ -123,8 +131,9 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   sweep(w.main, w.inputs, w.steps);
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();
-  for (Index i = 0; i < history_.size(); ++i)
-    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+  stress += total_weight * Eigen::Map<const Eigen::ArrayXd>(w.inputs.relaxed_stress.data(), stress.size());
+  if (change.load_bearing_area.size() > 0)
+    for (Index i = 0; i < history_.size(); ++i) stress[i] *= area[i];
 }
 
 namespace {
@@ -209,27 +218,29 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool coupled =
         std::any_of(tangents.begin(), tangents.end(), [](const TangentState& t) { return !t.linear(); });
     if (!coupled) group.state *= group.weight;
-    for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+    for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+      const kernels::Steps run = kernel_steps(options_.scheme, steps, first, length, uniform);
       if (!coupled) {
-        kernel.sweep(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1);
+        kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
         return;
       }
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));
-      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1,
-                     views.data(), static_cast<int>(views.size()), scratch.data());
+      kernel.tangent(modes_for(run, group), run, stress.data() + first + 1, views.data(),
+                     static_cast<int>(views.size()), scratch.data());
     });
     for (TangentState& t : tangents) {
       if (!t.linear()) continue;
-      ModalGroup alone = group;
-      alone.state = t.state * group.weight;
-      alone.before.setZero();
-      for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
-        kernels::Steps linear = kernel_steps(steps, first, run, uniform);
+      Eigen::ArrayXd state = t.state * group.weight, before = Eigen::ArrayXd::Zero(group.padded());
+      for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+        kernels::Steps linear = kernel_steps(options_.scheme, steps, first, length, uniform);
         linear.forcing = &t.forcing[static_cast<std::size_t>(first)];
         if (linear.curvature) linear.curvature = &t.curvature[static_cast<std::size_t>(first)];
-        kernel.sweep(alone.view(), linear, t.stress.data() + first + 1);
+        kernels::Modes alone = modes_for(linear, group);
+        alone.state = state.data();
+        alone.before = before.data();
+        kernel.sweep(alone, linear, t.stress.data() + first + 1);
       });
     }
   };

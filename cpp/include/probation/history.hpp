@@ -75,6 +75,10 @@ class History {
   /// What the companion relation sees in step m: the modulus of the rate, or the floor where noise turned it
   /// round.
   double companion_rate(Eigen::Index m, double rate, double floor) const;
+  /// The same for the rates of all steps, in place; shape (n_times - 1).
+  void see_companion_rates(Eigen::ArrayXd& rate, double floor) const;
+  /// Commanded direction of step m; 0 if unknown.
+  int direction(Eigen::Index m) const { return direction_.size() > 0 ? direction_[m] : 0; }
   /// Its derivative with respect to the rate: +1, -1, or 0 on the floor.
   double companion_rate_slope(Eigen::Index m, double rate, double floor) const;
 

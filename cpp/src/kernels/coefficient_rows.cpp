@@ -35,7 +35,7 @@ void fill_exponential(long count, const double* x, double* forcing, double* curv
     const Vector here = load(x + at);
     const StepCoefficients<Vector> c = ExponentialStep::coefficients<Vector>(here, 1.0);
     Vector decayed = c.previous, phi = c.forcing, psi = c.curvature;
-    const Vector factor = here < 700.0 ? -here : Vector{};  // beyond, nothing is left of e^-x
+    const Vector factor = choose(here < 700.0, -here, Vector{});  // beyond, nothing is left of e^-x
     for (int k = 0; k < terms; ++k) {
       store(forcing + k * stride + at, phi);
       if (curvature) store(curvature + k * stride + at, psi);

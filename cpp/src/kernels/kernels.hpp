@@ -2,9 +2,19 @@
 // The hot loops, built once per instruction set. Everything here is plain pointers: no allocation, no
 // exceptions.
 
+#include <cstdint>
+
 #include "probation/schemes/step_rule.hpp"
 
 namespace probation::kernels {
+
+/// What uneven steps of the exponential rule keep from step to step and from sweep to sweep; see
+/// scale_table.hpp. The memory is the caller's.
+struct ScaleTable {
+  static constexpr int slots = 64, terms = 8;
+  std::int64_t cell[slots];  ///< which scales a slot serves; negative: none
+  double* rows;              ///< slots * terms * padded entries
+};
 
 /// Modes that share a time scale and a forcing. Arrays are padded to a multiple of four with weights of zero.
 struct Modes {
@@ -13,6 +23,7 @@ struct Modes {
   const double* weight;         ///< p_j
   double* state;                ///< z_j at the last instant; advanced
   double* before;               ///< z_j one instant earlier; advanced
+  ScaleTable* table = nullptr;  ///< of these inverse ratios; null: coefficients are formed in every step
 };
 
 /// Consecutive steps by one rule; x_j = scale * inverse_ratio_j.
@@ -24,6 +35,7 @@ struct Steps {
   const double* ratio;      ///< h / h0
   const double* forcing;    ///< U
   const double* curvature;  ///< V; null: zero
+  bool parabolic = false;   ///< V is half the change of U from the step before, but for the first step
 };
 
 /// One direction of a tangent, in step with Steps; null pointers are zero.
@@ -122,9 +134,16 @@ struct Kernels {
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
 };
 
-/// The best build for this processor; PROBATION_KERNELS=baseline in the environment overrides the choice.
+/// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.
+/// @throws InputError  if it names one that is not there or that this processor cannot run
 const Kernels& best();
 
+/// Every build that this processor can run, best first; ends with null.
+const Kernels* const* runnable();
+
+namespace portable {
+extern const Kernels table;
+}
 namespace baseline {
 extern const Kernels table;
 }
