@@ -14,7 +14,8 @@ constexpr double widest_cell = 6e-3;     // in ln scale
 constexpr double span_of_scales = 12.0;  // in ln scale: what a block of a log-spaced spectrum serves at least
 constexpr double same_spacing = 1e-14;   // relative
 constexpr int64_t most_blocks = 512, cells_kept = 1024;
-constexpr double most_numbers = 1e6;  // in all blocks
+constexpr double most_spare = 4096.0;  // entries beside the modes
+constexpr double most_numbers = 1e6;   // in all blocks
 constexpr double usable = 1e100;
 constexpr double forgotten = 37.0;  // e^-x is below rounding
 
@@ -43,7 +44,7 @@ void CoefficientTable::find_spacing() {
       modes > 1 ? std::log(inverse[modes - 1] / inverse[0]) / static_cast<double>(modes - 1) : 0.0;
   const auto blocks = static_cast<int64_t>(std::ceil(std::abs(spacing) / widest_cell));
   const auto grown = [&](Index entry) { return inverse[0] * std::exp(static_cast<double>(entry) * spacing); };
-  spaced_ = blocks > 0 && blocks <= most_blocks;
+  spaced_ = blocks > 0 && blocks <= most_blocks && span_of_scales <= most_spare * std::abs(spacing);
   for (Index j = 0; j < modes && spaced_; ++j)
     spaced_ = std::abs(grown(j) / inverse[j] - 1.0) <= same_spacing;
 

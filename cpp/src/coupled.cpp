@@ -69,9 +69,9 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     put(k, 0, tangents[k].start_slope());
   }
   LinearisedStep linearised(main_.padded());
-  enter(0);
+  StepEnd guess = enter(0);
   for (Index m = 0; m < history_.steps(); ++m) {
-    solve_step(stress[m + 1]);
+    solve_step(guess, stress[m + 1]);
     stress[m + 1] = area[m + 1] * step_.stress;
     if (!tangents.empty()) linearised.at(*this);
     for (std::size_t k = 0; k < tangents.size(); ++k)
@@ -79,8 +79,8 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     const kernels::NearStep taken = expanded_.taken(step_.forcing);
     leave();
     if (m + 1 == history_.steps()) return;
-    enter(m + 1);
-    expanded_.set(cell_ahead());
+    guess = enter(m + 1);
+    expanded_.set(table().near(expanded_.unit * guess.forcing.scale.value));
     kernel_.advance(main_.view(), taken, expanded_.cell ? &expanded_.near : nullptr, expanded_.modes);
   }
 }
@@ -110,7 +110,18 @@ void CoupledSolver::begin(const RecordInputs<double>& base) {
   strained_.constant_modulus = base.unrelaxed_modulus.size() == 1;
 }
 
-void CoupledSolver::enter(Index m) {
+inline StepEnd CoupledSolver::evaluate(double stress) {
+  StepEnd end;
+  end.factor = feedbacks_.at(stress);
+  end.relaxed_stress = law_relaxed_ * end.factor.hardening;
+  end.fluidity = law_fluidity_ * end.factor.fluidity;
+  data_.relaxed_stress.next = end.relaxed_stress;
+  data_.fluidity.next = end.fluidity;
+  end.forcing = step_forcing(scheme_, start_, data_, stiff_);
+  return end;
+}
+
+StepEnd CoupledSolver::enter(Index m) {
   const auto i = static_cast<std::size_t>(m);
   StepData<double>& s = strained_;
   s.fresh = data_.fresh = history_.fresh(m);
@@ -132,22 +143,8 @@ void CoupledSolver::enter(Index m) {
   step_.m = m;
   step_.ratio = s.ratio;
   expanded_.set(scheme_ == Scheme::be2 ? be2_rule(s.fresh, s.ratio, start_) : StepRule::exponential, s.ratio);
-}
-
-const CoefficientCell* CoupledSolver::cell_ahead() {
-  const double pace = 2.0 * pace_ - earlier_pace_;
-  return table().near(expanded_.unit * data_.h * (pace > 0.0 ? pace : pace_));
-}
-
-inline StepEnd CoupledSolver::evaluate(double stress) {
-  StepEnd end;
-  end.factor = feedbacks_.at(stress);
-  end.relaxed_stress = law_relaxed_ * end.factor.hardening;
-  end.fluidity = law_fluidity_ * end.factor.fluidity;
-  data_.relaxed_stress.next = end.relaxed_stress;
-  data_.fluidity.next = end.fluidity;
-  end.forcing = step_forcing(scheme_, start_, data_, stiff_);
-  return end;
+  guess_ = stress_here_ + continuation_.change(s.fresh, s.h, rise_);
+  return evaluate(guess_);
 }
 
 bool CoupledSolver::look(double scale) {
@@ -172,9 +169,8 @@ inline void CoupledSolver::finish(const StepEnd& end, double stress, double corr
 }
 
 /// Newton on the stress at the end of the step.
-bool CoupledSolver::iterate(double stress, double extra_stress) {
+bool CoupledSolver::iterate(double stress, StepEnd end, double extra_stress) {
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const StepEnd end = evaluate(stress);
     const double scale = end.forcing.scale.value;
     if (!expanded_.reaches(scale) && !look(scale)) return false;
     const StressAtEnd found = expanded_.stress(end.forcing);
@@ -188,22 +184,21 @@ bool CoupledSolver::iterate(double stress, double extra_stress) {
       finish(end, stress, correction, compliance * found.by_forcing);
       return true;
     }
+    end = evaluate(stress);
   }
   return false;
 }
 
-void CoupledSolver::solve_step(double extra_stress) {
-  if (iterate(stress_here_ + continuation_.change(data_.fresh, data_.h, rise_), extra_stress)) return;
+void CoupledSolver::solve_step(const StepEnd& guess, double extra_stress) {
+  if (iterate(guess_, guess, extra_stress)) return;
   // Where that leads nowhere, a straight continuation may lead there.
-  if (!iterate(stress_here_ + continuation_.straight(data_.fresh), extra_stress)) fail();
+  guess_ = stress_here_ + continuation_.straight(data_.fresh);
+  if (!iterate(guess_, evaluate(guess_), extra_stress)) fail();
 }
 
 void CoupledSolver::leave() {
   feedbacks_.leave();
   stress_here_ = step_.stress;
-  earlier_pace_ = data_.fresh ? 0.0 : pace_;
-  pace_ = step_.forcing.scale.value / data_.h;
-  if (earlier_pace_ == 0.0) earlier_pace_ = pace_;
 }
 
 void CoupledSolver::fail() const {

@@ -54,15 +54,13 @@ class CoupledSolver {
   friend struct LinearisedStep;
 
   void begin(const RecordInputs<double>& base);
-  /// Turns to step m: what the record gives for it.
-  void enter(Eigen::Index m);
-  /// The cell in which the step's scale is thought to be, as the scales of the steps before go on.
-  const CoefficientCell* cell_ahead();
+  /// Turns to step m; what holds at its end as it is guessed.
+  StepEnd enter(Eigen::Index m);
   /// Everything but the modes, at a stress at the end of the step.
   StepEnd evaluate(double stress);
   /// Solves the step; the stress of the extra modes at its end is known.
-  void solve_step(double extra_stress);
-  bool iterate(double stress, double extra_stress);
+  void solve_step(const StepEnd& guess, double extra_stress);
+  bool iterate(double stress, StepEnd end, double extra_stress);
   void finish(const StepEnd& end, double stress, double correction, double by_forcing);
   /// Leaves the step that has been solved: all but its modes.
   void leave();
@@ -92,8 +90,7 @@ class CoupledSolver {
   CoupledStep step_;
   double rise_ = 0.0, modulus_ = 0.0;              // of the strain in the step; E_u in its middle
   double law_relaxed_ = 0.0, law_fluidity_ = 0.0;  // at its end, without feedbacks
-  double pace_ = 0.0, earlier_pace_ = 0.0;         // scale / h of the two steps before
-  double residual_ = 0.0;
+  double guess_ = 0.0, residual_ = 0.0;            // the stress at the end, and what is left at it
   ExpandedStep expanded_;
   StressContinuation continuation_;
   double stress_here_ = 0.0;
