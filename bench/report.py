@@ -17,10 +17,12 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
         *_forward(found),
         *_plain(found, "limit", "Fused multiply-adds: what the machine does of them, and what a solve takes"),
         *_fewer_modes(found),
-        *_plain(found, "feedback", "Feedbacks"),
         *_equal_error(found),
         *_plain(found, "overhead", "Calls from Python"),
         *_plain(found, "sensitivities", "Sensitivities"),
+        *_plain(
+            found, "feedbacks", "Feedbacks, beside one solve without (even: of the ramp in even steps)"
+        ),
         *_plain(found, "batch", "Batches (processor time of all threads)"),
         *_identification(found),
         *_plain(found, "field", "Identification of a strain field, one record per pixel"),
@@ -97,6 +99,8 @@ def _plain(found: Findings, section: str, title: str) -> list[str]:
         extra = ""
         if "beside" in row.ratios:
             extra = f"  {row.ratios['beside']:.2f} x one solve"
+        if "even" in row.ratios:
+            extra += f"  {row.ratios['even']:.2f} x even"
         if "chosen" in row.ratios:
             extra = f"  {row.ratios['chosen']:.2f} x those chosen here"
         if "limit" in row.ratios:

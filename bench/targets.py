@@ -133,12 +133,12 @@ GOALS = (
     *(
         Target(
             f"{name}, {words} over the base law",
-            _ratio("feedback", f"{scheme}_{key}", "beside", "ramp"),
+            _ratio("feedbacks", f"{scheme}, {key}", "beside", "ramp"),
             4,
             at_least=False,
         )
         for scheme, name in (("be2", "bE2"), ("sa3", "SA3"))
-        for key, words in (("stress", "flow by stress"), ("heat", "self-heating"))
+        for key, words in (("stress activation", "flow by stress"), ("self-heating", "self-heating"))
     ),
     Target("bE2, three sensitivities over a solve", _ratio("sensitivities", "be2", "beside"), 4.5, at_least=False),
     Target("SA3, three sensitivities over a solve", _ratio("sensitivities", "sa3", "beside"), 4.5, at_least=False),

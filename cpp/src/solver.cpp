@@ -22,6 +22,7 @@ struct Solver::Workspace {
   RecordInputs<Dual> dual_inputs, dual_extra;
   RecordSteps<Dual> dual_steps;
   ModalGroup main, extra;
+  CoupledTables tables;
   CvodeStatistics cvode;
   std::mutex busy;
 
@@ -75,7 +76,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
   if (!change.feedbacks.empty()) {
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, {}, stress, nullptr);
     return;
   }
@@ -217,7 +218,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   if (!change.feedbacks.empty()) {
     for (std::size_t k = 0; k < directions.size(); ++k)
       derivatives.col(static_cast<Index>(k)) = tangents[k].stress.matrix();
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, directions, stress, &derivatives);
     return;
   }
