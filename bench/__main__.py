@@ -16,6 +16,7 @@ from bench import (
     limit,
     machine,
     markdown,
+    material_point,
     overhead,
     record,
     report,
@@ -25,8 +26,8 @@ from bench.methods import INSTALL, missing_packages
 from bench.rows import Findings
 
 SECTIONS = (
-    forward, limit, fewer_modes, feedbacks, overhead, sensitivities, identification, full_field, equal_error, batches,
-    instructions,
+    forward, limit, fewer_modes, material_point, feedbacks, overhead, sensitivities, identification, full_field,
+    equal_error, batches, instructions,
 )  # fmt: skip
 
 
