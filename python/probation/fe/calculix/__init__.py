@@ -1,0 +1,16 @@
+"""The law in CalculiX: decks, runs and what they print; ``python -m probation.fe.calculix``."""
+
+from probation.fe.calculix.element import Comparison, stretch_element, turn_element
+from probation.fe.calculix.printed import Printed, read_printed
+from probation.fe.calculix.program import can_load_routines, find_ccx, run
+
+__all__ = [
+    "Comparison",
+    "Printed",
+    "can_load_routines",
+    "find_ccx",
+    "read_printed",
+    "run",
+    "stretch_element",
+    "turn_element",
+]
