@@ -18,7 +18,7 @@ from probation.companion import WEISSENBERG_AS_PRINTED
 from probation.errors import InputError
 from probation.fe.calculix.dumbbell import Dumbbell
 from probation.fe.calculix.element import stretch_element, turn_element
-from probation.fe.calculix.neck import neck
+from probation.fe.calculix.necking import neck
 from probation.fe.calculix.program import find_ccx
 from probation.law import Law
 

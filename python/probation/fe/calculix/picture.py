@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from probation._arrays import FloatArray
-    from probation.fe.calculix.neck import NeckingRun
+    from probation.fe.calculix.necking import NeckingRun
 
 _MIRRORS = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
 
