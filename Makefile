@@ -87,9 +87,10 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verifica
 	@$(BIN)/cmake --install build/sanitize --prefix build/sanitize/site >/dev/null
 	@# -S: without the hook of the editable installation, which would find the ordinary extension first.
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \
-	PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 \
-	LD_PRELOAD="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys $(wildcard tests/boundary tests/verification)
+	export PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1; \
+	preload="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)"; \
+	printf '%s\n' $(wildcard tests/boundary/test_*.py tests/verification/test_*.py) | xargs -P "$$(nproc)" -n 3 \
+	    env LD_PRELOAD="$$preload" $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys
 
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel
