@@ -26,7 +26,7 @@ engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROB
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench blind lint format sanitize wheel clean
+.PHONY: help demo test bench fe blind lint format sanitize wheel clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -42,6 +42,16 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py
+
+fe: $(VENV)/.engine  ## run the law in CalculiX: an element, a turned one, a neck; builds a ccx where none can load it
+	@[ -n "$${CCX:-}" ] || $(BIN)/python -m probation.fe.calculix which >/dev/null 2>&1 || .ci/calculix $(BIN)/python
+	@mkdir -p build/fe
+	@echo "fe: $$($(BIN)/python -m probation.fe.calculix which)"
+	@$(BIN)/python -m probation.fe.calculix element
+	@$(BIN)/python -m probation.fe.calculix turn
+	@echo "fe: pulling the dumbbell, half a minute of one core"
+	@$(BIN)/python -m probation.fe.calculix neck --plot build/fe/neck.png
+	@echo "fe: drew build/fe/neck.png"
 
 blind: $(VENV)/.engine  ## make, solve and score a small sealed split; fails beyond the thresholds of tests/blind
 	@rm -rf build/blind
