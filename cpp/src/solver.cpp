@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "coupled.hpp"
+#include "kernel_runs.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
@@ -11,51 +12,8 @@
 #include "record_steps.hpp"
 
 namespace probation {
-namespace {
 
 using Eigen::Index;
-
-/// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
-template <class Take>
-void for_each_run(const History& history, const std::vector<StepRule>& rule, bool constant_scale, Take take) {
-  constexpr Index shortest_uniform = 8;
-  const Index steps = history.steps();
-  const auto rule_of = [&](Index m) { return rule[static_cast<std::size_t>(m)]; };
-  const auto uniform_from = [&](Index m) {
-    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
-      return Index{0};
-    const Index end = m + history.uniform_run(m);
-    Index last = m + 1;
-    while (last < end && rule_of(last) == rule_of(m)) ++last;
-    return last - m;
-  };
-  for (Index m = 0; m < steps;) {
-    const Index uniform = uniform_from(m);
-    if (uniform >= shortest_uniform) {
-      take(m, uniform, true);
-      m += uniform;
-      continue;
-    }
-    Index end = m + 1;
-    while (end < steps && rule_of(end) == rule_of(m) && uniform_from(end) < shortest_uniform) ++end;
-    take(m, end - m, false);
-    m = end;
-  }
-}
-
-kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index count, bool uniform) {
-  const auto i = static_cast<std::size_t>(first);
-  const bool curved = steps.rule[i] == StepRule::exponential;
-  return {steps.rule[i],
-          static_cast<int>(count),
-          uniform,
-          &steps.scale[i],
-          &steps.ratio[i],
-          &steps.forcing[i],
-          curved ? &steps.curvature[i] : nullptr};
-}
-
-}  // namespace
 
 struct Solver::Workspace {
   RecordInputs<double> inputs, extra_in, slope_inputs;

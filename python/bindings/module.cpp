@@ -14,4 +14,5 @@ PYBIND11_MODULE(_core, m) {
   bind_solver(m);
   bind_creep(m);
   bind_batch(m);
+  bind_identify(m);
 }

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 _Signs = NDArray[np.int32]
+_Rows = NDArray[np.float32] | NDArray[np.float64]
 
 __version__: str
 
@@ -21,6 +22,20 @@ def haward_thackray_strain(true_strain: _Array) -> _Array: ...
 def ramp_stress(law: Law, strain_rate: float, time: _Array) -> _Array: ...
 def kernel_build() -> str: ...
 def parameter_directions(law: Law, change: LawChange, history: History) -> list[Direction]: ...
+def identify_many(
+    law: Law,
+    time: _Rows,
+    true_strain: _Rows,
+    true_stress: _Rows,
+    noise: _Rows | None,
+    options: IdentifyOptions,
+    threads: int,
+    parameters: _Array,
+    standard_error: _Array,
+    rms_residual: _Array,
+    status: NDArray[np.int8],
+    iterations: NDArray[np.int32],
+) -> None: ...
 def creep_strain(
     law: Law, change: LawChange, time: _Array, true_stress: _Array, jumps: list[int], start: Start
 ) -> _Array: ...
@@ -261,3 +276,29 @@ class SolverOptions:
 
 class BatchRecord:
     def __init__(self, history: History, true_stress: _Array, change: LawChange) -> None: ...
+
+class IdentifyMethod(enum.Enum):
+    variable_projection = 0
+    levenberg_marquardt = 1
+
+class IdentifyStatus(enum.Enum):
+    converged = 0
+    at_a_bound = 1
+    did_not_converge = 2
+    not_determined = 3
+    not_finite = 4
+    times_do_not_increase = 5
+    too_few_samples = 6
+    impossible_rate = 7
+
+class IdentifyOptions:
+    def __init__(
+        self,
+        scheme: Scheme,
+        start: Start,
+        method: IdentifyMethod,
+        held: list[bool],
+        lower: _Array,
+        upper: _Array,
+        find_jumps: bool,
+    ) -> None: ...
