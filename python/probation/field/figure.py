@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 def figure(maps: FieldMaps) -> Figure:
-    """E_u tau_max, G and the residual over the noise; below, standard errors and the second parameter."""
-    product, _, second, hardening = maps.names
+    """E_u tau_max, G and the residual; below, standard errors, and the residual over the noise."""
+    product, hardening = maps.names[0], maps.names[3]
     with house_style(), np.errstate(invalid="ignore", divide="ignore"):
         drawn = new_figure(10.6, 6.6)
         axes = drawn.subplots(2, 3)
@@ -33,10 +33,9 @@ def figure(maps: FieldMaps) -> Figure:
         _draw(axes[0, 2], maps, maps.maps["rms_residual"], "residual, rms", "MPa", "magma")
         ratio = maps.maps["rms_residual"] / maps.maps["noise"]
         _draw(axes[1, 2], maps, ratio, "residual over noise", "", "magma")
-        good = int(np.count_nonzero(maps.identified))
+        good, beyond = np.count_nonzero(maps.identified), np.count_nonzero(maps.beyond_noise)
         drawn.suptitle(
-            f"{good} of {maps.identified.size} pixels identified, {int(np.count_nonzero(maps.beyond_noise))} beyond the "
-            "noise; grey: refused, or no data",
+            f"{good} of {maps.identified.size} pixels identified, {beyond} beyond the noise; grey: refused, or no data",
             x=0.01,
             ha="left",
             fontsize=10,

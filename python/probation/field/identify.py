@@ -18,6 +18,7 @@ from probation.errors import InputError
 from probation.field.block import FieldTask, identify_block
 from probation.field.fingerprint import COVERS, fingerprint
 from probation.field.grid import block_grid
+from probation.field.pixels import Way
 from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, map_kinds, read_run
 from probation.identify.parameter import inside_name, outside_name
@@ -27,10 +28,9 @@ from probation.pool import run_all
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
     from concurrent.futures import Executor
 
-    from probation.field.grid import Block
     from probation.pool import Progress
 
 PIXELS = 4096
@@ -135,12 +135,11 @@ def identify_field(
         store.create(map_kinds(law), begun, source.coordinates())
     alone = executor is None and processes == 1
     task = FieldTask(source, store, Way(law, scheme, method, held, smoothing, threads if alone else 1))
-    return run_blocks(task, identify_block, processes=processes, executor=executor, progress=progress)
+    return _run_blocks(task, processes=processes, executor=executor, progress=progress)
 
 
-def run_blocks(
+def _run_blocks(
     task: FieldTask,
-    job: Callable[[FieldTask, Block], Block],
     *,
     processes: int | None,
     executor: Executor | None,
@@ -161,7 +160,7 @@ def run_blocks(
     advance = None if progress is None else lambda done, _, what: progress(len(whole) + done, total, what)
     try:
         run_all(
-            job,
+            identify_block,
             {block: (task, block) for block in left},
             processes=processes,
             executor=executor,

@@ -8,7 +8,7 @@ import shutil
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -136,22 +136,22 @@ class MapStore:
         group = self._group("r+")
         at = self.grid.slices(block)
         for name, values in maps.items():
-            group[name][at] = values
-        group[SECONDS][block] = cpu_seconds
-        group[LEDGER][block] = _MARK + _checksum(maps)
+            _array(group, name)[at] = values
+        _array(group, SECONDS)[block] = cpu_seconds
+        _array(group, LEDGER)[block] = _MARK + _checksum(maps)
 
     def done(self, block: Block, names: Mapping[str, object]) -> bool:
         """Whether a block is marked, and what is there is what was written."""
         group = self._group("r")
-        mark = int(group[LEDGER][block])
+        mark = int(np.asarray(_array(group, LEDGER)[block]))
         if mark == 0:
             return False
         at = self.grid.slices(block)
-        return mark == _MARK + _checksum({name: np.asarray(group[name][at]) for name in names})
+        return mark == _MARK + _checksum({name: np.asarray(_array(group, name)[at]) for name in names})
 
     def marked(self) -> NDArray[np.bool_]:
         """Which blocks are marked, without looking at what is there; of the grid's count."""
-        return np.asarray(self._group("r")[LEDGER][...]) != 0
+        return np.asarray(np.asarray(_array(self._group("r"), LEDGER)[...]) != 0)
 
     def _group(self, mode: str) -> zarr.Group:
         try:
@@ -179,6 +179,10 @@ def read_run(path: str) -> dict[str, Any]:
     if found != SCHEMA or not isinstance(run, dict):
         raise InputError(f"{path}: found the schema {found!r}, expected {SCHEMA!r}, as probation field identify writes")
     return run
+
+
+def _array(group: zarr.Group, name: str) -> zarr.Array[Any]:
+    return cast("zarr.Array[Any]", group[name])
 
 
 def _checksum(maps: Mapping[str, NDArray[Any]]) -> int:

@@ -56,6 +56,8 @@ def closeness(maps: FieldMaps, truth: str | os.PathLike[str]) -> tuple[Closeness
     true[product] = true[parameters[0]] * true[parameters[1]]
     found = []
     for name in maps.names:
+        if not good.any():
+            break
         error = maps.maps[name][good] - true[name][good]
         relative, standard = error / true[name][good], error / maps.maps[f"{name}_standard_error"][good]
         found.append(

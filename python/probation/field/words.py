@@ -69,9 +69,8 @@ def _closeness(maps: FieldMaps) -> list[str]:
         return []
     lines = ["", "  beside the truth    bias   scatter   error over standard error   in the 95 % interval"]
     for each in maps.closeness:
-        lines.append(
-            f"  {SYMBOLS[each.name]:12}{each.bias:>12.3%}{each.scatter:>10.3%}{each.spread:>28.2f}{each.coverage:>23.1%}"
-        )
+        numbers = f"{each.bias:>12.3%}{each.scatter:>10.3%}{each.spread:>28.2f}{each.coverage:>23.1%}"
+        lines.append(f"  {SYMBOLS[each.name]:12}{numbers}")
     return lines
 
 

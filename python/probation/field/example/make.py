@@ -116,7 +116,7 @@ def _measured(strain: FloatArray, stress: FloatArray, chance: np.random.Generato
     with_noise = stress + FORCE_NOISE * np.exp(strain) * chance.standard_normal(shape)
     lost_from = np.full(shape[0], shape[1])
     late = chance.random(shape[0]) < LOST_LATER
-    lost_from[late] = chance.integers(shape[1] // 4, shape[1], int(late.sum()))
+    lost_from[late] = chance.integers(shape[1] // 4, shape[1], np.count_nonzero(late))
     lost_from[chance.random(shape[0]) < LOST] = 0
     dropped = chance.random(shape) < DROPPED
     dropped[:, 0] = False

@@ -1,6 +1,7 @@
 """The modal law at constant tau_max as a superposition integral, by fast Fourier transform.
 
-With X = G e_HT the relaxed stress, sigma(t) = X(t) + int_0^t K(t - s) (E_u e'(s) - X'(s)) ds, K(t) = sum p_j e^(-t/tau_j).
+With X = G e_HT the relaxed stress, sigma(t) = X(t) + int_0^t K(t - s) (E_u e'(s) - X'(s)) ds with the kernel
+K(t) = sum p_j e^(-t/tau_j).
 On uniform steps with e and X straight in each, the integral is a discrete convolution with the means of K over the
 steps. Nothing is stepped through time and nothing is shared with the engine: what it identifies is made another way.
 """
@@ -46,7 +47,7 @@ def superpose(
     drive = unrelaxed_modulus[:, None] * np.diff(strain) - np.diff(relaxed)
     borders = np.arange(strain.shape[1]) * step / tau_max[:, None]
     kernel = np.diff(_integral(borders)) * (tau_max / step)[:, None]
-    stress = relaxed.copy()
+    stress: FloatArray = relaxed.copy()
     stress[:, 1:] += fftconvolve(drive, kernel, axes=1)[:, : drive.shape[1]]
     return stress
 
