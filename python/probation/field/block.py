@@ -53,8 +53,8 @@ def block_maps(task: FieldTask, block: Block) -> dict[str, NDArray[Any]]:
     used = used_samples(strain, stress)
     found = identify_pixels(way, times, strain, stress, used)
     chance = np.random.default_rng([SEED, *block])
-    again = identify_pixels(way, times, *with_more_noise(times, strain, stress, used, chance), used)
-    errors = drawn_errors(found, again, shape)
+    strain, stress, level = with_more_noise(times, strain, stress, used, chance)
+    errors = drawn_errors(found, identify_pixels(way, times, strain, stress, used), level, shape)
     maps: dict[str, NDArray[Any]] = {}
     for column, name in enumerate(way.law.parameter_names):
         maps[name] = found.parameters[:, column]

@@ -40,20 +40,31 @@ class Errors:
     noise: FloatArray
 
 
-def drawn_errors(first: Pixels, again: Pixels, shape: tuple[int, int]) -> Errors:
-    """Standard errors from estimates and estimates with as much noise again; `shape` is the block's."""
+def drawn_errors(first: Pixels, again: Pixels, level: FloatArray, shape: tuple[int, int]) -> Errors:
+    """Standard errors from estimates and estimates with as much noise again.
+
+    Parameters
+    ----------
+    first, again : Pixels
+    level : ndarray, shape (pixels,) [MPa]
+        Noise of each pixel's stress.
+    shape : (int, int)
+        Of the block.
+    """
     both = first.identified & again.identified
     with np.errstate(invalid="ignore", divide="ignore"):
         moved = (again.parameters - first.parameters) / first.standard_error
         product = first.parameters[:, 0] * first.parameters[:, 1]
         moved_product = again.parameters[:, 0] * again.parameters[:, 1] / product - 1.0
-        more = again.rms_residual**2 - first.rms_residual**2
+        own = np.hypot(*(first.standard_error / first.parameters)[:, :2].T)
+        more = (again.rms_residual**2 - first.rms_residual**2) / level**2
     held = first.standard_error == 0.0
     moved[held] = 0.0
     factors = np.sqrt(np.stack([_pooled(moved[:, k] ** 2, both, shape) for k in range(3)], axis=1))
     errors = np.where(held, 0.0, first.standard_error * factors)
-    relative = np.sqrt(_pooled(moved_product**2, both, shape))
-    noise = np.sqrt(np.maximum(_pooled(more, both, shape), 0.0))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        relative = own * np.sqrt(_pooled((moved_product / own) ** 2, both, shape))
+    noise = level * np.sqrt(np.maximum(_pooled(more, both, shape), 0.0))
     there = first.identified
     return Errors(
         np.where(there[:, None], errors, np.nan),

@@ -97,14 +97,23 @@ def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples
 
 def with_more_noise(
     time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
-) -> tuple[Samples, Samples]:
-    """The same records with as much noise once more, of what each record scatters."""
-    noisier = []
+) -> tuple[Samples, Samples, FloatArray]:
+    """The same records with as much noise once more, of what each record scatters.
+
+    Returns
+    -------
+    strain, stress : ndarray, shape (pixels, n_times) [-], [MPa]
+    level : ndarray, shape (pixels,) [MPa]
+        Root mean square of the stress noise; NaN where the record is too short.
+    """
+    noisier, level = [], np.full(len(strain), np.nan)
     for values in (strain, stress):
         more = values.copy()
         for pixels, samples in alike(used):
             if np.count_nonzero(samples) >= SHORTEST:
                 own = values[np.ix_(pixels, samples)]
-                more[np.ix_(pixels, samples)] += scatter(time[samples], own) * chance.standard_normal(own.shape)
+                noise = scatter(time[samples], own)
+                more[np.ix_(pixels, samples)] += noise * chance.standard_normal(own.shape)
+                level[pixels] = np.sqrt(np.mean(noise**2, axis=1))  # the stress comes last
         noisier.append(more)
-    return noisier[0], noisier[1]
+    return noisier[0], noisier[1], level
