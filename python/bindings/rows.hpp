@@ -7,7 +7,7 @@
 /// float32 or float64, contiguous; one row is every record's.
 inline probation::SampleRows rows(const py::array& samples) {
   const py::ssize_t stride = samples.ndim() == 2 ? samples.shape(1) : 0;
-  if (samples.dtype().is(py::dtype::of<float>())) return {static_cast<const float*>(samples.data()), stride};
+  if (samples.itemsize() == sizeof(float)) return {static_cast<const float*>(samples.data()), stride};
   return {static_cast<const double*>(samples.data()), stride};
 }
 
