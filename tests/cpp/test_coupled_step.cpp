@@ -47,7 +47,7 @@ double swept(ModalGroup& modes, const StepForcing<double>& taken) {
   return stress;
 }
 
-double largest(const ArrayXd& values) { return values.abs().maxCoeff(); }
+double largest(const ArrayXd& values) { return values.size() > 0 ? values.abs().maxCoeff() : 0.0; }
 
 }  // namespace
 
@@ -76,8 +76,10 @@ TEST_CASE("a step looked at near its scale is the step itself, for any number of
           StressNearby next{};
           best().advance(start.view(), same, &same, next);
           const double rounding = 1e-12 * largest(expected.state) + 1e-14 * largest(expected.before);
-          CHECK(largest(start.state - expected.state) <= rounding);
-          CHECK(largest(start.before - expected.before) == 0.0);
+          // Modes that both steps enslave stay behind.
+          const Index followed = start.padded() - same.slaved;
+          CHECK(largest((start.state - expected.state).tail(followed)) <= rounding);
+          CHECK(largest((start.before - expected.before).tail(followed)) == 0.0);
 
           // And the step after it, which was looked at in the same pass.
           expanded.modes = next;
