@@ -100,7 +100,7 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   restart(0);
   for (Index m = 1; m < steps;) {
     Index end = m + history.uniform_run(m);
-    if (steady && end - m >= shortest_even && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
+    if (steady && end - m >= shortest_even && !history.fresh(m) && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
       form_even_steps(scheme, h[m], in.fluidity_end[0], f, m, end, out);
     } else {
       // The first of even steps differs from the one before: it is not even itself.
