@@ -10,7 +10,7 @@ import numpy as np
 from probation.bulk import identify_many
 from probation.field.noise import scatter
 from probation.field.samples import alike
-from probation.field.smoothing import smoothed
+from probation.field.smoothing import smoothed_records
 from probation.field.source import SHORTEST
 from probation.field.status import Status
 
@@ -76,14 +76,14 @@ def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples
     count = len(strain)
     empty = np.where(used.any(axis=1), Status.TOO_FEW_SAMPLES, Status.NO_DATA).astype(np.int8)
     found = Pixels(np.full((count, 3), np.nan), np.full((count, 3), np.nan), np.full(count, np.nan), empty)
+    drawn = smoothed_records(time, strain, used) if way.smoothing else strain
     for pixels, samples in alike(used):
         if np.count_nonzero(samples) < SHORTEST:
             continue
-        drawn = strain[np.ix_(pixels, samples)]
         some = identify_many(
             way.law,
             time[samples],
-            smoothed(time[samples], drawn) if way.smoothing else drawn,
+            drawn[np.ix_(pixels, samples)],
             stress[np.ix_(pixels, samples)],
             way.scheme,
             method=way.method,

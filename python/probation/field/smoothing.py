@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.field.samples import alike
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+    from probation.field.samples import BoolArray
     from probation.field.source import Samples
 
 ORDER = 4
@@ -44,6 +47,24 @@ def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
     freedom = 1.0 - CAUTION * kept.sum(axis=1) / len(time)
     score = np.where(freedom > 0.0, left / np.maximum(freedom, 1e-9) ** 2, np.inf)
     return np.asarray((parts * kept[np.argmin(score, axis=1)]) @ shapes.T)
+
+
+def smoothed_records(time: FloatArray, strain: Samples, used: BoolArray) -> FloatArray:
+    """Records with gaps and of several lengths, shape (pixels, n_times); what is not in use is NaN.
+
+    Short gaps are bridged straight, so that pixels of the same length share their shapes.
+    """
+    found: FloatArray = np.full(strain.shape, np.nan)
+    within = np.maximum.accumulate(used[:, ::-1], axis=1)[:, ::-1]
+    for pixels, samples in alike(within):
+        if np.count_nonzero(samples) > ORDER:
+            bridged = strain[np.ix_(pixels, samples)].astype(np.float64)
+            there = used[np.ix_(pixels, samples)]
+            for at in np.flatnonzero(~there.all(axis=1)):
+                bridged[at] = np.interp(time[samples], time[samples][there[at]], bridged[at, there[at]])
+            found[np.ix_(pixels, samples)] = smoothed(time[samples], bridged)
+    found[~used] = np.nan
+    return found
 
 
 @lru_cache(maxsize=64)
