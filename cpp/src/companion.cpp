@@ -1,8 +1,18 @@
 #include "probation/companion.hpp"
 
+#include <Eigen/Core>
 #include <sstream>
 
+#include "probation/companion/weissenberg.hpp"
+
 namespace probation {
+
+/// Eigen's logarithm takes several rates at once.
+void Weissenberg::forms(const double* rate, double* time, std::size_t count) const {
+  const auto n = static_cast<Eigen::Index>(count);
+  const Eigen::Map<const Eigen::ArrayXd> r(rate, n);
+  Eigen::Map<Eigen::ArrayXd>(time, n) = (form_.slope / log_of_ten * r.log() + form_.intercept) / r;
+}
 
 void CompanionRelation::throw_no_time(double rate, double time) {
   std::ostringstream message;

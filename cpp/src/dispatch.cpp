@@ -1,24 +1,48 @@
 // Chooses the build of the kernels for this processor, once.
 
 #include <cstdlib>
-#include <cstring>
+#include <string>
 
 #include "kernels/kernels.hpp"
+#include "probation/errors.hpp"
 
 namespace probation::kernels {
 namespace {
 
-/// A forced build that this processor cannot run is not taken.
-const Kernels& choose() {
+/// The builds that this processor can run, best first.
+struct Runnable {
+  const Kernels* builds[4] = {};
+
+  Runnable() {
+    int count = 0;
 #ifdef PROBATION_HAVE_V3
-  const char* forced = std::getenv("PROBATION_KERNELS");
-  if (forced && std::strcmp(forced, "baseline") == 0) return baseline::table;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return v3::table;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) builds[count++] = &v3::table;
 #endif
-  return baseline::table;
+#ifdef PROBATION_HAVE_BASELINE
+    builds[count++] = &baseline::table;
+#endif
+    builds[count] = &portable::table;
+  }
+};
+
+const Kernels& choose() {
+  const char* named = std::getenv("PROBATION_KERNELS");
+  if (!named || !*named) return **runnable();
+  std::string names;
+  for (const Kernels* const* build = runnable(); *build; ++build) {
+    if (std::string((*build)->name) == named) return **build;
+    names += (names.empty() ? "" : ", ") + std::string((*build)->name);
+  }
+  throw InputError("PROBATION_KERNELS is '" + std::string(named) + "'; this processor and this build can run " +
+                   names + ": name one of them or unset it");
 }
 
 }  // namespace
+
+const Kernels* const* runnable() {
+  static const Runnable found;
+  return found.builds;
+}
 
 const Kernels& best() {
   static const Kernels& chosen = choose();

@@ -2,6 +2,9 @@
 // A group of modes that share a time scale and a forcing, laid out for the kernels.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <string>
 
 #include "kernels/kernels.hpp"
@@ -10,12 +13,44 @@
 
 namespace probation {
 
+/// The memory of a ScaleTable, had when it is first needed. A copy starts empty.
+class OwnScaleTable {
+ public:
+  OwnScaleTable() = default;
+  OwnScaleTable(const OwnScaleTable&) {}
+  OwnScaleTable& operator=(const OwnScaleTable&) {
+    forget();
+    return *this;
+  }
+
+  void forget() { table_.rows = nullptr; }
+
+  /// Null for so many modes that a table would not stay in the cache.
+  kernels::ScaleTable* get(Eigen::Index padded) {
+    constexpr Eigen::Index most_modes = 512, line = 8;  // a line of the cache holds eight numbers
+    if (padded > most_modes) return nullptr;
+    if (!table_.rows) {
+      memory_.resize(kernels::ScaleTable::slots * kernels::ScaleTable::terms * padded + line);
+      const auto beyond = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(double) % line;
+      table_.rows = memory_.data() + (line - static_cast<Eigen::Index>(beyond));
+      std::fill(std::begin(table_.cell), std::end(table_.cell), -1);
+    }
+    return &table_;
+  }
+
+ private:
+  kernels::ScaleTable table_{};
+  Eigen::ArrayXd memory_;
+};
+
 /// Arrays padded to a multiple of four with modes of weight zero, which stay at zero.
 struct ModalGroup {
   Eigen::ArrayXd inverse_ratio, weight, state, before;
+  OwnScaleTable table;
 
   void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
     const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
+    if (inverse_ratio.size() != padded || (inverse_ratio.head(modes) != ratio.inverse()).any()) table.forget();
     inverse_ratio.setOnes(padded);
     weight.setZero(padded);
     state.setZero(padded);
@@ -61,6 +96,12 @@ struct ModalGroup {
   }
   kernels::Modes view() {
     return {static_cast<int>(padded()), inverse_ratio.data(), weight.data(), state.data(), before.data()};
+  }
+  /// The same for uneven steps by the exponential rule.
+  kernels::Modes view_with_table() {
+    kernels::Modes modes = view();
+    modes.table = table.get(padded());
+    return modes;
   }
 
  private:

@@ -14,81 +14,112 @@ Differentiator differentiator_of(Scheme scheme) {
 
 std::size_t length(bool constant, Index n) { return constant ? 1 : static_cast<std::size_t>(n); }
 
-/// tau_max at one rate; the last one is kept, since a step mostly ends at the rate at which the next begins.
-class CompanionTimes {
- public:
-  CompanionTimes(const Law& law, const History& history) : law_(law), history_(history) {}
+/// out[m] = left[m] - right[m] for m in from..to, and the like: loops that vectorise.
+template <class Value>
+void fill(std::vector<double>& out, Index from, Index to, Value value) {
+  double* const to_fill = out.data();
+  for (Index m = from; m < to; ++m) to_fill[m] = value(m);
+}
 
-  double operator()(Index m, double rate) {
-    const double seen = history_.companion_rate(m, rate, law_.companion->rate_floor());
-    if (seen != last_rate_) {
-      last_rate_ = seen;
-      last_time_ = law_.alpha * law_.companion->relaxation_time(seen);
-    }
-    return last_time_;
-  }
+/// Steps from..to where nothing restarts, given the forcing's integral f; tau_max constant.
+void form_even_steps(Scheme scheme, double h, double fluidity, const double* f, Index from, Index to,
+                     RecordSteps<double>& out) {
+  fill(out.ratio, from, to, [](Index) { return 1.0; });
+  fill(out.scale, from, to, [scale = h * fluidity](Index) { return scale; });
+  if (scheme == Scheme::be2)
+    return fill(out.forcing, from, to,
+                [f](Index m) { return 1.5 * (f[m + 1] - f[m]) - 0.5 * (f[m] - f[m - 1]); });
+  fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
+  if (scheme == Scheme::sa3)
+    fill(out.curvature, from, to, [f](Index m) { return 0.5 * (f[m + 1] - 2.0 * f[m] + f[m - 1]); });
+}
 
- private:
-  const Law& law_;
-  const History& history_;
-  double last_rate_ = -1.0, last_time_ = 0.0;
-};
+/// The same for steps of any length under any tau_max, from >= 1; the curvature comes later.
+void form_uneven_steps(Scheme scheme, const double* h, const RecordInputs<double>& in, const double* f,
+                       Index from, Index to, RecordSteps<double>& out) {
+  fill(out.ratio, from, to, [h](Index m) { return h[m] / h[m - 1]; });
+  const double* ratio = out.ratio.data();
+  if (scheme == Scheme::be2)
+    fill(out.forcing, from, to,
+         [f, ratio](Index m) { return Bdf2Difference(ratio[m])(f[m + 1], f[m], f[m - 1]); });
+  else
+    fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
+  const double* begin = in.fluidity_begin.data();
+  const double* end = in.fluidity_end.data();
+  if (in.fluidity_end.size() == 1)
+    fill(out.scale, from, to, [h, fluidity = end[0]](Index m) { return h[m] * fluidity; });
+  else if (scheme == Scheme::be2)
+    fill(out.scale, from, to, [h, end](Index m) { return h[m] * end[m]; });
+  else if (scheme == Scheme::sa2)
+    fill(out.scale, from, to, [h, begin, end](Index m) { return (0.5 * h[m]) * (begin[m] + end[m]); });
+  else  // parabolic_reduced_time
+    fill(out.scale, from, to, [h, begin, end](Index m) {
+      const double bend =
+          ((end[m] - begin[m]) / h[m] - (begin[m] - begin[m - 1]) / h[m - 1]) / (h[m] + h[m - 1]);
+      return h[m] * (0.5 * (begin[m] + end[m]) - (h[m] * h[m] / 6.0) * bend);
+    });
+}
+
+/// sa3_step's curvature from the steps' own and the previous ones' scale and forcing.
+void form_curvature(Index from, Index to, RecordSteps<double>& out) {
+  const double* scale = out.scale.data();
+  const double* forcing = out.forcing.data();
+  fill(out.curvature, from, to, [scale, forcing](Index m) {
+    return scale[m] * (forcing[m] - forcing[m - 1] * scale[m] / scale[m - 1]) / (scale[m] + scale[m - 1]);
+  });
+}
 
 }  // namespace
 
-void form_constant_steps(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
-                         RecordSteps<double>& out) {
+bool form_steps_at_once(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
+                        RecordSteps<double>& out) {
+  constexpr Index shortest_even = 8;
   const Index n = history.size(), steps = history.steps();
+  const bool steady = in.fluidity_end.size() == 1;
   out.resize(static_cast<std::size_t>(steps));
   Eigen::ArrayXd integral = in.unrelaxed_modulus[0] * history.true_strain();
   if (in.relaxed_stress.size() > 1) integral -= Eigen::Map<const Eigen::ArrayXd>(in.relaxed_stress.data(), n);
   const double* f = integral.data();
-  const double fluidity = in.fluidity_end[0];
-  for (Index m = 0; m < steps;) {
+  const double* h = history.step().data();
+  std::fill(out.rule.begin(), out.rule.end(), scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
+  if (scheme != Scheme::sa3) std::fill(out.curvature.begin(), out.curvature.end(), 0.0);
+
+  const auto restarts = [&](Index m) {
+    return history.fresh(m) ||
+           (scheme == Scheme::be2 && out.ratio[static_cast<std::size_t>(m)] >= bdf2_largest_step_ratio);
+  };
+  const auto restart = [&](Index m) {
     const auto i = static_cast<std::size_t>(m);
-    const double h = history.step()[m], ratio = history.ratio(m);
-    const bool fresh = history.fresh(m),
-               bdf2 = scheme == Scheme::be2 && !fresh && ratio < bdf2_largest_step_ratio;
-    const bool euler = scheme == Scheme::be2 && !bdf2 && start == Start::backward_euler;
-    out.rule[i] = bdf2 ? StepRule::bdf2 : euler ? StepRule::backward_euler : StepRule::exponential;
-    out.ratio[i] = ratio;
-    out.scale[i] = h * fluidity;
+    const StepForcing<double> step = step_forcing(scheme, start, step_data(history, in, m, 0.0, 0.0));
+    out.rule[i] = step.rule;
+    out.ratio[i] = history.ratio(m);
+    out.scale[i] = step.scale;
+    out.forcing[i] = step.forcing;
     out.curvature[i] = 0.0;
-    if (bdf2) {
-      out.forcing[i] = Bdf2Difference(ratio)(f[m + 1], f[m], f[m - 1]);
+  };
+  restart(0);
+  for (Index m = 1; m < steps;) {
+    Index end = m + history.uniform_run(m);
+    if (steady && end - m >= shortest_even && !history.fresh(m) && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
+      form_even_steps(scheme, h[m], in.fluidity_end[0], f, m, end, out);
     } else {
-      out.forcing[i] = f[m + 1] - f[m];
-      if (euler && !fresh) {
-        // The rate is the three-point difference even where a long step restarts the scheme.
-        const Eigen::ArrayXd& e = history.true_strain();
-        const double rise = e[m + 1] - e[m];
-        out.forcing[i] += in.unrelaxed_modulus[0] * (Bdf2Difference(ratio)(e[m + 1], e[m], e[m - 1]) - rise);
+      // The first of even steps differs from the one before: it is not even itself.
+      end = m + 1;
+      while (end < steps && (!steady || history.uniform_run(end) < shortest_even)) ++end;
+      form_uneven_steps(scheme, h, in, f, m, end, out);
+      if (!steady && !(Eigen::Map<const Eigen::ArrayXd>(out.scale.data() + m, end - m) > 0.0).all())
+        return false;
+      for (Index k = m; k < end; ++k)
+        if (restarts(k)) restart(k);
+      if (scheme == Scheme::sa3) {
+        form_curvature(m, end, out);
+        for (Index k = m; k < end; ++k)
+          if (history.fresh(k)) out.curvature[static_cast<std::size_t>(k)] = 0.0;
       }
-      if (scheme == Scheme::sa3 && !fresh)
-        out.curvature[i] = ratio / (1.0 + ratio) * (out.forcing[i] - ratio * out.forcing[i - 1]);
     }
-    // The rest of an even stretch, in loops that vectorise.
-    const Index end = m + history.uniform_run(m);
-    ++m;
-    if (m >= end || std::abs(history.ratio(m) - 1.0) > 1e-9) continue;
-    const auto fill = [&](auto& samples, auto value) {
-      std::fill(samples.begin() + m, samples.begin() + end, value);
-    };
-    fill(out.rule, scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-    fill(out.ratio, 1.0);
-    fill(out.scale, h * fluidity);
-    double* forcing = out.forcing.data();
-    double* curvature = out.curvature.data();
-    if (scheme == Scheme::be2) {
-      for (Index k = m; k < end; ++k) forcing[k] = 1.5 * (f[k + 1] - f[k]) - 0.5 * (f[k] - f[k - 1]);
-    } else {
-      for (Index k = m; k < end; ++k) forcing[k] = f[k + 1] - f[k];
-      if (scheme == Scheme::sa3)
-        for (Index k = m; k < end; ++k) curvature[k] = 0.5 * (f[k + 1] - 2.0 * f[k] + f[k - 1]);
-    }
-    if (scheme != Scheme::sa3) fill(out.curvature, 0.0);
     m = end;
   }
+  return true;
 }
 
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
@@ -101,9 +132,15 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
   out.true_strain.assign(history.true_strain().data(), history.true_strain().data() + n);
   out.relaxed_stress.resize(static_cast<std::size_t>(n));
   const double* haward_thackray = history.haward_thackray_strain().data();
-  for (Index i = 0; i < n; ++i)
-    out.relaxed_stress[static_cast<std::size_t>(i)] =
-        law.hardening_modulus * hardening_factor[i] * haward_thackray[i] + added[i];  // eq. (3)
+  if (hardening_factor.constant() && added.constant())
+    fill(out.relaxed_stress, 0, n,
+         [haward_thackray, slope = law.hardening_modulus * hardening_factor[0], more = added[0]](Index i) {
+           return slope * haward_thackray[i] + more;
+         });
+  else
+    fill(out.relaxed_stress, 0, n, [&](Index i) {
+      return law.hardening_modulus * hardening_factor[i] * haward_thackray[i] + added[i];  // eq. (3)
+    });
 
   out.unrelaxed_modulus.resize(length(modulus_factor.constant(), n));
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
@@ -125,11 +162,26 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
     }
     return;
   }
-  CompanionTimes companion(law, history);
+  // A step mostly begins at the rate at which the one before ended.
+  const CompanionRelation& relation = *law.companion;
+  Eigen::ArrayXd seen = rates.end;
+  history.see_companion_rates(seen, relation.rate_floor());
+  Eigen::ArrayXd time(steps);
+  relation.relaxation_times(seen.data(), time.data(), static_cast<std::size_t>(steps));
+  if (time_factor.constant())
+    fill(out.fluidity_end, 0, steps,
+         [all = law.alpha * time_factor[0], t = time.data()](Index m) { return 1.0 / (all * t[m]); });
+  else
+    fill(out.fluidity_end, 0, steps,
+         [&](Index m) { return 1.0 / (law.alpha * time[m] * time_factor[m + 1]); });
   for (Index m = 0; m < steps; ++m) {
     const auto i = static_cast<std::size_t>(m);
-    out.fluidity_begin[i] = 1.0 / (companion(m, rates.begin[m]) * time_factor[m]);
-    out.fluidity_end[i] = 1.0 / (companion(m, rates.end[m]) * time_factor[m + 1]);
+    if (m > 0 && rates.begin[m] == rates.end[m - 1] && history.direction(m) == history.direction(m - 1)) {
+      out.fluidity_begin[i] = out.fluidity_end[i - 1];
+      continue;
+    }
+    const double rate = history.companion_rate(m, rates.begin[m], relation.rate_floor());
+    out.fluidity_begin[i] = 1.0 / (law.alpha * relation.relaxation_time(rate) * time_factor[m]);
   }
 }
 

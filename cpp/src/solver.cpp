@@ -4,6 +4,8 @@
 #include <mutex>
 
 #include "coupled.hpp"
+#include "flush_subnormals.hpp"
+#include "kernel_runs.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
@@ -11,51 +13,8 @@
 #include "record_steps.hpp"
 
 namespace probation {
-namespace {
 
 using Eigen::Index;
-
-/// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
-template <class Take>
-void for_each_run(const History& history, const std::vector<StepRule>& rule, bool constant_scale, Take take) {
-  constexpr Index shortest_uniform = 8;
-  const Index steps = history.steps();
-  const auto rule_of = [&](Index m) { return rule[static_cast<std::size_t>(m)]; };
-  const auto uniform_from = [&](Index m) {
-    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
-      return Index{0};
-    const Index end = m + history.uniform_run(m);
-    Index last = m + 1;
-    while (last < end && rule_of(last) == rule_of(m)) ++last;
-    return last - m;
-  };
-  for (Index m = 0; m < steps;) {
-    const Index uniform = uniform_from(m);
-    if (uniform >= shortest_uniform) {
-      take(m, uniform, true);
-      m += uniform;
-      continue;
-    }
-    Index end = m + 1;
-    while (end < steps && rule_of(end) == rule_of(m) && uniform_from(end) < shortest_uniform) ++end;
-    take(m, end - m, false);
-    m = end;
-  }
-}
-
-kernels::Steps kernel_steps(const RecordSteps<double>& steps, Index first, Index count, bool uniform) {
-  const auto i = static_cast<std::size_t>(first);
-  const bool curved = steps.rule[i] == StepRule::exponential;
-  return {steps.rule[i],
-          static_cast<int>(count),
-          uniform,
-          &steps.scale[i],
-          &steps.ratio[i],
-          &steps.forcing[i],
-          curved ? &steps.curvature[i] : nullptr};
-}
-
-}  // namespace
 
 struct Solver::Workspace {
   RecordInputs<double> inputs, extra_in, slope_inputs;
@@ -63,6 +22,7 @@ struct Solver::Workspace {
   RecordInputs<Dual> dual_inputs, dual_extra;
   RecordSteps<Dual> dual_steps;
   ModalGroup main, extra;
+  CoupledTables tables;
   CvodeStatistics cvode;
   std::mutex busy;
 
@@ -93,6 +53,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
                      std::to_string(history_.size()) + " are needed");
   const std::lock_guard<std::mutex> lock(work_->busy);
+  const FlushSubnormals flushing;
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -104,17 +65,18 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   stress.setZero();
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
-    for_each_run(
-        history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
-          kernel.sweep(group.view(), kernel_steps(steps, first, count, uniform), stress.data() + first + 1);
-        });
+    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1,
+                 [&](Index first, Index count, bool uniform) {
+                   const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
+                   kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
+                 });
   };
   if (!w.extra.empty()) {
     extra_inputs(w.inputs, w.extra_in);
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
   if (!change.feedbacks.empty()) {
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, {}, stress, nullptr);
     return;
   }
@@ -122,8 +84,9 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   sweep(w.main, w.inputs, w.steps);
   const Sampled area(change.load_bearing_area, 1.0);
   const double total_weight = law.spectrum.modal_weight.sum();
-  for (Index i = 0; i < history_.size(); ++i)
-    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+  stress += total_weight * Eigen::Map<const Eigen::ArrayXd>(w.inputs.relaxed_stress.data(), stress.size());
+  if (change.load_bearing_area.size() > 0)
+    for (Index i = 0; i < history_.size(); ++i) stress[i] *= area[i];
 }
 
 namespace {
@@ -193,6 +156,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
   Workspace& w = *work_;
   const std::lock_guard<std::mutex> lock(w.busy);
+  const FlushSubnormals flushing;
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions)
     direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
@@ -208,27 +172,29 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     const bool coupled =
         std::any_of(tangents.begin(), tangents.end(), [](const TangentState& t) { return !t.linear(); });
     if (!coupled) group.state *= group.weight;
-    for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
+    for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+      const kernels::Steps run = kernel_steps(options_.scheme, steps, first, length, uniform);
       if (!coupled) {
-        kernel.sweep(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1);
+        kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
         return;
       }
       views.clear();
       for (TangentState& t : tangents)
         if (!t.linear()) views.push_back(t.view(first));
-      kernel.tangent(group.view(), kernel_steps(steps, first, run, uniform), stress.data() + first + 1,
-                     views.data(), static_cast<int>(views.size()), scratch.data());
+      kernel.tangent(modes_for(run, group), run, stress.data() + first + 1, views.data(),
+                     static_cast<int>(views.size()), scratch.data());
     });
     for (TangentState& t : tangents) {
       if (!t.linear()) continue;
-      ModalGroup alone = group;
-      alone.state = t.state * group.weight;
-      alone.before.setZero();
-      for_each_run(history_, steps.rule, constant, [&](Index first, Index run, bool uniform) {
-        kernels::Steps linear = kernel_steps(steps, first, run, uniform);
+      Eigen::ArrayXd state = t.state * group.weight, before = Eigen::ArrayXd::Zero(group.padded());
+      for_each_run(history_, steps.rule, constant, [&](Index first, Index length, bool uniform) {
+        kernels::Steps linear = kernel_steps(options_.scheme, steps, first, length, uniform);
         linear.forcing = &t.forcing[static_cast<std::size_t>(first)];
         if (linear.curvature) linear.curvature = &t.curvature[static_cast<std::size_t>(first)];
-        kernel.sweep(alone.view(), linear, t.stress.data() + first + 1);
+        kernels::Modes alone = modes_for(linear, group);
+        alone.state = state.data();
+        alone.before = before.data();
+        kernel.sweep(alone, linear, t.stress.data() + first + 1);
       });
     }
   };
@@ -252,7 +218,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   if (!change.feedbacks.empty()) {
     for (std::size_t k = 0; k < directions.size(); ++k)
       derivatives.col(static_cast<Index>(k)) = tangents[k].stress.matrix();
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, directions, stress, &derivatives);
     return;
   }

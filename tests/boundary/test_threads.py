@@ -1,15 +1,11 @@
 """Four threads at once: the same answers, and the interpreter free meanwhile."""
 
-import os
-import subprocess
-import sys
 import threading
 import time as clock
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
 
 import probation
 from probation import Change, SelfHeating
@@ -84,30 +80,3 @@ def test_the_interpreter_goes_on_during_a_call(call):
     thread.join()
     during = [tick for tick in ticks if began[0] < tick < ended[0]]
     assert len(during) >= 3, f"{len(during)} steps in {ended[0] - began[0]:.3f} s"
-
-
-PROGRAM = """
-import sys
-import numpy as np
-import probation
-time = np.concatenate([np.linspace(0.0, 20.0, 400), 20.0 + np.cumsum(np.linspace(0.01, 0.2, 100))])
-strain = 0.006 * time + 0.01 * np.sin(0.3 * time)
-rows = []
-for modes in (1, 6, 29, 50):
-    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=modes)
-    rows += [law.stress(time, strain, scheme) for scheme in ("be2", "sa2", "sa3")]
-    rows += list(law.sensitivity(time, strain, "sa3")[1].T)
-np.save(sys.argv[1], np.array(rows))
-"""
-
-
-def test_the_baseline_kernels_give_the_same_stress(tmp_path):
-    """To 1e-12 of the largest: the two differ in how they add and round."""
-    found = {}
-    for kernels in ("baseline", "v3"):
-        file = tmp_path / f"{kernels}.npy"
-        environment = os.environ | {"PROBATION_KERNELS": kernels}
-        subprocess.run([sys.executable, "-c", PROGRAM, str(file)], env=environment, check=True)
-        found[kernels] = np.load(file)
-    scale = np.abs(found["v3"]).max(axis=1, keepdims=True)
-    assert_allclose(found["baseline"] / scale, found["v3"] / scale, rtol=0.0, atol=1e-12)

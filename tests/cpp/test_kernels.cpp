@@ -2,89 +2,15 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Core>
-#include <cmath>
 #include <string>
-#include <vector>
 
-#include "modal_group.hpp"
-#include "probation/schemes/step.hpp"
-#include "probation/spectrum.hpp"
+#include "plain_sweep.hpp"
 
 using namespace probation;
 using namespace probation::kernels;
-using Eigen::ArrayXd;
-using Eigen::Index;
-
-namespace {
-
-constexpr StepRule all_rules[] = {StepRule::backward_euler, StepRule::bdf2, StepRule::exponential};
-
-/// Steps with a forcing and a curvature of no particular shape.
-struct Drive {
-  ArrayXd scale, ratio, forcing, curvature;
-
-  Drive(int count, bool uniform) : scale(count), ratio(count), forcing(count), curvature(count) {
-    for (int n = 0; n < count; ++n) {
-      scale[n] = uniform ? 0.125 : 0.125 * (1.0 + 0.4 * std::sin(1.0 + n));
-      ratio[n] = uniform || n == 0 ? 1.0 : scale[n] / scale[n - 1];
-      forcing[n] = 30.0 + 10.0 * std::cos(0.3 * n);
-      curvature[n] = std::sin(0.7 * n);
-    }
-  }
-  Steps steps(StepRule rule, bool uniform) const {
-    return {rule,
-            static_cast<int>(scale.size()),
-            uniform,
-            scale.data(),
-            ratio.data(),
-            forcing.data(),
-            rule == StepRule::exponential ? curvature.data() : nullptr};
-  }
-};
-
-ModalGroup group(int modes) {
-  const Spectrum spectrum = Spectrum::log_spaced(modes, 5.0);
-  ModalGroup made;
-  made.set(spectrum.relaxation_ratio, spectrum.modal_weight);
-  for (Index j = 0; j < modes; ++j) {
-    made.state[j] = made.weight[j] * (1.0 + 0.1 * static_cast<double>(j));
-    made.before[j] = 0.9 * made.state[j];
-  }
-  return made;
-}
-
-StepCoefficients<double> coefficients(StepRule rule, double x, double ratio) {
-  if (rule == StepRule::bdf2) return Bdf2Step::coefficients(x, ratio);
-  if (rule == StepRule::exponential) return ExponentialStep::coefficients(x, ratio);
-  return BackwardEulerStep::coefficients(x, ratio);
-}
-
-/// The recursion of step.hpp, one mode and one step at a time.
-ArrayXd plain_sweep(ModalGroup& modes, const Steps& steps) {
-  ArrayXd stress = ArrayXd::Zero(steps.count);
-  for (int n = 0; n < steps.count; ++n)
-    for (Index j = 0; j < modes.padded(); ++j) {
-      const auto c = coefficients(steps.rule, steps.scale[n] * modes.inverse_ratio[j], steps.ratio[n]);
-      const double drive =
-          c.forcing * steps.forcing[n] + c.curvature * (steps.curvature ? steps.curvature[n] : 0.0);
-      const double next = c.previous * modes.state[j] + c.before * modes.before[j] + modes.weight[j] * drive;
-      modes.before[j] = modes.state[j];
-      modes.state[j] = next;
-      stress[n] += next;
-    }
-  return stress;
-}
-
-void check_close(const ArrayXd& found, const ArrayXd& expected, double tolerance) {
-  REQUIRE(found.size() == expected.size());
-  CHECK((found - expected).abs().maxCoeff() <= tolerance * expected.abs().maxCoeff());
-}
-
-}  // namespace
 
 TEST_CASE("every build sweeps as the plain recursion does, for every number of modes") {
-  for (const Kernels* kernel : {&baseline::table, &best()})
+  for (const Kernels* kernel : all_builds())
     for (const StepRule rule : all_rules)
       for (int modes = 1; modes <= 60; ++modes)
         for (const bool uniform : {true, false}) {
@@ -163,5 +89,46 @@ TEST_CASE("decays reach zero without a trace of infinities") {
     ArrayXd stress = ArrayXd::Zero(5);
     best().sweep(modes.view(), drive.steps(StepRule::exponential, true), stress.data());
     CHECK(stress.allFinite());
+  }
+}
+
+TEST_CASE("the builds are named, the best first, and one of them runs") {
+  const auto builds = all_builds();
+  REQUIRE(!builds.empty());
+  CHECK(std::string(builds.back()->name) == "portable");
+  bool runs = false;
+  for (const Kernels* build : builds) runs = runs || build == &best();
+  CHECK(runs);
+}
+
+TEST_CASE("where the curvature is half the change of the forcing, even steps need not look at it") {
+  for (const Kernels* kernel : all_builds())
+    for (const int count : {1, 2, 9, 100})
+      for (const int modes : {3, 29, 50}) {
+        Drive drive(count, true);
+        for (int n = 1; n < count; ++n) drive.curvature[n] = 0.5 * (drive.forcing[n] - drive.forcing[n - 1]);
+        Steps steps = drive.steps(StepRule::exponential, true);
+        ModalGroup plain = group(modes), swept = plain;
+        const ArrayXd expected = plain_sweep(plain, steps);
+        steps.parabolic = true;
+        ArrayXd stress = ArrayXd::Zero(count);
+        kernel->sweep(swept.view(), steps, stress.data());
+        check_close(stress, expected, 1e-13);
+        check_close(swept.state, plain.state, 1e-13);
+        check_close(swept.before, plain.before, 1e-13);
+      }
+}
+
+TEST_CASE("bE2 takes any step and any mode, products of many of them beyond all numbers, too") {
+  for (const Kernels* kernel : all_builds()) {
+    const Drive drive(20, false);
+    ModalGroup plain;
+    const Eigen::Array<double, 5, 1> ratio(1e-290, 1e-120, 1e-80, 0.5, 1.0);
+    plain.set(ratio, ArrayXd::Constant(5, 0.2));
+    ModalGroup swept = plain;
+    const ArrayXd expected = plain_sweep(plain, drive.steps(StepRule::bdf2, false));
+    ArrayXd stress = ArrayXd::Zero(20);
+    kernel->sweep(swept.view(), drive.steps(StepRule::bdf2, false), stress.data());
+    check_close(stress, expected, 1e-13);
   }
 }

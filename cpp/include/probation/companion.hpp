@@ -2,6 +2,7 @@
 // The companion relation: the longest relaxation time from the strain rate. Forms live in companion/.
 
 #include <cmath>
+#include <cstddef>
 
 #include "probation/errors.hpp"
 
@@ -25,6 +26,13 @@ class CompanionRelation {
     return time;
   }
 
+  /// The same at many rates; both arrays have `count` entries.
+  void relaxation_times(const double* rate, double* time, std::size_t count) const {
+    forms(rate, time, count);
+    for (std::size_t i = 0; i < count; ++i)
+      if (!(time[i] > 0.0) || !std::isfinite(time[i])) throw_no_time(rate[i], time[i]);
+  }
+
   /// d ln tau_max / d ln rate at rate [1/s].
   virtual double log_slope(double rate) const = 0;
 
@@ -38,6 +46,9 @@ class CompanionRelation {
 
  private:
   virtual double form(double rate) const = 0;
+  virtual void forms(const double* rate, double* time, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) time[i] = form(rate[i]);
+  }
   [[noreturn]] static void throw_no_time(double rate, double time);
 
   double rate_floor_;

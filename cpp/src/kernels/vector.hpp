@@ -5,9 +5,17 @@
 // each, and it could be the one that an older processor cannot run. Hence no Eigen and no std:: containers
 // here.
 
-#include <cstdint>
-
 #include "probation/inline.hpp"
+
+namespace probation::kernels {
+constexpr int lanes = 4;
+}
+
+#ifdef PROBATION_PLAIN_VECTOR
+#include "plain_vector.hpp"
+#else
+
+#include <cstdint>
 
 namespace probation {
 
@@ -15,7 +23,6 @@ using Vector = double __attribute__((vector_size(32)));
 using IntegerVector = std::int64_t __attribute__((vector_size(32)));
 
 namespace kernels {
-constexpr int lanes = 4;
 
 PROBATION_INLINE Vector load(const double* from) {
   Vector v;
@@ -32,6 +39,9 @@ PROBATION_INLINE Vector sums(Vector a, Vector b, Vector c, Vector d) {
 }
 PROBATION_INLINE double sum(Vector a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 }  // namespace kernels
+
+/// a where a comparison holds, b elsewhere.
+PROBATION_INLINE Vector choose(IntegerVector where, Vector a, Vector b) { return where ? a : b; }
 
 /// e^-x for x >= 0 to 1 unit in the last place or so; 0 beyond x = 700.
 PROBATION_INLINE Vector decay(Vector x) {
@@ -63,6 +73,8 @@ PROBATION_INLINE Vector decay(Vector x) {
 
 }  // namespace probation
 
-// After decay(Vector): a template finds an overload for a built-in vector type only where it is declared
-// first.
+#endif
+
+// After decay(Vector) and choose(): a template finds an overload for a built-in vector type only where it is
+// declared first.
 #include "probation/schemes/step.hpp"

@@ -19,6 +19,7 @@ class Weissenberg final : public CompanionRelation {
 
  private:
   double form(double rate) const override { return form_.relaxation_time(rate); }
+  void forms(const double* rate, double* time, std::size_t count) const override;  // in companion.cpp
 
   WeissenbergForm form_;
 };

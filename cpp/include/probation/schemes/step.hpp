@@ -52,8 +52,9 @@ struct Bdf2Difference {
 /// Above this ratio of two successive steps BDF2 is no longer zero-stable (1 + sqrt 2); it starts afresh.
 constexpr double bdf2_largest_step_ratio = 2.41;
 
-/// e^-x for doubles; the kernels overload it for SIMD vectors.
+/// e^-x, and a choice, for doubles; the kernels overload both for SIMD vectors.
 PROBATION_INLINE double decay(double x) { return std::exp(-x); }
+PROBATION_INLINE double choose(bool first, double a, double b) { return first ? a : b; }
 
 /// phi(x) = (1 - e^-x) / x, given e^-x; a series below x = 0.1 keeps the digits.
 template <class Real>
@@ -62,7 +63,7 @@ PROBATION_INLINE Real mean_decay(Real x, Real decayed) {
   const Real x6 = x * (1.0 / 6.0), x7 = x * (1.0 / 7.0), x8 = x * (1.0 / 8.0), x9 = x * (1.0 / 9.0);
   const Real series =
       1.0 - x2 * (1.0 - x3 * (1.0 - x4 * (1.0 - x5 * (1.0 - x6 * (1.0 - x7 * (1.0 - x8 * (1.0 - x9)))))));
-  return x < 0.1 ? series : (1.0 - decayed) / x;
+  return choose(x < 0.1, series, (1.0 - decayed) / x);
 }
 
 /// psi(x) = (2 k1 - k0) / x with k0 = 1 - e^-x, k1 = 1 - k0 / x (physics: SA3); about x / 6 at small x.
@@ -71,7 +72,7 @@ PROBATION_INLINE Real curvature_decay(Real x, Real mean) {
   // sum over k >= 1 of -k (-x)^k / (k + 2)!
   const Real tail = 1.0 / 1008 - x * (1.0 / 6720 - x * (1.0 / 51840 - x * (1.0 / 453600)));
   const Real series = x * (1.0 / 6 - x * (1.0 / 12 - x * (1.0 / 40 - x * (1.0 / 180 - x * tail))));
-  return x < 0.1 ? series : 2.0 * (1.0 - mean) / x - mean;
+  return choose(x < 0.1, series, 2.0 * (1.0 - mean) / x - mean);
 }
 
 /// Backward Euler, order 1: the paper's first step.

@@ -1,0 +1,63 @@
+#pragma once
+// Blocks of modes whose states fit the registers, time innermost: what all sweeps share.
+
+#include <cstddef>
+
+#include "kernels.hpp"
+#include "vector.hpp"
+
+namespace probation::kernels::PROBATION_ISA {
+
+template <int K>
+struct Size {
+  static constexpr int value = K;
+};
+
+/// Calls body(Size<K>, at) for blocks of K vectors of the modes from..to, then for ever smaller ones of what
+/// is left.
+template <int K, class Body>
+PROBATION_INLINE void in_blocks(int from, int to, Body body) {
+  for (; to - from >= K * lanes; from += K * lanes) body(Size<K>{}, from);
+  if constexpr (K > 1) in_blocks<K - 1>(from, to, body);
+}
+
+PROBATION_INLINE StepCoefficients<Vector> weighted(StepCoefficients<Vector> c, Vector weight) {
+  c.forcing *= weight;
+  c.curvature *= weight;
+  return c;
+}
+
+template <class Step>
+PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrdiff_t at, double scale,
+                                                   double ratio) {
+  return weighted(Step::template coefficients<Vector>(load(modes.inverse_ratio + at) * scale, ratio),
+                  load(modes.weight + at));
+}
+
+/// Adds the sum of what advance(n) returns to stress[n], four steps at a time.
+template <class Advance>
+PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
+  int n = 0;
+  Vector four[lanes];
+  for (; n + lanes <= count; n += lanes) {
+#pragma GCC unroll 4
+    for (int i = 0; i < lanes; ++i) four[i] = advance(n + i);
+    store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
+  }
+  for (; n < count; ++n) stress[n] += sum(advance(n));
+}
+
+/// `count` of the steps, from `first` on.
+PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
+  const int fixed = steps.uniform ? 0 : first;
+  return {steps.rule,
+          count,
+          steps.uniform,
+          steps.scale + fixed,
+          steps.ratio + fixed,
+          steps.forcing + first,
+          steps.curvature ? steps.curvature + first : nullptr,
+          steps.parabolic};
+}
+
+}  // namespace probation::kernels::PROBATION_ISA

@@ -1,0 +1,25 @@
+#pragma once
+// The sweeps of one build; modal_sweep.cpp chooses among them.
+
+#include "kernels.hpp"
+
+namespace probation::kernels::PROBATION_ISA {
+
+/// Even steps. A one-step rule leaves `before` as it was.
+void even_sweep(const Modes&, const Steps&, double* stress);
+
+/// Steps of any length; `before` is left one instant behind the state.
+void uneven_sweep(const Modes&, const Steps&, double* stress);
+
+/// Along any directions; states and slopes live in memory.
+void general_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection*,
+                           int directions, double* scratch);
+
+/// Along one in which the time scale alone moves.
+void time_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&, double* scratch);
+
+/// The better one of the two.
+void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection*, int directions,
+                   double* scratch);
+
+}  // namespace probation::kernels::PROBATION_ISA

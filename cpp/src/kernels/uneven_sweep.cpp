@@ -1,0 +1,180 @@
+// Steps of any length: every step has its own coefficients. Compiled once per instruction set.
+
+#include "scale_table.hpp"
+#include "slaved.hpp"
+#include "sweeps.hpp"
+#include "uneven_bdf2.hpp"
+
+namespace probation::kernels::PROBATION_ISA {
+namespace {
+
+// Vectors of four modes in a block: coefficients from a table or a reciprocal, or formed by an exponential.
+constexpr int largest_block = 4, largest_formed_block = 2;
+
+/// K vectors of modes whose coefficients are formed in every step.
+template <class Step, bool two_step, bool curved, int K>
+void formed_block(const Modes& modes, const Steps& steps, int at, double* stress) {
+  Vector state[K], before[K];
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    state[k] = load(modes.state + j);
+    before[k] = load(modes.before + j);
+  }
+  add_sums(steps.count, stress, [&](int n) {
+    Vector total{};
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) {
+      const auto c = weighted<Step>(modes, at + k * lanes, steps.scale[n], steps.ratio[n]);
+      Vector next = c.forcing * steps.forcing[n];
+      if constexpr (curved) next = c.curvature * steps.curvature[n] + next;
+      if constexpr (two_step) next = c.before * before[k] + next;
+      next = c.previous * state[k] + next;
+      before[k] = state[k];
+      state[k] = next;
+      total += next;
+    }
+    return total;
+  });
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    store(modes.state + j, state[k]);
+    store(modes.before + j, before[k]);
+  }
+}
+
+template <class Step, bool two_step, bool curved>
+void formed_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  in_blocks<largest_formed_block>(0, modes.padded, [&](auto size, int at) {
+    formed_block<Step, two_step, curved, decltype(size)::value>(modes, steps, at, stress);
+  });
+}
+
+void formed_exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  if (steps.curvature)
+    formed_sweep<ExponentialStep, false, true>(modes, steps, stress);
+  else
+    formed_sweep<ExponentialStep, false, false>(modes, steps, stress);
+}
+
+/// K vectors of modes whose coefficients come from a table; `before` is left alone.
+template <bool curved, int K>
+void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress) {
+  Vector state[K], inverse_ratio[K], weight[K];
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    state[k] = load(modes.state + j);
+    inverse_ratio[k] = load(modes.inverse_ratio + j);
+    weight[k] = load(modes.weight + j);
+  }
+  add_sums(steps.count, stress, [&](int n) {
+    const double* row = tabled.rows[n] + static_cast<std::ptrdiff_t>(at) * ScaleTable::terms;
+    const double offset = tabled.offset[n], scale = steps.scale[n];
+    const double v = curved ? steps.curvature[n] : 0.0, straight = steps.forcing[n] - v;
+    Vector total{};
+    // z+ = e z + p (phi U + psi V) = z + phi (p (U - V) - x z) + 2 p chi V
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) {
+      const Vector chi = tabled_chi(row + k * lanes * ScaleTable::terms, offset);
+      const Vector x = inverse_ratio[k] * scale, phi = 1.0 - x * chi;
+      Vector next = state[k];
+      if constexpr (curved) next += chi * (weight[k] * (2.0 * v));
+      next += phi * (weight[k] * straight - x * state[k]);
+      state[k] = next;
+      total += next;
+    }
+    return total;
+  });
+  for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k]);
+}
+
+void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress) {
+  const SlavedModes slaved(modes, tabled.lowest);
+  slaved.sweep(modes, steps, stress);
+  in_blocks<largest_block>(slaved.from, slaved.to, [&](auto size, int at) {
+    constexpr int K = decltype(size)::value;
+    if (steps.curvature)
+      tabled_block<true, K>(modes, steps, tabled, at, stress);
+    else
+      tabled_block<false, K>(modes, steps, tabled, at, stress);
+  });
+}
+
+/// The last step is formed: it leaves `before` behind.
+void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  const int last = steps.count - 1;
+  int n = 0;
+  while (modes.table && n < last) {
+    const TabledSteps tabled(modes, steps.scale + n, last - n);
+    const int count = tabled.count > 0               ? tabled.count
+                      : last - n < TabledSteps::most ? last - n
+                                                     : TabledSteps::most;
+    const Steps part = part_of(steps, n, count);
+    if (tabled.count > 0)
+      tabled_sweep(modes, part, tabled, stress + n);
+    else
+      formed_exponential_sweep(modes, part, stress + n);
+    n += count;
+  }
+  formed_exponential_sweep(modes, part_of(steps, n, steps.count - n), stress + n);
+}
+
+template <int K>
+void bdf2_block(const Modes& modes, const Steps& steps, const Bdf2Steps& a, int at, double* stress) {
+  Vector state[K], before[K], inverse_ratio[K], weight[K];
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    state[k] = load(modes.state + j);
+    before[k] = load(modes.before + j);
+    inverse_ratio[k] = load(modes.inverse_ratio + j);
+    weight[k] = load(modes.weight + j);
+  }
+  add_sums(steps.count, stress, [&](int n) {
+    Vector inverse[K], total{};
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) inverse[k] = inverse_ratio[k] * steps.scale[n] + a.next[n];
+    invert(inverse);
+#pragma GCC unroll 8
+    for (int k = 0; k < K; ++k) {
+      const Vector drive = before[k] * a.before[n] + weight[k] * steps.forcing[n];
+      const Vector next = (state[k] * a.here[n] + drive) * inverse[k];
+      before[k] = state[k];
+      state[k] = next;
+      total += next;
+    }
+    return total;
+  });
+  for (int k = 0; k < K; ++k) {
+    const std::ptrdiff_t j = at + k * lanes;
+    store(modes.state + j, state[k]);
+    store(modes.before + j, before[k]);
+  }
+}
+
+void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  for (int n = 0; n < steps.count; n += Bdf2Steps::most) {
+    const int rest = steps.count - n;
+    const Steps part = part_of(steps, n, rest < Bdf2Steps::most ? rest : Bdf2Steps::most);
+    const Bdf2Steps a(part);
+    if (a.in_range(modes, 0, modes.padded))
+      in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
+        bdf2_block<decltype(size)::value>(modes, part, a, at, stress + n);
+      });
+    else
+      formed_sweep<Bdf2Step, true, false>(modes, part, stress + n);
+  }
+}
+
+}  // namespace
+
+void uneven_sweep(const Modes& modes, const Steps& steps, double* stress) {
+  switch (steps.rule) {
+    case StepRule::backward_euler:
+      return formed_sweep<BackwardEulerStep, false, false>(modes, steps, stress);
+    case StepRule::bdf2:
+      return bdf2_sweep(modes, steps, stress);
+    case StepRule::exponential:
+      return exponential_sweep(modes, steps, stress);
+  }
+}
+
+}  // namespace probation::kernels::PROBATION_ISA
