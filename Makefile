@@ -26,7 +26,7 @@ engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROB
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench blind lint format sanitize wheel clean
+.PHONY: help demo test bench fe blind lint format sanitize wheel clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -42,6 +42,16 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py
+
+fe: $(VENV)/.engine  ## run the law in CalculiX: an element, a turned one, a neck; builds a ccx where none can load it
+	@[ -n "$${CCX:-}" ] || $(BIN)/python -m probation.fe.calculix which >/dev/null 2>&1 || .ci/calculix $(BIN)/python
+	@mkdir -p build/fe
+	@echo "fe: $$($(BIN)/python -m probation.fe.calculix which)"
+	@$(BIN)/python -m probation.fe.calculix element
+	@$(BIN)/python -m probation.fe.calculix turn
+	@echo "fe: pulling the dumbbell, half a minute of one core"
+	@$(BIN)/python -m probation.fe.calculix neck --plot build/fe/neck.png
+	@echo "fe: drew build/fe/neck.png"
 
 blind: $(VENV)/.engine  ## make, solve and score a small sealed split; fails beyond the thresholds of tests/blind
 	@rm -rf build/blind
@@ -77,9 +87,10 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verifica
 	@$(BIN)/cmake --install build/sanitize --prefix build/sanitize/site >/dev/null
 	@# -S: without the hook of the editable installation, which would find the ordinary extension first.
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \
-	PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 \
-	LD_PRELOAD="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys $(wildcard tests/boundary tests/verification)
+	export PYTHONPATH="$(CURDIR)/build/sanitize/site:$$site" ASAN_OPTIONS=detect_leaks=0 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1; \
+	preload="$$(c++ -print-file-name=libasan.so) $$(c++ -print-file-name=libubsan.so) $$(c++ -print-file-name=libstdc++.so)"; \
+	printf '%s\n' $(wildcard tests/boundary/test_*.py tests/verification/test_*.py) | xargs -P "$$(nproc)" -n 3 \
+	    env LD_PRELOAD="$$preload" $(BIN)/python -S -m pytest -q -p no:cacheprovider --capture=sys
 
 wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it needs nothing from the machine
 	@rm -rf build/wheel dist && mkdir -p build/wheel

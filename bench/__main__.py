@@ -7,10 +7,16 @@ import time
 from bench import (
     batches,
     equal_error,
+    feedbacks,
     fewer_modes,
     forward,
+    full_field,
     identification,
+    instructions,
+    limit,
     machine,
+    markdown,
+    material_point,
     overhead,
     record,
     report,
@@ -19,13 +25,17 @@ from bench import (
 from bench.methods import INSTALL, missing_packages
 from bench.rows import Findings
 
-SECTIONS = (forward, fewer_modes, overhead, sensitivities, identification, equal_error, batches)
+SECTIONS = (
+    forward, limit, fewer_modes, material_point, feedbacks, overhead, sensitivities, identification, full_field,
+    equal_error, batches, instructions,
+)  # fmt: skip
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="few repeats, the target table's problem; not recorded")
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    parser.add_argument("--markdown", action="store_true", help="print the target table as README.md holds it")
     arguments = parser.parse_args()
 
     begin = time.monotonic()
@@ -41,6 +51,8 @@ def main() -> int:
     beside = record.compare(found, here)
     if arguments.json:
         print(record.as_json(found, here))
+    elif arguments.markdown:
+        print("\n".join(markdown.lines(found, here)))
     else:
         print("\n".join(["", *report.lines(found, here), "", *beside]))
     if arguments.quick:

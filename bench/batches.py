@@ -1,7 +1,9 @@
-"""What do 10^4 solves with different parameters cost, one by one and as a batch?"""
+"""What do 10^4 solves with different parameters cost, one by one and as a batch, on one thread and on two?"""
 
+import os
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from probation import _core, batch
 from probation.history import make_history
 
 SOLVES = 10_000
+SCHEMES = (("be2", "bE2"), ("sa3", "SA3"))
 
 
 def run(found: Findings, progress: Progress, quick: bool) -> None:
@@ -23,11 +26,34 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     spread = np.random.default_rng(4).uniform(0.8, 1.25, (SOLVES, 3))
     parameters = engine.law_of(case).parameters * spread
     progress(f"{SOLVES} solves")
-    calls = {"one by one": _one_by_one(case, parameters), "batch": _batch(case, parameters)}
+    calls = {"one by one": _one_by_one(case, parameters)}
+    labels = {"one by one": f"engine bE2, {SOLVES} solves one by one"}
+    for scheme, name in SCHEMES:
+        calls[scheme] = _batch(case, parameters, scheme)
+        labels[scheme] = f"engine {name}, {SOLVES} solves as a batch"
     # Processor time of all threads.
     for key, timing in take_turns(calls, 3, clock=time.process_time_ns).items():
-        label = f"engine bE2, {SOLVES} solves {'as a batch' if key == 'batch' else key}"
-        found.rows.append(row("batch", case.name, key, label, timing, {}))
+        found.rows.append(row("batch", case.name, key, labels[key], timing, {}))
+    _threads(found, progress, case, parameters)
+
+
+def _threads(found: Findings, progress: Progress, case: cases.Case, parameters: np.ndarray) -> None:
+    """Here the clock on the wall counts: the machine must have nothing else to do."""
+    progress("batches on one thread and two, into new memory and used")
+    calls = {f"{count} threads": _batch(case, parameters, "sa3", count) for count in (1, 2)}
+    calls["new output"] = _batch(case, parameters, "sa3", 1, reused=False)
+    labels = {
+        "1 threads": "engine SA3, 10000 solves on one thread, time on the wall",
+        "2 threads": "engine SA3, 10000 solves on two threads, time on the wall",
+        "new output": "engine SA3, 10000 solves on one thread, into a new output each time, on the wall",
+    }
+    timings = take_turns(calls, 5, clock=time.perf_counter_ns)
+    for key, label in labels.items():
+        entry = row("batch", case.name, key, label, timings[key], {})
+        if key == "2 threads" and (os.cpu_count() or 1) < 2:
+            found.skipped.append("batches on two threads: this machine has one processor")
+            continue
+        found.rows.append(replace(entry, ratios={"one thread": timings["1 threads"].over(timings[key])}))
 
 
 def _one_by_one(case: cases.Case, parameters: np.ndarray) -> Callable[[], object]:
@@ -42,8 +68,11 @@ def _one_by_one(case: cases.Case, parameters: np.ndarray) -> Callable[[], object
     return call
 
 
-def _batch(case: cases.Case, parameters: np.ndarray) -> Callable[[], object]:
+def _batch(
+    case: cases.Case, parameters: np.ndarray, scheme: str, threads: int = 0, reused: bool = True
+) -> Callable[[], object]:
     """Into an output that is used again: first touch of a new one costs more than computing it."""
-    law, out = engine.law_of(case), np.empty((len(parameters), len(case.time)))
+    law = engine.law_of(case)
+    out = np.empty((len(parameters), len(case.time))) if reused else None
     history = make_history(case.time, case.true_strain)
-    return lambda: batch.stresses(law, parameters, history, "be2", out=out)
+    return lambda: batch.stresses(law, parameters, history, scheme, threads=threads, out=out)

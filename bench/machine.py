@@ -2,7 +2,6 @@
 
 import os
 import platform
-import re
 import subprocess
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -38,7 +37,7 @@ def cpu() -> str:
 
 def kernels() -> str:
     """Which build of the kernels the engine chose here."""
-    forced = " (forced)" if os.environ.get("PROBATION_KERNELS") == "baseline" else ""
+    forced = " (forced)" if os.environ.get("PROBATION_KERNELS") else ""
     return f"{_core.kernel_build()}{forced}"
 
 
@@ -51,17 +50,17 @@ def _cpu_fields() -> dict[str, str]:
     return {key.strip(): value.strip() for key, value in pairs}
 
 
-def _build() -> dict[str, object]:
-    """Compiler and flags of the newest build tree, if it is there."""
+def build_tree() -> Path | None:
+    """The newest build tree, if there is one."""
     trees = sorted(ROOT.glob("build/*/build.ninja"), key=lambda path: path.stat().st_mtime)
-    if not trees:
-        return {"compiler": "unknown (no build tree)", "kernel_flags": {}}
-    text = trees[-1].read_text(encoding="utf-8")
-    flags = re.findall(r"kernels_(\w+)\.dir/src/kernels/modal_sweep\.cpp\.o:.*?\n(?:.*\n)*?\s+FLAGS = (.*)", text)
-    cache = trees[-1].with_name("CMakeCache.txt").read_text(encoding="utf-8")
-    compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.MULTILINE)
-    says = _run(compiler.group(1), "--version").splitlines() if compiler else []
-    return {"compiler": says[0] if says else "unknown", "kernel_flags": dict(flags)}
+    return trees[-1].parent if trees else None
+
+
+def _build() -> dict[str, object]:
+    """Compiler and flags, as the engine itself tells them."""
+    told = _core.build_information()
+    kernels = dict(part.split(": ", 1) for part in told["kernel_flags"].split(" | ") if part)
+    return {"compiler": told["compiler"], "flags": told["flags"], "kernel_flags": kernels}
 
 
 def _version(package: str) -> str | None:

@@ -5,8 +5,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 from bench import cases
 from bench.cases import Case
 from bench.forward import row
@@ -54,8 +52,8 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     beyond = timings["law_be2"].rounds - timings["be2"].rounds
     found.rows.append(row("overhead", case.name, "beyond", "law.stress beyond the compiled call", Timing(beyond), {}))
     if not quick:
-        progress("baseline kernels")
-        _baseline(found)
+        progress("other builds of the kernels")
+        _other_builds(found)
 
 
 def _first(case: Case, count: int) -> Case:
@@ -74,24 +72,32 @@ print(*(t.median for t in take_turns(calls, 9).values()))
 """
 
 
-def _baseline(found: Findings) -> None:
-    """The same two solves in fresh processes, with the kernels as chosen and with those for any x86-64."""
-    times = {}
-    for build in ("", "baseline"):
-        environment = {**os.environ, "PROBATION_KERNELS": build}
-        if not build:
-            environment.pop("PROBATION_KERNELS")
-        root = Path(__file__).resolve().parent.parent
-        done = subprocess.run(
-            [sys.executable, "-c", PROBE], env=environment, cwd=root, capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0:
-            found.skipped.append("the baseline kernels: " + done.stderr.strip().splitlines()[-1])
-            return
-        times[build] = np.array([float(value) for value in done.stdout.split()])
-    for i, scheme in enumerate(("be2", "sa3")):
-        label = f"engine {scheme}, baseline kernels (any x86-64)"
-        baseline, ratio = times["baseline"][i], times["baseline"][i] / times[""][i]
-        found.rows.append(
-            Row("overhead", "ramp", f"{scheme}_baseline", label, baseline, baseline, 0.0, ratios={"chosen": ratio})
-        )
+BUILDS = {"baseline": "baseline kernels (any x86-64)", "portable": "portable kernels (any compiler)"}
+
+
+def _other_builds(found: Findings) -> None:
+    """The same two solves in fresh processes, with the kernels as chosen and with each of the other builds."""
+    chosen = _probe(found, "")
+    for build, words in BUILDS.items():
+        times = None if chosen is None else _probe(found, build)
+        if chosen is None or times is None:
+            continue
+        for scheme, here, best in zip(("be2", "sa3"), times, chosen, strict=True):
+            label = f"engine {scheme}, {words}"
+            found.rows.append(
+                Row("overhead", "ramp", f"{scheme}_{build}", label, here, here, 0.0, ratios={"chosen": here / best})
+            )
+
+
+def _probe(found: Findings, build: str) -> list[float] | None:
+    environment = {name: value for name, value in os.environ.items() if name != "PROBATION_KERNELS"}
+    if build:
+        environment["PROBATION_KERNELS"] = build
+    root = Path(__file__).resolve().parent.parent
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE], env=environment, cwd=root, capture_output=True, text=True, check=False
+    )
+    if done.returncode != 0:
+        found.skipped.append(f"the kernels {build or 'as chosen'}: {done.stderr.strip().splitlines()[-1]}")
+        return None
+    return [float(value) for value in done.stdout.split()]

@@ -11,6 +11,8 @@ from bench.targets import GOALS, REQUIRED
 
 RESULTS = Path(__file__).resolve().parent / "results"
 
+COUNTS = "instructions.csv"
+
 COLUMNS = (
     "section", "case", "method", "label", "median_us", "best_us", "spread", "error_MPa",
     "ratio_to_be2", "ratio_to_sa3", "ratio_to_numba_fastmath", "note",
@@ -19,7 +21,10 @@ COLUMNS = (
 NOTICEABLE = 0.2
 """Changes below this are noise."""
 
-OURS = ("overhead", "sensitivities", "batch", "fewer modes")
+NOTICEABLE_COUNT = 0.02
+"""Instruction counts do not depend on what else the machine does."""
+
+OURS = ("overhead", "sensitivities", "batch", "fewer modes", "feedback", "field")
 """Sections in which every row is the engine's; elsewhere its label says so."""
 
 
@@ -45,6 +50,7 @@ def as_json(found: Findings, machine: dict[str, object]) -> str:
         "targets": targets,
         "rows": [as_dict(row) for row in found.rows],
         "identified": found.identified,
+        "instructions_per_mode_and_step": found.instructions,
         "skipped": found.skipped,
     }
     return json.dumps(everything, indent=2)
@@ -61,6 +67,11 @@ def write(found: Findings, machine: dict[str, object]) -> Path:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(as_dict(row) for row in found.rows)
+    if found.instructions:
+        with (folder / COUNTS).open("w", newline="", encoding="utf-8") as file:
+            counts = csv.writer(file, lineterminator="\n")
+            counts.writerow(("kernel", "instructions_per_mode_and_step"))
+            counts.writerows((case, f"{count:.4f}") for case, count in found.instructions.items())
     return folder
 
 
@@ -69,7 +80,7 @@ def compare(found: Findings, machine: dict[str, object]) -> list[str]:
     last = _last()
     if last is None:
         return ["No earlier run is recorded."]
-    metadata, rows = last
+    metadata, rows, counts = last
     lines = [f"Beside the run of {metadata['recorded'][:10]} at {metadata['commit']}:"]
     same = metadata["cpu"] == machine["cpu"] and metadata["kernels"] == machine["kernels"]
     if not same:
@@ -86,7 +97,22 @@ def compare(found: Findings, machine: dict[str, object]) -> list[str]:
             word = "slower" if factor > 1 else "faster"
             lines.append(f"  {max(factor, 1 / factor):.2f} times {word}: {row.label.strip()} ({row.case})")
     lines.append(f"  {compared - changed} of {compared} rows within {NOTICEABLE:.0%}")
-    return lines
+    return [*lines, *_compare_counts(found, counts, same_build=metadata["compiler"] == machine["compiler"])]
+
+
+def _compare_counts(found: Findings, before: dict[str, float], same_build: bool) -> list[str]:
+    if not found.instructions:
+        return []
+    if not before:
+        return ["  no instruction counts were recorded then"]
+    lines = [] if same_build else ["  another compiler, so instruction counts may differ for that alone"]
+    compared = [(case, count / before[case]) for case, count in found.instructions.items() if case in before]
+    moved = [(case, factor) for case, factor in compared if abs(factor - 1) > NOTICEABLE_COUNT]
+    lines += [f"  {factor - 1:+.1%} instructions: {case}" for case, factor in moved]
+    return [
+        *lines,
+        f"  {len(compared) - len(moved)} of {len(compared)} instruction counts within {NOTICEABLE_COUNT:.0%}",
+    ]
 
 
 def _change(row: Row, before: dict[str, str], same_machine: bool) -> float | None:
@@ -103,7 +129,7 @@ def _change(row: Row, before: dict[str, str], same_machine: bool) -> float | Non
     return min(changes, key=lambda factor: abs(math.log(factor)), default=None)
 
 
-def _last() -> tuple[dict[str, str], dict[tuple[str, str, str], dict[str, str]]] | None:
+def _last() -> tuple[dict[str, str], dict[tuple[str, str, str], dict[str, str]], dict[str, float]] | None:
     runs = []
     for path in RESULTS.glob("*/metadata.json"):
         metadata = json.loads(path.read_text(encoding="utf-8"))
@@ -113,7 +139,12 @@ def _last() -> tuple[dict[str, str], dict[tuple[str, str, str], dict[str, str]]]
     _, path, metadata = max(runs)
     with path.with_name("summary.csv").open(encoding="utf-8") as file:
         rows = {(row["section"], row["case"], row["method"]): row for row in csv.DictReader(file)}
-    return metadata, rows
+    counts = path.with_name(COUNTS)
+    if not counts.exists():
+        return metadata, rows, {}
+    with counts.open(encoding="utf-8") as file:
+        lines = csv.DictReader(file)
+        return metadata, rows, {line["kernel"]: float(line["instructions_per_mode_and_step"]) for line in lines}
 
 
 def _digits(value: float | None) -> float | None:

@@ -1,6 +1,9 @@
 """How is the result read? The verdict first, then the table with ratios, then details."""
 
+from typing import Any
+
 from bench.identification import TRUTH
+from bench.instructions import CASES
 from bench.rows import Findings, Row
 from bench.targets import GOALS, REQUIRED, Target
 
@@ -12,12 +15,18 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
         *_verdict(found),
         "",
         *_forward(found),
+        *_plain(found, "limit", "Fused multiply-adds: what the machine does of them, and what a solve takes"),
         *_fewer_modes(found),
         *_equal_error(found),
         *_plain(found, "overhead", "Calls from Python"),
         *_plain(found, "sensitivities", "Sensitivities"),
+        *_plain(
+            found, "feedbacks", "Feedbacks, beside one solve without (even: of the ramp in even steps)"
+        ),
         *_plain(found, "batch", "Batches (processor time of all threads)"),
         *_identification(found),
+        *_plain(found, "field", "Identification of a strain field, one record per pixel"),
+        *_instructions(found),
         *_goals(found),
         *_machine(machine),
         *(f"Skipped: {line}" for line in found.skipped),
@@ -32,9 +41,13 @@ def _verdict(found: Findings) -> list[str]:
     return [head, *(_target(target, found) for target in REQUIRED)]
 
 
+def number(value: float | None, unit: str) -> str:
+    """Three digits and the unit."""
+    return "-" if value is None else f"{value:.3g}{unit}" if value < 1000 else f"{value:.0f}{unit}"
+
+
 def _target(target: Target, found: Findings) -> str:
-    value = target.value(found)
-    reached = "-" if value is None else f"{value:.3g}{target.unit}"
+    reached = number(target.value(found), target.unit)
     sense = ">=" if target.at_least else "<="
     wanted = f"(wanted {sense} {target.limit:g}{target.unit})"
     return f"  {WORDS[target.met(found)]:>9}  {reached:>12}  {wanted:<22}  {target.item}"
@@ -86,8 +99,18 @@ def _plain(found: Findings, section: str, title: str) -> list[str]:
         extra = ""
         if "beside" in row.ratios:
             extra = f"  {row.ratios['beside']:.2f} x one solve"
+        if "even" in row.ratios:
+            extra += f"  {row.ratios['even']:.2f} x even"
         if "chosen" in row.ratios:
             extra = f"  {row.ratios['chosen']:.2f} x those chosen here"
+        if "limit" in row.ratios:
+            extra = f"  {1 / row.ratios['limit']:.0%} of the limit"
+        if "slaved limit" in row.ratios:
+            extra += f", {1 / row.ratios['slaved limit']:.0%} with fast modes slaved"
+        if "one thread" in row.ratios:
+            extra = f"  {row.ratios['one thread']:.2f} x as fast as one thread into a used output"
+        if row.note:
+            extra += f"  {row.note}"
         out.append(f"  {row.label:<66}{_time(row.median):>11} +-{row.spread / 2:>4.0%}{extra}")
     return [*out, ""]
 
@@ -102,17 +125,26 @@ def _identification(found: Findings) -> list[str]:
     return out
 
 
+def _instructions(found: Findings) -> list[str]:
+    if not found.instructions:
+        return []
+    counts = (f"  {CASES[case]:<66}{count:>8.2f}" for case, count in found.instructions.items())
+    return ["Instructions for one mode and step", *counts, ""]
+
+
 def _goals(found: Findings) -> list[str]:
     states = [target.met(found) for target in GOALS]
     head = f"Target table: {states.count(True)} of {len(states)} rows met, {states.count(None)} without a number"
     return [head, *(_target(target, found) for target in GOALS), ""]
 
 
-def _machine(machine: dict[str, object]) -> list[str]:
+def _machine(machine: dict[str, Any]) -> list[str]:
     changed = " (modified)" if machine["modified"] else ""
     return [
         f"Measured on {machine['cpu']}, {machine['processors']} processors; {machine['system']}",
         f"  commit {machine['commit']}{changed}, {machine['compiler']}, kernels {machine['kernels']}",
+        f"  flags {machine['flags']}",
+        *(f"  kernels {name}: {flags}" for name, flags in machine["kernel_flags"].items()),
     ]
 
 

@@ -29,6 +29,7 @@ class Findings:
     rows: list[Row] = field(default_factory=list)
     skipped: list[str] = field(default_factory=list)
     identified: dict[str, list[float]] = field(default_factory=dict)
+    instructions: dict[str, float] = field(default_factory=dict)  # per mode and step
 
     def find(self, section: str, method: str, case: str | None = None) -> Row | None:
         for row in self.rows:

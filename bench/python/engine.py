@@ -8,6 +8,7 @@ import probation
 from bench.cases import COMPANION, Case
 from bench.spectrum import Array
 from probation import _core
+from probation.change import engine_change
 
 
 def law_of(case: Case) -> probation.Law:
@@ -31,9 +32,9 @@ def solver_of(case: Case, scheme: str, **options: object) -> _core.Solver:
     return law_of(case).solver(case.time, case.true_strain, scheme, **options)
 
 
-def prepare(case: Case, scheme: str, **options: object) -> Callable[[], Array]:
+def prepare(case: Case, scheme: str, change: probation.Change | None = None, **options: object) -> Callable[[], Array]:
     """The compiled call: history held by the solver, result in `out`."""
-    solver, law, change = solver_of(case, scheme, **options), law_of(case).engine, _core.LawChange()
+    solver, law, change = solver_of(case, scheme, **options), law_of(case).engine, engine_change(change)
     out = np.empty(len(case.time))
 
     def call() -> Array:

@@ -19,58 +19,37 @@ bool small(double correction, double stress, double tolerance) {
   return std::abs(correction) <= tolerance * (1e-3 + std::abs(stress));
 }
 
-/// Samples of the law, one per instant (or per step), that feedbacks may change one by one.
-void spread(const std::vector<double>& samples, Index length, std::vector<double>& all) {
-  if (samples.size() == 1)
-    all.assign(static_cast<std::size_t>(length), samples[0]);
-  else
-    all = samples;
-}
-
 Dual moved(Dual a, double by) { return {a.value + a.slope * by, a.slope}; }
 
 /// How the forcing of an even step depends on the last sample of the strain, over E_u.
 double end_weight(StepRule rule) { return rule == StepRule::bdf2 ? Bdf2Difference(1.0).next : 1.0; }
 
-Three<Dual> constants(const Three<double>& three) { return {three.next, three.here, three.before}; }
-
-/// In bE2 and SA2 the scale is linear in the fluidity at the end and U in the relaxed stress there; `guess`
-/// has these slopes.
-StepForcing<Dual> straight(const StepForcing<Dual>& guess, Dual fluidity, Dual relaxed) {
-  return {guess.rule, Dual(guess.scale.value) + Dual(guess.scale.slope) * fluidity,
-          Dual(guess.forcing.value) + Dual(guess.forcing.slope) * relaxed, Dual()};
-}
-
-/// A step of which nothing moves yet.
-StepData<Dual> constants(const StepData<double>& s) {
-  return {s.fresh,
-          s.h,
-          s.ratio,
-          constants(s.true_strain),
-          constants(s.unrelaxed_modulus),
-          constants(s.relaxed_stress),
-          constants(s.fluidity),
-          s.end_rate,
-          s.constant_modulus,
-          s.constant_fluidity,
-          s.previous_scale,
-          s.previous_forcing};
+/// On to the next step.
+template <class Real>
+void shift(Three<Real>& three, double here, double next) {
+  three.before = three.here;
+  three.here = here;
+  three.next = next;
 }
 
 }  // namespace
 
 CoupledSolver::CoupledSolver(const Law& law, const LawChange& change, const History& history, Scheme scheme,
-                             Start start, ModalGroup& main)
+                             Start start, ModalGroup& main, CoupledTables& tables)
     : law_(law),
       change_(change),
       history_(history),
       scheme_(scheme),
       start_(start),
       main_(main),
+      tables_(tables),
       kernel_(kernels::best()),
       total_weight_(law.spectrum.modal_weight.sum()),
-      feedbacks_(change.feedbacks),
-      rows_(4 * main.padded()) {}
+      feedbacks_(change.feedbacks) {
+  const bool curved = scheme == Scheme::sa3;
+  tables_.exponential.set(main, curved);
+  tables_.rational.set(main, false);
+}
 
 void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Direction>& directions,
                           Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix>* derivatives) {
@@ -90,24 +69,25 @@ void CoupledSolver::solve(const RecordInputs<double>& base, const std::vector<Di
     put(k, 0, tangents[k].start_slope());
   }
   LinearisedStep linearised(main_.padded());
+  StepEnd guess = enter(0);
   for (Index m = 0; m < history_.steps(); ++m) {
-    solve_step(m, stress[m + 1]);
+    solve_step(guess, stress[m + 1]);
     stress[m + 1] = area[m + 1] * step_.stress;
     if (!tangents.empty()) linearised.at(*this);
     for (std::size_t k = 0; k < tangents.size(); ++k)
       put(k, m + 1, tangents[k].take(linearised, (*derivatives)(m + 1, static_cast<Index>(k))));
-    take_step();
+    const kernels::NearStep taken = expanded_.taken(step_.forcing);
+    leave();
+    if (m + 1 == history_.steps()) return;
+    guess = enter(m + 1);
+    expanded_.set(table().near(expanded_.unit * guess.forcing.scale.value));
+    kernel_.advance(main_.view(), taken, expanded_.cell ? &expanded_.near : nullptr, expanded_.modes);
   }
 }
 
 void CoupledSolver::begin(const RecordInputs<double>& base) {
-  const Index n = history_.size(), modes = law_.spectrum.modes();
+  const Index modes = law_.spectrum.modes();
   base_ = &base;
-  inputs_ = base;
-  spread(base.relaxed_stress, n, inputs_.relaxed_stress);
-  spread(base.fluidity_begin, n - 1, inputs_.fluidity_begin);
-  spread(base.fluidity_end, n - 1, inputs_.fluidity_end);
-
   // s = sum of the modal stresses; for a relaxed start it depends on s through the hardening's factor.
   const double base_relaxed = at(base.relaxed_stress, 0);
   double s = given_start() ? change_.initial_modal_stress.sum() : total_weight_ * base_relaxed;
@@ -119,114 +99,113 @@ void CoupledSolver::begin(const RecordInputs<double>& base) {
     begun_ = feedbacks_.at_start({s, 1.0});
     if (small(correction, s, tolerance_of_slopes)) break;
   }
-  step_.factor = begun_;
-  fluidity_here_ = begun_.fluidity.value;
-  const double relaxed = base_relaxed * begun_.hardening.value;
-  inputs_.relaxed_stress[0] = relaxed;
-  inputs_.fluidity_begin[0] *= begun_.fluidity.value;
+  relaxed_start_ = base_relaxed * begun_.hardening.value;
   if (given_start())
-    main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * relaxed;
+    main_.state.head(modes) = change_.initial_modal_stress - law_.spectrum.modal_weight * relaxed_start_;
   stress_here_ = s;
+  step_.factor = begun_;
+  step_.relaxed_stress = relaxed_start_;
+  strained_.true_strain.next = base.true_strain[0];
+  strained_.unrelaxed_modulus.next = base.unrelaxed_modulus[0];
+  strained_.constant_modulus = base.unrelaxed_modulus.size() == 1;
 }
 
-void CoupledSolver::solve_step(Index m, double extra_stress) {
-  const double law_relaxed = at(base_->relaxed_stress, m + 1), law_fluidity = at(base_->fluidity_end, m);
-  StepData<Dual> data =
-      constants(step_data(history_, inputs_, m, step_.forcing.scale.value, step_.forcing.forcing.value));
-  const double rise = data.true_strain.next.value - data.true_strain.here.value;
-  const double modulus = 0.5 * (at(inputs_.unrelaxed_modulus, m) + at(inputs_.unrelaxed_modulus, m + 1));
-  feedbacks_.enter(data.h, stress_here_, rise, modulus);
+inline StepEnd CoupledSolver::evaluate(double stress) {
+  StepEnd end;
+  end.factor = feedbacks_.at(stress);
+  end.relaxed_stress = law_relaxed_ * end.factor.hardening;
+  end.fluidity = law_fluidity_ * end.factor.fluidity;
+  data_.relaxed_stress.next = end.relaxed_stress;
+  data_.fluidity.next = end.fluidity;
+  end.forcing = step_forcing(scheme_, start_, data_, stiff_);
+  return end;
+}
+
+StepEnd CoupledSolver::enter(Index m) {
+  const auto i = static_cast<std::size_t>(m);
+  StepData<double>& s = strained_;
+  s.fresh = data_.fresh = history_.fresh(m);
+  s.h = data_.h = history_.step()[m];
+  s.ratio = data_.ratio = history_.ratio(m);
+  shift(s.true_strain, s.true_strain.next, base_->true_strain[i + 1]);
+  shift(s.unrelaxed_modulus, s.unrelaxed_modulus.next, at(base_->unrelaxed_modulus, m + 1));
+  if (scheme_ == Scheme::be2) s.end_rate = base_->end_rate.empty() ? difference_rate(s) : base_->end_rate[i];
+  stiff_ = stiff_part(scheme_, start_, s);
+  law_relaxed_ = base_->relaxed_stress[i + 1];
+  law_fluidity_ = at(base_->fluidity_end, m);
+  shift(data_.relaxed_stress, step_.relaxed_stress.value, law_relaxed_);
+  shift(data_.fluidity, at(base_->fluidity_begin, m) * step_.factor.fluidity.value, law_fluidity_);
+  data_.previous_scale = step_.forcing.scale.value;
+  data_.previous_forcing = step_.forcing.forcing.value;
+  rise_ = s.true_strain.next - s.true_strain.here;
+  modulus_ = 0.5 * (s.unrelaxed_modulus.here + s.unrelaxed_modulus.next);
+  feedbacks_.enter(s.h, stress_here_, rise_, modulus_);
   step_.m = m;
-  step_.ratio = data.ratio;
-  // Newton on the stress at the end of the step, from a continuation of the steps before. There the modes are
-  // passed through without waiting for the feedbacks, whose factors go on with the stress, too.
-  const double change = continuation_.change(data.fresh, data.ratio, rise);
-  double residual = 0.0;
-  StepForcing<Dual> guess;
-  double guessed_fluidity = 0.0, guessed_relaxed = 0.0;
-  const auto guess_at = [&](double fluidity, double relaxed) {
-    guessed_fluidity = fluidity;
-    guessed_relaxed = relaxed;
-    data.fluidity.next = {fluidity, 1.0};
-    data.relaxed_stress.next = {relaxed, 1.0};
-    guess = step_forcing(scheme_, start_, data);
-  };
-  const FeedbackFactor<double> factor = continued_factor(change, data.ratio);
-  guess_at(law_fluidity * factor.fluidity, law_relaxed * factor.hardening);
-  bool passed = guess.rule != StepRule::exponential;  // whose expansion would not reach the solution
-  if (passed) expand(values(guess));
-  // Where that leads nowhere, a straight continuation may lead there.
-  for (double stress : {stress_here_ + change, stress_here_ + continuation_.straight(data.fresh, data.ratio)})
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      step_.factor = feedbacks_.at({stress, 1.0});
-      step_.relaxed_stress = law_relaxed * step_.factor.hardening;
-      step_.fluidity = law_fluidity * step_.factor.fluidity;
-      const auto seen = [&] {
-        if (scheme_ != Scheme::sa3)
-          return straight(guess, step_.fluidity - guessed_fluidity, step_.relaxed_stress - guessed_relaxed);
-        data.relaxed_stress.next = step_.relaxed_stress;
-        data.fluidity.next = step_.fluidity;
-        return step_forcing(scheme_, start_, data);
-      };
-      StepForcing<Dual> forcing = seen();
-      if (!passed || !expanded_.reaches(forcing)) {
-        guess_at(step_.fluidity.value, step_.relaxed_stress.value);
-        forcing = seen();
-        expand(values(forcing));
-        passed = true;
-      }
-      const Dual excess = expanded_.stress(forcing) + total_weight_ * step_.relaxed_stress +
-                          Dual(extra_stress - stress, -1.0);
-      residual = excess.value;
-      const double compliance = -1.0 / excess.slope, correction = excess.value * compliance;
-      if (!std::isfinite(correction)) break;
-      stress += correction;
-      if (!small(correction, stress, tolerance_)) continue;
-      continuation_.add(stress - stress_here_, rise,
-                        compliance * expanded_.at.by_forcing[0] * modulus * end_weight(forcing.rule));
-      const double fluidity_here = fluidity_here_;
-      fluidity_here_ = step_.factor.fluidity.value + step_.factor.fluidity.slope * correction;
-      fluidity_drift_ =
-          fluidity_here_ - fluidity_here - step_.factor.fluidity.slope * (stress - stress_here_);
-      // So near the solution that everything goes straight there.
-      feedbacks_.settle(correction);
-      step_.stress = stress;
-      step_.relaxed_stress = moved(step_.relaxed_stress, correction);
-      step_.fluidity = moved(step_.fluidity, correction);
-      step_.factor = {moved(step_.factor.fluidity, correction), moved(step_.factor.hardening, correction)};
-      step_.forcing = {forcing.rule, moved(forcing.scale, correction), moved(forcing.forcing, correction),
-                       moved(forcing.curvature, correction)};
-      return;
+  step_.ratio = s.ratio;
+  expanded_.set(scheme_ == Scheme::be2 ? be2_rule(s.fresh, s.ratio, start_) : StepRule::exponential, s.ratio);
+  guess_ = stress_here_ + continuation_.change(s.fresh, s.h, rise_);
+  return evaluate(guess_);
+}
+
+bool CoupledSolver::look(double scale) {
+  expanded_.set(table().near(expanded_.unit * scale));
+  if (expanded_.cell) kernel_.look(main_.view(), expanded_.near, expanded_.modes);
+  return expanded_.cell != nullptr;
+}
+
+/// So near the solution that everything goes straight there.
+inline void CoupledSolver::finish(const StepEnd& end, double stress, double correction, double by_forcing) {
+  continuation_.add(stress - stress_here_, rise_, by_forcing * modulus_ * end_weight(end.forcing.rule));
+  feedbacks_.settle(correction);
+  step_.stress = stress;
+  step_.relaxed_stress = moved(end.relaxed_stress, correction);
+  step_.fluidity = moved(end.fluidity, correction);
+  step_.factor.fluidity = moved(end.factor.fluidity, correction);
+  step_.factor.hardening = moved(end.factor.hardening, correction);
+  step_.forcing.rule = end.forcing.rule;
+  step_.forcing.scale = moved(end.forcing.scale, correction);
+  step_.forcing.forcing = moved(end.forcing.forcing, correction);
+  step_.forcing.curvature = moved(end.forcing.curvature, correction);
+}
+
+/// Newton on the stress at the end of the step.
+bool CoupledSolver::iterate(double stress, StepEnd end, double extra_stress) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const double scale = end.forcing.scale.value;
+    if (!expanded_.reaches(scale) && !look(scale)) return false;
+    const StressAtEnd found = expanded_.stress(end.forcing);
+    const Dual excess{found.stress.value + total_weight_ * end.relaxed_stress.value + extra_stress - stress,
+                      found.stress.slope + total_weight_ * end.relaxed_stress.slope - 1.0};
+    residual_ = excess.value;
+    const double compliance = -1.0 / excess.slope, correction = excess.value * compliance;
+    if (!std::isfinite(correction)) return false;
+    stress += correction;
+    if (small(correction, stress, tolerance_)) {
+      finish(end, stress, correction, compliance * found.by_forcing);
+      return true;
     }
-  fail(m, std::abs(residual));
+    end = evaluate(stress);
+  }
+  return false;
 }
 
-void CoupledSolver::expand(const StepForcing<double>& tried) {
-  expanded_.tried = tried;
-  kernel_.expand(main_.view(), one_step(expanded_.tried, step_.ratio), expanded_.at, rows_.data());
+void CoupledSolver::solve_step(const StepEnd& guess, double extra_stress) {
+  if (iterate(guess_, guess, extra_stress)) return;
+  // Where that leads nowhere, a straight continuation may lead there.
+  guess_ = stress_here_ + continuation_.straight(data_.fresh);
+  if (!iterate(guess_, evaluate(guess_), extra_stress)) fail();
 }
 
-FeedbackFactor<double> CoupledSolver::continued_factor(double stress_change, double ratio) const {
-  const Dual &fluidity = step_.factor.fluidity, &hardening = step_.factor.hardening;
-  const double continued = fluidity.value + fluidity.slope * stress_change + ratio * fluidity_drift_;
-  return {continued > 0.0 ? continued : fluidity.value, hardening.value + hardening.slope * stress_change};
-}
-
-void CoupledSolver::fail(Index m, double residual) const {
-  std::ostringstream message;
-  message << "the feedback's stress did not converge at t = " << history_.time()[m + 1]
-          << " s; a finer time grid may help";
-  throw ConvergenceError(message.str(), history_.time()[m + 1], residual);
-}
-
-void CoupledSolver::take_step() {
-  const auto i = static_cast<std::size_t>(step_.m);
-  kernel_.take(main_.view(), step_.forcing.rule, expanded_.nearby(values(step_.forcing)), rows_.data());
+void CoupledSolver::leave() {
   feedbacks_.leave();
-  inputs_.relaxed_stress[i + 1] = step_.relaxed_stress.value;
-  inputs_.fluidity_end[i] = step_.fluidity.value;
-  if (step_.m + 1 < history_.steps()) inputs_.fluidity_begin[i + 1] *= step_.factor.fluidity.value;
   stress_here_ = step_.stress;
+}
+
+void CoupledSolver::fail() const {
+  const double t = history_.time()[step_.m + 1];
+  std::ostringstream message;
+  message << "the feedback's stress did not converge at t = " << t << " s; a finer time grid may help";
+  throw ConvergenceError(message.str(), t, std::abs(residual_));
 }
 
 }  // namespace probation

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "coefficient_table.hpp"
 #include "expansion.hpp"
 #include "feedback_set.hpp"
 #include "modal_group.hpp"
@@ -13,25 +14,35 @@
 
 namespace probation {
 
-/// A step that has been solved, with slopes along the stress at its end.
-struct CoupledStep {
-  Eigen::Index m = 0;
-  double ratio = 1.0;             // h / h0
-  double stress = 0.0;            // at its end, before the load-bearing area
-  Dual relaxed_stress, fluidity;  // there
-  FeedbackFactor<Dual> factor;    // there
+/// What holds at the end of a step, with slopes along the stress there.
+struct StepEnd {
+  Dual relaxed_stress, fluidity;
+  FeedbackFactor<Dual> factor;
   StepForcing<Dual> forcing;
+};
+
+/// A step that has been solved.
+struct CoupledStep : StepEnd {
+  Eigen::Index m = 0;
+  double ratio = 1.0;   // h / h0
+  double stress = 0.0;  // at its end, before the load-bearing area
+};
+
+/// What a solve with feedbacks keeps for the next one.
+struct CoupledTables {
+  CoefficientTable rational{false}, exponential{true};
 };
 
 /// One pass along a record with feedbacks. The unknown of a step is the stress at its end: given it, the
 /// memories, the feedbacks' factors, the step's inputs and with them the modes follow in closed form, so that
 /// one scalar Newton iteration solves the step for any number of modes and feedbacks. The modes are passed
-/// through once: near the step that is tried first, their stress is a polynomial (kernels::Expansion).
+/// through once per step: while they take a step, they are looked at near the scale that the next one is
+/// thought to have, where the stress at its end is a polynomial (ExpandedStep).
 class CoupledSolver {
  public:
   /// `main` holds the initial states; with initial_modal_stress not relaxed, they are set here.
   CoupledSolver(const Law& law, const LawChange& change, const History& history, Scheme scheme, Start start,
-                ModalGroup& main);
+                ModalGroup& main, CoupledTables& tables);
 
   /// Fills stress (n_times) and, if asked for, derivatives (n_times, directions); on entry they hold those of
   /// the extra modes.
@@ -43,14 +54,21 @@ class CoupledSolver {
   friend struct LinearisedStep;
 
   void begin(const RecordInputs<double>& base);
-  /// Solves step m; the stress of the extra modes at its end is known.
-  void solve_step(Eigen::Index m, double extra_stress);
-  void take_step();
-  void expand(const StepForcing<double>& tried);
-  /// Factors at the end of a step, as their slopes along the stress and the fluidity's own drift have them.
-  FeedbackFactor<double> continued_factor(double stress_change, double ratio) const;
+  /// Turns to step m; what holds at its end as it is guessed.
+  StepEnd enter(Eigen::Index m);
+  /// Everything but the modes, at a stress at the end of the step.
+  StepEnd evaluate(double stress);
+  /// Solves the step; the stress of the extra modes at its end is known.
+  void solve_step(const StepEnd& guess, double extra_stress);
+  bool iterate(double stress, StepEnd end, double extra_stress);
+  void finish(const StepEnd& end, double stress, double correction, double by_forcing);
+  /// Leaves the step that has been solved: all but its modes.
+  void leave();
+  /// Looks at the step near a scale.
+  bool look(double scale);
+  CoefficientTable& table() { return expanded_.near.exponential ? tables_.exponential : tables_.rational; }
   bool given_start() const { return change_.initial_modal_stress.size() > 0; }
-  [[noreturn]] void fail(Eigen::Index m, double residual) const;
+  [[noreturn]] void fail() const;
 
   const Law& law_;
   const LawChange& change_;
@@ -58,18 +76,24 @@ class CoupledSolver {
   Scheme scheme_;
   Start start_;
   ModalGroup& main_;
+  CoupledTables& tables_;
   const kernels::Kernels& kernel_;
   double total_weight_, tolerance_ = 0.0;
 
   const RecordInputs<double>* base_ = nullptr;  // what the law gives
-  RecordInputs<double> inputs_;                 // what the feedbacks make of it, up to the current instant
+  double relaxed_start_ = 0.0;
   FeedbackSet feedbacks_;
-  FeedbackFactor<Dual> begun_;  // at the start, with slopes along the stress
+  FeedbackFactor<Dual> begun_;   // at the start, with slopes along the stress
+  StepData<double> strained_{};  // what the strain makes of the current step
+  StepData<Dual> data_{};        // and what the feedbacks do: tau_max and the relaxed stress alone
+  double stiff_ = 0.0;           // the part of U that the strain alone makes
   CoupledStep step_;
+  double rise_ = 0.0, modulus_ = 0.0;              // of the strain in the step; E_u in its middle
+  double law_relaxed_ = 0.0, law_fluidity_ = 0.0;  // at its end, without feedbacks
+  double guess_ = 0.0, residual_ = 0.0;            // the stress at the end, and what is left at it
   ExpandedStep expanded_;
-  Eigen::ArrayXd rows_;
   StressContinuation continuation_;
-  double stress_here_ = 0.0, fluidity_here_ = 1.0, fluidity_drift_ = 0.0;
+  double stress_here_ = 0.0;
 };
 
 }  // namespace probation

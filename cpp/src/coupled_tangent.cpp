@@ -46,7 +46,7 @@ CoupledTangent::CoupledTangent(const CoupledSolver& pass, const Direction& direc
   log_inverse_ = -pass.main_.pad(direction.log_relaxation_ratio);
 
   // The start moves too: the stress and sigma^r(0) together.
-  const double start = pass.stress_here_, relaxed = pass.inputs_.relaxed_stress[0];
+  const double start = pass.stress_here_, relaxed = pass.relaxed_start_;
   d_stress_ = direction.initial_modal_stress.sum();
   if (!pass.given_start()) {
     const Dual held = inputs_.relaxed_stress[0] * pass.feedbacks_.at_start(start, direction).hardening;

@@ -1,8 +1,10 @@
 #pragma once
-// The polynomial of kernels::Expansion, evaluated with slopes.
+// The stress at the end of a step as a function of the step's inputs, near the scale of a cell of
+// coefficients.
 
 #include <cmath>
 
+#include "coefficient_table.hpp"
 #include "kernels/kernels.hpp"
 #include "probation/schemes/forcing.hpp"
 
@@ -18,38 +20,85 @@ inline StepForcing<double> values(const StepForcing<Dual>& s) {
   return {s.rule, s.scale.value, s.forcing.value, s.curvature.value};
 }
 
-/// A step expanded at `tried`.
-struct ExpandedStep {
-  StepForcing<double> tried;
-  kernels::Expansion at;
+/// sum_k row[k] e^k and its slope along e, for which some digits less will do: Newton's iteration corrects
+/// it.
+inline Dual polynomial(const double (&row)[6], double e) {
+  static_assert(kernels::CoefficientRows::terms == 6);
+  const double square = e * e;
+  return {(row[0] + row[1] * e) + square * ((row[2] + row[3] * e) + square * (row[4] + row[5] * e)),
+          row[1] + e * (2.0 * row[2] + 3.0 * row[3] * e)};
+}
 
-  Dual eta(const StepForcing<Dual>& step) const {
-    const double inverse = 1.0 / (step.scale.value + tried.scale);
-    return {(step.scale.value - tried.scale) * inverse,
-            2.0 * tried.scale * inverse * inverse * step.scale.slope};
+/// Sum of z_j at the end of a step, and its derivative with respect to U.
+struct StressAtEnd {
+  Dual stress;
+  double by_forcing;
+};
+
+/// A step whose modes have been looked at near the scale of a cell; see kernels::NearStep.
+struct ExpandedStep {
+  const CoefficientCell* cell = nullptr;
+  kernels::NearStep near{true, {}, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0};
+  double unit = 1.0;  ///< 1 / a of a two-step rule
+  kernels::StressNearby modes{};
+
+  /// Turns to a rule; nothing of its modes is known then.
+  void set(StepRule rule, double ratio) {
+    cell = nullptr;
+    if (rule == rule_ && (ratio == ratio_ || rule != StepRule::bdf2)) return;
+    rule_ = rule;
+    ratio_ = ratio;
+    near.exponential = rule == StepRule::exponential;
+    unit = near.here = 1.0;
+    near.before = 0.0;
+    if (rule != StepRule::bdf2) return;
+    const Bdf2Difference a(ratio);
+    unit = 1.0 / a.next;
+    near.here = -a.here * unit;
+    near.before = -a.before * unit;
   }
-  bool reaches(const StepForcing<Dual>& step) const {
-    return step.rule == tried.rule && std::abs(eta(step).value) <= at.reach;
+  /// Turns to a cell of the rule's table.
+  void set(const CoefficientCell* to) {
+    cell = to;
+    if (!cell) return;
+    near.rows = cell->rows;
+    near.slaved = cell->slaved;
   }
-  /// Sum of z_j at the end of a step nearby, with its slope.
-  Dual stress(const StepForcing<Dual>& step) const {
-    const Dual e = eta(step);
-    const double u = step.forcing.value - tried.forcing, v = step.curvature.value - tried.curvature;
-    double sum = 0.0, by_eta = 0.0, by_forcing = 0.0;
-    for (int k = kernels::Expansion::terms - 1; k >= 0; --k) {
-      by_eta = by_eta * e.value + sum;
-      sum = sum * e.value + (at.stress[k] + u * at.by_forcing[k]);
-      by_forcing = by_forcing * e.value + at.by_forcing[k];
+  bool reaches(double scale) const {
+    return cell && std::abs(cell->distance(unit * scale)) <= kernels::CoefficientRows::reach;
+  }
+  /// Slopes along the stress are good to some digits.
+  StressAtEnd stress(const StepForcing<Dual>& step) const {
+    const double per_scale = unit * cell->inverse_centre;
+    const double e = step.scale.value * per_scale - 1.0, e_slope = step.scale.slope * per_scale;
+    const Dual forced = polynomial(cell->by_forcing, e), state = polynomial(modes.by_distance, e);
+    const double by_forcing = unit * forced.value;
+    const double driven = by_forcing * step.forcing.value,
+                 driven_slope =
+                     by_forcing * step.forcing.slope + unit * forced.slope * step.forcing.value * e_slope;
+    if (!near.exponential) return {{state.value + driven, state.slope * e_slope + driven_slope}, by_forcing};
+    Dual sum{(modes.kept - step.scale.value * state.value) + driven,
+             driven_slope - (step.scale.slope * state.value + step.scale.value * state.slope * e_slope)};
+    if (near.rows.curvature) {
+      const Dual curved = polynomial(cell->by_curvature, e);
+      sum.value += step.curvature.value * curved.value;
+      sum.slope += step.curvature.slope * curved.value + step.curvature.value * curved.slope * e_slope;
     }
-    const double rest = 1.0 - e.value;
-    return {rest * sum + v * at.by_curvature, (rest * by_eta - sum) * e.slope +
-                                                  rest * by_forcing * step.forcing.slope +
-                                                  at.by_curvature * step.curvature.slope};
+    return {sum, by_forcing};
   }
-  kernels::Nearby nearby(const StepForcing<double>& step) const {
-    return {(step.scale - tried.scale) / (step.scale + tried.scale), step.forcing - tried.forcing,
-            step.curvature - tried.curvature};
+  /// As the kernel takes it.
+  kernels::NearStep taken(const StepForcing<Dual>& step) const {
+    kernels::NearStep s = near;
+    s.distance = cell->distance(unit * step.scale.value);
+    s.scale = step.scale.value;
+    s.forcing = unit * step.forcing.value;
+    s.curvature = step.curvature.value;
+    return s;
   }
+
+ private:
+  StepRule rule_ = StepRule::exponential;
+  double ratio_ = 0.0;
 };
 
 }  // namespace probation

@@ -44,23 +44,28 @@ FeedbackFactor<Dual> FeedbackSet::at_start(Dual stress, const Direction& directi
 void FeedbackSet::enter(double h, double stress_here, double rise, double modulus) {
   stress_here_ = stress_here;
   rise_ = rise;
-  modulus_ = modulus;
+  compliance_ = modulus > 0.0 ? 1.0 / modulus : 0.0;
   if (h == h_) return;
   h_ = h;
   for (One& one : all_) {
+    if (one.loss_rate == 0.0) continue;
     const double loss = one.loss_rate * h;
     one.kept = std::exp(-loss);
     one.taken = mean_decay(loss, one.kept);
   }
 }
 
-FeedbackFactor<Dual> FeedbackSet::at(Dual stress) {
-  const Dual work = plastic_work<Dual>(stress, stress_here_, rise_, modulus_);
-  FeedbackFactor<Dual> total;
-  for (One& one : all_) {
+FeedbackFactor<Dual> FeedbackSet::at(double stress) {
+  // plastic_work() with the modulus' inverse at hand
+  const double mean_stress = 0.5 * (stress_here_ + stress),
+               plastic = rise_ - (stress - stress_here_) * compliance_;
+  const Dual work{mean_stress * plastic, 0.5 * plastic - mean_stress * compliance_};
+  const auto of = [&](One& one) {
     one.next = {one.kept * one.memory + one.taken * work.value, one.taken * work.slope};
-    multiply(total, one.feedback->factor(stress, one.next, Feedback::no_parameter));
-  }
+    return one.feedback->factor({stress, 1.0}, one.next, Feedback::no_parameter);
+  };
+  FeedbackFactor<Dual> total = of(all_[0]);
+  for (std::size_t k = 1; k < all_.size(); ++k) multiply(total, of(all_[k]));
   return total;
 }
 

@@ -33,8 +33,8 @@ class FeedbackSet {
   FeedbackFactor<Dual> at_start(Dual stress, const Direction& direction) const;
 
   void enter(double h, double stress_here, double rise, double modulus);
-  /// Factors at a stress at the end of the step.
-  FeedbackFactor<Dual> at(Dual stress);
+  /// Factors at a stress at the end of the step, with slopes along it. There must be a feedback.
+  FeedbackFactor<Dual> at(double stress);
   /// The solution is `moved` beyond the stress that at() saw last.
   void settle(double moved);
   void leave();
@@ -62,7 +62,7 @@ class FeedbackSet {
     FeedbackFactor<double> by_memory;  // d ln factor / d memory
   };
   std::vector<One> all_;
-  double h_ = 0.0, stress_here_ = 0.0, rise_ = 0.0, modulus_ = 0.0;
+  double h_ = 0.0, stress_here_ = 0.0, rise_ = 0.0, compliance_ = 0.0;
 };
 
 }  // namespace probation

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "kernels/samples.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
@@ -30,6 +31,12 @@ void require_length(Index found, Index expected, const char* argument) {
                    std::to_string(expected) + " are needed to match time");
 }
 
+/// By how much a step may differ from the first of an even stretch. Times read from a file or made by
+/// linspace are even to rounding only: relative to the largest time.
+double evenness(double step, const Eigen::ArrayXd& time) {
+  return 1e-10 * step + 4e-16 * std::max(std::abs(time[0]), std::abs(time[time.size() - 1]));
+}
+
 }  // namespace
 
 History::History(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
@@ -39,45 +46,75 @@ History::History(const Samples& time, const Samples& true_strain, const Samples&
       strain_rate_(strain_rate),
       jumps_(std::move(jumps)),
       direction_(direction) {
+  const bool even = check();
+  mark_fresh();
+  find_stretches(even);
+}
+
+History::History(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+                 const Eigen::ArrayXi& direction)
+    : time_(time), true_strain_(true_strain), strain_rate_(strain_rate), direction_(direction) {
+  const bool even = check();
+  jumps_ = find_rate_jumps(time_, true_strain_);
+  mark_fresh();
+  find_stretches(even);
+}
+
+bool History::check() {
   const Index n = time_.size();
   if (n < 2) throw InputError("time has " + std::to_string(n) + " samples; at least 2 are needed");
   require_length(true_strain_.size(), n, "true_strain");
   if (strain_rate_.size() > 0) require_length(strain_rate_.size(), n, "strain_rate");
   if (direction_.size() > 0) require_length(direction_.size() + 1, n, "direction (plus one)");
-  require_finite(time_, "time");
-  require_finite(true_strain_, "true_strain");
-  require_finite(strain_rate_, "strain_rate");
+  const kernels::SamplePasses& passes = kernels::sample_passes();
+  const kernels::StepTraits steps =
+      passes.inspect_steps(time_.data(), n, evenness(time_[1] - time_[0], time_));
+  haward_thackray_strain_.resize(n);
+  const bool stretched = passes.haward_thackray(true_strain_.data(), n, haward_thackray_strain_.data());
 
-  step_ = time_.tail(n - 1) - time_.head(n - 1);
-  const bool increasing = (step_ > 0.0).all();
-  for (Index m = 0; m < steps() && !increasing; ++m)
-    require(step_[m] > 0.0, "time", m + 1, time_[m + 1], "time must increase from sample to sample");
-  haward_thackray_strain_ = probation::haward_thackray_strain(true_strain_);
-  const bool stretched = haward_thackray_strain_.allFinite();
+  // One of the samples is not as it should be: which?
+  if (!steps.increasing) require_finite(time_, "time");
+  if (!stretched) require_finite(true_strain_, "true_strain");
+  require_finite(strain_rate_, "strain_rate");
+  for (Index i = 1; i < n && !steps.increasing; ++i)
+    require(time_[i] > time_[i - 1], "time", i, time_[i], "time must increase from sample to sample");
   for (Index i = 0; i < n && !stretched; ++i)
     require(std::isfinite(haward_thackray_strain_[i]), "true_strain", i, true_strain_[i],
             "its stretch is beyond all numbers: is it a strain?");
+  return steps.even;
+}
 
+void History::mark_fresh() {
   fresh_.assign(static_cast<std::size_t>(steps()), 0);
   fresh_[0] = 1;
   std::sort(jumps_.begin(), jumps_.end());
   for (const Index jump : jumps_) {
-    if (jump < 0 || jump >= n)
+    if (jump < 0 || jump >= size())
       throw InputError("jumps holds " + std::to_string(jump) + "; an index of time is needed");
     if (jump < steps()) fresh_[static_cast<std::size_t>(jump)] = 1;
   }
+}
 
-  // Times read from a file or made by linspace are even to rounding only: relative to the largest time.
-  const double tolerance = 4e-16 * std::max(std::abs(time_[0]), std::abs(time_[n - 1]));
+void History::find_stretches(bool even) {
+  step_.resize(steps());
   uniform_until_.resize(static_cast<std::size_t>(steps()));
-  for (Index m = 0; m < steps();) {
+  const auto end_of = [&](Index m) {
+    if (even) {
+      const auto jump = std::upper_bound(jumps_.begin(), jumps_.end(), m);
+      return jump == jumps_.end() ? steps() : std::min(*jump, steps());
+    }
+    const double step = time_[m + 1] - time_[m], allowed = evenness(step, time_);
     Index end = m + 1;
-    while (end < steps() && !fresh(end) && std::abs(step_[end] - step_[m]) <= 1e-10 * step_[m] + tolerance)
-      ++end;
+    while (end < steps() && !fresh(end) && std::abs((time_[end + 1] - time_[end]) - step) <= allowed) ++end;
+    return end;
+  };
+  for (Index m = 0; m < steps();) {
+    const Index end = end_of(m);
     // A clock since 1970 ticks in 2e-7 s: the mean of the stretch knows its step better than any one
     // difference.
     step_.segment(m, end - m).setConstant((time_[end] - time_[m]) / static_cast<double>(end - m));
-    for (; m < end; ++m) uniform_until_[static_cast<std::size_t>(m)] = end;
+    std::fill(uniform_until_.begin() + m, uniform_until_.begin() + end, end);
+    m = end;
   }
 }
 
@@ -86,9 +123,14 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   constexpr Index nearest = 2, farthest = 5, fewest_for_rarity = 60;
   const Index n = time.size();
   Indices jumps;
+  require_length(true_strain.size(), n, "true_strain");
   if (n < 3) return jumps;
+  // Mostly there is none. Products round otherwise than quotients: what comes near the limit is looked at.
+  const double surely_less = least_change * (1.0 - 1e-9);
+  if (!kernels::sample_passes().secant_changes(time.data(), true_strain.data(), n, surely_less)) return jumps;
   const Eigen::ArrayXd secant =
       (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
+  if (!secant.allFinite()) return jumps;
   const auto change = [&](Index i) { return std::abs(secant[i] - secant[i - 1]); };
   const auto large = [&](Index i) {
     return change(i) > least_change * std::max(std::abs(secant[i]), std::abs(secant[i - 1]));

@@ -1,12 +1,15 @@
 #include "probation/kinematics.hpp"
 
+#include "kernels/samples.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
 
 Eigen::ArrayXd haward_thackray_strain(const Samples& true_strain) {
   if (!true_strain.allFinite()) throw InputError("true_strain has a sample that is not finite");
-  return true_strain.unaryExpr([](double strain) { return haward_thackray_strain(strain); });
+  Eigen::ArrayXd result(true_strain.size());
+  kernels::sample_passes().haward_thackray(true_strain.data(), true_strain.size(), result.data());
+  return result;
 }
 
 }  // namespace probation

@@ -44,6 +44,14 @@ Real at(const std::vector<Real>& samples, Eigen::Index i) {
   return samples[samples.size() == 1 ? 0 : static_cast<std::size_t>(i)];
 }
 
+/// The rate at the end of a step as a difference of its strains.
+template <class Real>
+Real difference_rate(const StepData<Real>& s) {
+  const Three<Real>& strain = s.true_strain;
+  if (s.fresh) return (strain.next - strain.here) / s.h;
+  return Bdf2Difference(s.ratio)(strain.next, strain.here, strain.before) / s.h;
+}
+
 /// What step m looks like to a scheme. `previous_*` are those of step m - 1.
 template <class Real>
 StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, Eigen::Index m,
@@ -60,31 +68,40 @@ StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, E
   s.fluidity = {at(in.fluidity_end, m), at(in.fluidity_begin, m), at(in.fluidity_begin, earlier)};
   s.constant_modulus = in.unrelaxed_modulus.size() == 1;
   s.constant_fluidity = in.fluidity_end.size() == 1;
-  if (!in.end_rate.empty()) {
-    s.end_rate = at(in.end_rate, m);
-  } else {
-    const Real rise = s.true_strain.next - s.true_strain.here;
-    s.end_rate = rise / s.h;
-    if (!s.fresh) {
-      const Bdf2Difference difference(s.ratio);
-      s.end_rate = difference(s.true_strain.next, s.true_strain.here, s.true_strain.before) / s.h;
-    }
-  }
+  s.end_rate = in.end_rate.empty() ? difference_rate(s) : at(in.end_rate, m);
   s.previous_scale = previous_scale;
   s.previous_forcing = previous_forcing;
   return s;
 }
 
+/// The part of U that the strain alone makes.
 template <class Real>
-StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>& s) {
+Real stiff_part(Scheme scheme, Start start, const StepData<Real>& s) {
   switch (scheme) {
     case Scheme::sa2:
-      return sa2_step(s);
+      return sa2_stiff(s);
     case Scheme::sa3:
-      return sa3_step(s);
+      return sa3_stiff(s);
     default:
-      return be2_step(s, start);
+      return be2_stiff(s, start);
   }
+}
+
+template <class Real, class Stiff>
+StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>& s, const Stiff& stiff) {
+  switch (scheme) {
+    case Scheme::sa2:
+      return sa2_step(s, stiff);
+    case Scheme::sa3:
+      return sa3_step(s, stiff);
+    default:
+      return be2_step(s, start, stiff);
+  }
+}
+
+template <class Real>
+StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>& s) {
+  return step_forcing(scheme, start, s, stiff_part(scheme, start, s));
 }
 
 /// form_steps where E_u is constant and the rate is the scheme's own: the forcing's integral F = E_u e -

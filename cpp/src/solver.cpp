@@ -5,6 +5,7 @@
 
 #include "coupled.hpp"
 #include "flush_subnormals.hpp"
+#include "kernel_runs.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
@@ -12,58 +13,8 @@
 #include "record_steps.hpp"
 
 namespace probation {
-namespace {
 
 using Eigen::Index;
-
-/// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
-template <class Take>
-void for_each_run(const History& history, const std::vector<StepRule>& rule, bool constant_scale, Take take) {
-  constexpr Index shortest_uniform = 8;
-  const Index steps = history.steps();
-  const auto rule_of = [&](Index m) { return rule[static_cast<std::size_t>(m)]; };
-  const auto uniform_from = [&](Index m) {
-    if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
-      return Index{0};
-    const Index end = m + history.uniform_run(m);
-    Index last = m + 1;
-    while (last < end && rule_of(last) == rule_of(m)) ++last;
-    return last - m;
-  };
-  for (Index m = 0; m < steps;) {
-    const Index uniform = uniform_from(m);
-    if (uniform >= shortest_uniform) {
-      take(m, uniform, true);
-      m += uniform;
-      continue;
-    }
-    Index end = m + 1;
-    while (end < steps && rule_of(end) == rule_of(m) && uniform_from(end) < shortest_uniform) ++end;
-    take(m, end - m, false);
-    m = end;
-  }
-}
-
-/// In even steps SA3's curvature is half the change of its forcing.
-kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& steps, Index first, Index count,
-                            bool uniform) {
-  const auto i = static_cast<std::size_t>(first);
-  return {steps.rule[i],
-          static_cast<int>(count),
-          uniform,
-          &steps.scale[i],
-          &steps.ratio[i],
-          &steps.forcing[i],
-          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr,
-          uniform};
-}
-
-kernels::Modes modes_for(const kernels::Steps& steps, ModalGroup& group) {
-  return steps.rule == StepRule::exponential && !steps.uniform && steps.count > 1 ? group.view_with_table()
-                                                                                  : group.view();
-}
-
-}  // namespace
 
 struct Solver::Workspace {
   RecordInputs<double> inputs, extra_in, slope_inputs;
@@ -71,6 +22,7 @@ struct Solver::Workspace {
   RecordInputs<Dual> dual_inputs, dual_extra;
   RecordSteps<Dual> dual_steps;
   ModalGroup main, extra;
+  CoupledTables tables;
   CvodeStatistics cvode;
   std::mutex busy;
 
@@ -113,18 +65,18 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   stress.setZero();
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
-    for_each_run(
-        history_, steps.rule, inputs.fluidity_end.size() == 1, [&](Index first, Index count, bool uniform) {
-          const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
-          kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
-        });
+    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1,
+                 [&](Index first, Index count, bool uniform) {
+                   const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
+                   kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
+                 });
   };
   if (!w.extra.empty()) {
     extra_inputs(w.inputs, w.extra_in);
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
   if (!change.feedbacks.empty()) {
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, {}, stress, nullptr);
     return;
   }
@@ -266,7 +218,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   if (!change.feedbacks.empty()) {
     for (std::size_t k = 0; k < directions.size(); ++k)
       derivatives.col(static_cast<Index>(k)) = tangents[k].stress.matrix();
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main)
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, directions, stress, &derivatives);
     return;
   }

@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "probation/batch.hpp"
+#include "rows.hpp"
 
 using namespace probation;
 
@@ -9,13 +10,42 @@ void bind_batch(py::module_& m) {
              return BatchRecord{history, true_stress, change};
            }),
            "history"_a, "true_stress"_a, "change"_a);
-  py::class_<SolverOptions>(m, "SolverOptions")
-      .def(py::init([](Scheme scheme, Start start) { return SolverOptions{scheme, start, {}}; }),
-           "scheme"_a = Scheme::be2, "start"_a = Start::exponential);
-  m.def("batch_stress", &batch_stress, "law"_a, "parameters"_a, "history"_a, "change"_a, "options"_a,
-        "threads"_a, "out"_a, py::call_guard<py::gil_scoped_release>());
-  m.def("batch_sum_of_squares", &batch_sum_of_squares, "law"_a, "parameters"_a, "records"_a, "options"_a,
-        "threads"_a, "out"_a, py::call_guard<py::gil_scoped_release>());
+  using Matrix = Eigen::Ref<RowMajorMatrix>;
+  using ConstMatrix = Eigen::Ref<const RowMajorMatrix>;
+  using Records = std::vector<BatchRecord>;
+  m.def(
+      "batch_stress",
+      [](const Law& law, const ConstMatrix& parameters, const History& history, const LawChange& change,
+         const SolverOptions& options, int threads, Matrix out) {
+        batch_stress(law, parameters, history, change, options, {threads, raise_signals}, out);
+      },
+      "law"_a, "parameters"_a, "history"_a, "change"_a, "options"_a, "threads"_a, "out"_a,
+      py::call_guard<py::gil_scoped_release>());
+  m.def(
+      "field_stress",
+      [](const Law& law, const ConstMatrix& parameters, const Samples& time, const py::array& true_strain,
+         bool find_jumps, const SolverOptions& options, int threads, Matrix out) {
+        const SampleRows strains = rows(true_strain);
+        const py::gil_scoped_release release;
+        field_stress(law, parameters, time, strains, find_jumps, options, {threads, raise_signals}, out);
+      },
+      "law"_a, "parameters"_a, "time"_a, "true_strain"_a, "find_jumps"_a, "options"_a, "threads"_a, "out"_a);
+  m.def(
+      "batch_sum_of_squares",
+      [](const Law& law, const ConstMatrix& parameters, const Records& records, const SolverOptions& options,
+         int threads, Matrix out) {
+        batch_sum_of_squares(law, parameters, records, options, {threads, raise_signals}, out);
+      },
+      "law"_a, "parameters"_a, "records"_a, "options"_a, "threads"_a, "out"_a,
+      py::call_guard<py::gil_scoped_release>());
+  m.def(
+      "batch_normal_equations",
+      [](const Law& law, const ConstMatrix& parameters, const Records& records, const SolverOptions& options,
+         int threads, Matrix out) {
+        batch_normal_equations(law, parameters, records, options, {threads, raise_signals}, out);
+      },
+      "law"_a, "parameters"_a, "records"_a, "options"_a, "threads"_a, "out"_a,
+      py::call_guard<py::gil_scoped_release>());
   m.def(
       "normal_equations",
       [](Solver& solver, const Law& law, const LawChange& change, const Samples& true_stress) {

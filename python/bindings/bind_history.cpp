@@ -4,6 +4,17 @@
 using probation::Differentiator;
 using probation::History;
 
+namespace {
+
+History make_history(const probation::Samples& time, const probation::Samples& true_strain,
+                     const probation::Samples& strain_rate, History::Indices jumps,
+                     const Eigen::ArrayXi& direction, bool find_jumps) {
+  if (find_jumps) return {probation::FindJumps{}, time, true_strain, strain_rate, direction};
+  return {time, true_strain, strain_rate, std::move(jumps), direction};
+}
+
+}  // namespace
+
 void bind_history(py::module_& m) {
   py::native_enum<Differentiator>(m, "Differentiator", "enum.Enum")
       .value("secant", Differentiator::secant)
@@ -11,10 +22,8 @@ void bind_history(py::module_& m) {
       .value("three_point", Differentiator::three_point)
       .finalize();
   py::class_<History>(m, "History")
-      .def(py::init<const probation::Samples&, const probation::Samples&, const probation::Samples&,
-                    History::Indices, const Eigen::ArrayXi&>(),
-           "time"_a, "true_strain"_a, "strain_rate"_a = Eigen::ArrayXd(), "jumps"_a = History::Indices(),
-           "direction"_a = Eigen::ArrayXi())
+      .def(py::init(&make_history), "time"_a, "true_strain"_a, "strain_rate"_a = Eigen::ArrayXd(),
+           "jumps"_a = History::Indices(), "direction"_a = Eigen::ArrayXi(), "find_jumps"_a = false)
       .def_static("find_rate_jumps", &History::find_rate_jumps, "time"_a, "true_strain"_a)
       .def_property_readonly("time", &History::time)
       .def_property_readonly("true_strain", &History::true_strain)

@@ -16,4 +16,6 @@ PYBIND11_MODULE(_core, m) {
   bind_solver(m);
   bind_creep(m);
   bind_batch(m);
+  bind_identify(m);
+  bind_build(m);
 }

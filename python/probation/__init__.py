@@ -1,6 +1,7 @@
 """Put a constitutive law on probation."""
 
 from probation._core import __version__
+from probation.bulk import BulkIdentification, identify_many
 from probation.calibration import CalibratedCompanion, Calibration, RateTable, calibrate_companion
 from probation.certificate import Certificate, certify
 from probation.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
@@ -23,6 +24,7 @@ from probation.reduction import Reduction, reduce_spectrum
 from probation.simulate import Simulation, simulate
 
 __all__ = [
+    "BulkIdentification",
     "CalibratedCompanion",
     "Calibration",
     "Campaign",
@@ -65,6 +67,7 @@ __all__ = [
     "export",
     "fit",
     "haward_thackray_strain",
+    "identify_many",
     "named_history",
     "preview",
     "ramp_stress",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NoReturn, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 FloatArray: TypeAlias = NDArray[np.float64]
+Rows: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
+
+
+_FLOAT64 = np.dtype(np.float64)
 
 
 def as_samples(values: ArrayLike, name: str, length: int | None = None) -> FloatArray:
@@ -23,6 +27,23 @@ def as_samples(values: ArrayLike, name: str, length: int | None = None) -> Float
     InputError
         Naming the argument, what was found and what was expected.
     """
+    samples = held_samples(values, name, length)
+    if not np.isfinite(samples).all():
+        first = int(np.flatnonzero(~np.isfinite(samples))[0])
+        raise InputError(f"{name}[{first}] is {samples[first]}; a finite number is needed")
+    return samples
+
+
+def held_samples(values: ArrayLike, name: str, length: int | None = None) -> FloatArray:
+    """The same for an engine that itself refuses what is not finite; what it can take as it is stays untouched.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what was found and what was expected.
+    """
+    if type(values) is np.ndarray and values.dtype is _FLOAT64 and values.ndim == 1 and values.flags.c_contiguous:
+        return values if length is None or len(values) == length else _refuse_length(values, name, length)
     try:
         given = np.asarray(values)
         if given.dtype.kind not in "biufO":  # text, dates and complex numbers would turn into floats without a word
@@ -37,11 +58,37 @@ def as_samples(values: ArrayLike, name: str, length: int | None = None) -> Float
     if samples.ndim != 1 or given.ndim == 0:
         raise InputError(f"{name} has the shape {given.shape}; expected (n_times,)")
     if length is not None and len(samples) != length:
-        raise InputError(f"{name} has {len(samples)} samples; expected {length}, as in time")
-    if not np.isfinite(samples).all():
-        first = int(np.flatnonzero(~np.isfinite(samples))[0])
-        raise InputError(f"{name}[{first}] is {samples[first]}; a finite number is needed")
+        _refuse_length(samples, name, length)
     return samples
+
+
+def _refuse_length(samples: FloatArray, name: str, length: int) -> NoReturn:
+    raise InputError(f"{name} has {len(samples)} samples; expected {length}, as in time")
+
+
+def as_rows(values: ArrayLike, name: str) -> Rows:
+    """One or many contiguous rows of float32 or float64, not copied if they are; masked samples are NaN.
+
+    What the rows hold is not looked at.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what was found and what was expected.
+    """
+    try:
+        given = values.astype(np.float64).filled(np.nan) if np.ma.is_masked(values) else np.asarray(values)
+        if given.dtype.kind not in "biufO":
+            raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
+        kept = given.dtype if given.dtype in (np.float32, np.float64) else np.float64
+        rows: Rows = np.ascontiguousarray(given, dtype=kept)
+    except InputError:
+        raise
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{name} is not an array of numbers: {error}") from None
+    if given.ndim not in (1, 2) or rows.shape[-1] == 0:
+        raise InputError(f"{name} has the shape {given.shape}; expected (n_times,) or (records, n_times)")
+    return rows
 
 
 def as_number(value: object, name: str) -> float:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 _Signs = NDArray[np.int32]
+_Rows = NDArray[np.float32] | NDArray[np.float64]
 
 __version__: str
 
@@ -20,7 +21,22 @@ class ConvergenceError(RuntimeError):
 def haward_thackray_strain(true_strain: _Array) -> _Array: ...
 def ramp_stress(law: Law, strain_rate: float, time: _Array) -> _Array: ...
 def kernel_build() -> str: ...
+def build_information() -> dict[str, str]: ...
 def parameter_directions(law: Law, change: LawChange, history: History) -> list[Direction]: ...
+def identify_many(
+    law: Law,
+    time: _Rows,
+    true_strain: _Rows,
+    true_stress: _Rows,
+    noise: _Rows | None,
+    options: IdentifyOptions,
+    threads: int,
+    parameters: _Array,
+    standard_error: _Array,
+    rms_residual: _Array,
+    status: NDArray[np.int8],
+    iterations: NDArray[np.int32],
+) -> None: ...
 def creep_strain(
     law: Law, change: LawChange, time: _Array, true_stress: _Array, jumps: list[int], start: Start
 ) -> _Array: ...
@@ -33,7 +49,25 @@ def batch_stress(
     threads: int,
     out: _Array,
 ) -> None: ...
+def field_stress(
+    law: Law,
+    parameters: _Array,
+    time: _Array,
+    true_strain: _Rows,
+    find_jumps: bool,
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
 def batch_sum_of_squares(
+    law: Law,
+    parameters: _Array,
+    records: list[BatchRecord],
+    options: SolverOptions,
+    threads: int,
+    out: _Array,
+) -> None: ...
+def batch_normal_equations(
     law: Law,
     parameters: _Array,
     records: list[BatchRecord],
@@ -143,6 +177,7 @@ class History:
         strain_rate: _Array = ...,
         jumps: list[int] = ...,
         direction: _Signs = ...,
+        find_jumps: bool = False,
     ) -> None: ...
     @staticmethod
     def find_rate_jumps(time: _Array, true_strain: _Array) -> list[int]: ...
@@ -257,7 +292,53 @@ class Solver:
     def cvode_statistics(self) -> CvodeStatistics: ...
 
 class SolverOptions:
-    def __init__(self, scheme: Scheme = ..., start: Start = ...) -> None: ...
+    def __init__(
+        self,
+        scheme: Scheme = ...,
+        start: Start = ...,
+        relative_tolerance: float = 1e-10,
+        absolute_tolerance: float = 1e-10,
+        max_steps: int = 200000,
+    ) -> None: ...
+
+def stress(
+    law: Law,
+    change: LawChange,
+    options: SolverOptions,
+    out: _Array,
+    time: _Array,
+    true_strain: _Array,
+    strain_rate: _Array,
+    jumps: list[int],
+    direction: _Signs,
+    find_jumps: bool,
+) -> None: ...
 
 class BatchRecord:
     def __init__(self, history: History, true_stress: _Array, change: LawChange) -> None: ...
+
+class IdentifyMethod(enum.Enum):
+    variable_projection = 0
+    levenberg_marquardt = 1
+
+class IdentifyStatus(enum.Enum):
+    converged = 0
+    at_a_bound = 1
+    did_not_converge = 2
+    not_determined = 3
+    not_finite = 4
+    times_do_not_increase = 5
+    too_few_samples = 6
+    impossible_rate = 7
+
+class IdentifyOptions:
+    def __init__(
+        self,
+        scheme: Scheme,
+        start: Start,
+        method: IdentifyMethod,
+        held: list[bool],
+        lower: _Array,
+        upper: _Array,
+        find_jumps: bool,
+    ) -> None: ...

@@ -1,4 +1,4 @@
-"""Many solves at once: over parameter sets and over records, on several threads, with small outputs."""
+"""Many solves at once: over parameter sets, records and pixels, on several threads, with outputs as small as needed."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_output, as_samples, one_of
+from probation._arrays import FloatArray, as_output, as_rows, as_samples, one_of
 from probation.change import Change, engine_change
 from probation.errors import InputError
+from probation.history import Jumps
 from probation.law import SCHEMES, Law, Scheme, Start, make_solver
 
 if TYPE_CHECKING:
@@ -77,6 +78,56 @@ def stresses(
     return found
 
 
+def field_stresses(
+    law: Law,
+    time: ArrayLike,
+    true_strain: ArrayLike,
+    parameters: ArrayLike | None = None,
+    scheme: Scheme = "be2",
+    *,
+    start: Start = "exponential",
+    jumps: Jumps | None = "auto",
+    threads: int = 0,
+    out: FloatArray | None = None,
+) -> FloatArray:
+    """True stress along many strain histories on one time grid: the pixels of a field.
+
+    Parameters
+    ----------
+    law : Law
+    time : array_like, shape (n_times,) [s]
+    true_strain : array_like, shape (pixels, n_times) [-]
+        float32 or float64 with contiguous rows is read where it is.
+    parameters : array_like, shape (pixels, 3), optional
+        E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each pixel; the law's own if left out.
+    scheme, start, threads
+        As in `stresses`.
+    jumps : "auto" or None
+        Whether each pixel is searched for jumps of its strain rate.
+    out : ndarray, shape (pixels, n_times), optional
+
+    Returns
+    -------
+    ndarray, shape (pixels, n_times) [MPa]
+
+    Raises
+    ------
+    InputError
+        Naming the pixel, what was found and what was expected.
+    """
+    times = as_samples(time, "time")
+    strains = as_rows(true_strain, "true_strain")
+    if strains.ndim != 2 or strains.shape[1] != len(times):
+        raise InputError(f"true_strain has the shape {strains.shape}; expected (pixels, {len(times)}), as in time")
+    sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
+    if jumps is not None:
+        one_of(jumps, "jumps", ("auto",))
+    found = as_output(out, strains.shape)
+    options = _options(scheme, start)
+    _core.field_stress(law.engine, sets, times, strains, jumps is not None, options, threads, found)
+    return found
+
+
 def sums_of_squares(
     law: Law,
     parameters: ArrayLike,
@@ -105,6 +156,39 @@ def sums_of_squares(
     engine_records = [record._engine() for record in records]
     _core.batch_sum_of_squares(law.engine, sets, engine_records, _options(scheme, start), threads, found)
     return found
+
+
+def many_normal_equations(
+    law: Law,
+    parameters: ArrayLike,
+    records: Sequence[Observed],
+    scheme: Scheme = "be2",
+    *,
+    start: Start = "exponential",
+    threads: int = 0,
+    out: FloatArray | None = None,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """`normal_equations` of many parameter sets on many records; neither stresses nor sensitivities are kept.
+
+    Parameters
+    ----------
+    law, parameters, records, scheme, start, threads
+        As in `sums_of_squares`.
+    out : ndarray, shape (sets, records, 13), optional
+        What the answer is a view of: J^T J by rows, J^T r, r^T r.
+
+    Returns
+    -------
+    matrix : ndarray, shape (sets, records, 3, 3)
+    gradient : ndarray, shape (sets, records, 3)
+    sum_of_squares : ndarray, shape (sets, records) [MPa^2]
+    """
+    sets = _as_parameters(parameters)
+    found = as_output(out, (len(sets), len(records), 13))
+    engine_records = [record._engine() for record in records]
+    rows = found.reshape(-1, 13)
+    _core.batch_normal_equations(law.engine, sets, engine_records, _options(scheme, start), threads, rows)
+    return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
 
 def normal_equations(

@@ -21,6 +21,7 @@ from probation.commands import (
     diagnose,
     excitation,
     export,
+    field,
     fit,
     paper,
     preview,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 COMMANDS = (
     demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, paper, blind,
+    field,
 )  # fmt: skip
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
 

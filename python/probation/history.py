@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_samples
+from probation._arrays import FloatArray, as_samples, held_samples
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 Jumps = Literal["auto"]
 
@@ -44,15 +44,38 @@ def make_history(
     InputError
         Naming the argument, what was found and what was expected.
     """
-    times = as_samples(time, "time")
-    strains = as_samples(true_strain, "true_strain", len(times))
-    rates = np.empty(0) if strain_rate is None else as_samples(strain_rate, "strain_rate", len(times))
-    signs = np.empty(0, dtype=np.int32)
-    if direction is not None:
-        signs = np.sign(as_samples(direction, "direction")).astype(np.int32)
-        if len(signs) != len(times) - 1:
-            raise InputError(f"direction has {len(signs)} entries; expected one per step, {len(times) - 1}")
-    return _core.History(times, strains, rates, jump_indices(jumps, times, strains), signs)
+    return _core.History(*history_arguments(time, true_strain, strain_rate, jumps, direction))
+
+
+HistoryArguments: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, list[int], "NDArray[np.int32]", bool]
+
+
+def history_arguments(
+    time: ArrayLike,
+    true_strain: ArrayLike,
+    strain_rate: ArrayLike | None,
+    jumps: ArrayLike | Jumps | None,
+    direction: ArrayLike | None,
+) -> HistoryArguments:
+    """What the engine makes a history from, in its order; it refuses samples that are not finite itself."""
+    times = held_samples(time, "time")
+    strains = held_samples(true_strain, "true_strain", len(times))
+    rates = _NO_RATES if strain_rate is None else held_samples(strain_rate, "strain_rate", len(times))
+    signs = _NO_SIGNS if direction is None else _signs(direction, len(times) - 1)
+    if isinstance(jumps, str) and jumps == "auto":
+        return times, strains, rates, [], signs, True
+    return times, strains, rates, jump_indices(jumps, times, strains), signs, False
+
+
+_NO_RATES: FloatArray = np.empty(0)
+_NO_SIGNS: NDArray[np.int32] = np.empty(0, dtype=np.int32)
+
+
+def _signs(direction: ArrayLike, steps: int) -> NDArray[np.int32]:
+    signs = np.sign(as_samples(direction, "direction")).astype(np.int32)
+    if len(signs) != steps:
+        raise InputError(f"direction has {len(signs)} entries; expected one per step, {steps}")
+    return signs
 
 
 def jump_indices(jumps: ArrayLike | Jumps | None, time: FloatArray, samples: FloatArray) -> list[int]:

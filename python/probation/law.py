@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from typing import TYPE_CHECKING, Literal
+from functools import cached_property, lru_cache
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_number, as_output, as_samples, as_whole_number, one_of
+from probation._arrays import (
+    FloatArray,
+    as_number,
+    as_output,
+    as_samples,
+    as_whole_number,
+    held_samples,
+    one_of,
+)
 from probation.change import Change, Direction, engine_change
 from probation.companion import Companion
 from probation.errors import InputError
-from probation.history import Jumps, make_history
+from probation.history import Jumps, history_arguments, make_history
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -164,14 +173,15 @@ class Law:
             object.__setattr__(self, "modes", len(self.spectrum.modal_weight))
         for name in self.parameter_names:
             object.__setattr__(self, name, as_number(getattr(self, name), name))
-        object.__setattr__(self, "_engine", self._make_engine())
+        self.engine  # noqa: B018 - refuses what cannot be
 
     def __getstate__(self) -> dict[str, object]:
-        return {name: value for name, value in self.__dict__.items() if name != "_engine"}
+        return {name: value for name, value in self.__dict__.items() if name != "engine"}
 
-    def __setstate__(self, state: dict[str, object]) -> None:
-        self.__dict__.update(state)
-        object.__setattr__(self, "_engine", self._make_engine())
+    @cached_property
+    def engine(self) -> _core.Law:
+        """The law as the engine holds it."""
+        return self._make_engine()
 
     def _make_engine(self) -> _core.Law:
         assert self.spectrum is not None
@@ -185,12 +195,6 @@ class Law:
         )
 
     @property
-    def engine(self) -> _core.Law:
-        """The law as the engine holds it."""
-        engine: _core.Law = self.__dict__["_engine"]
-        return engine
-
-    @property
     def parameter_names(self) -> tuple[str, str, str]:
         """Names of the parameters, in the order of every sensitivity."""
         return ("unrelaxed_modulus", "tau_max" if self.companion is None else "alpha", "hardening_modulus")
@@ -202,10 +206,17 @@ class Law:
 
     def with_parameters(self, values: ArrayLike) -> Law:
         """The same law with other values of `parameters`, shape (3,)."""
-        numbers = as_samples(values, "values")
+        numbers = held_samples(values, "values").tolist()
         if len(numbers) != len(self.parameter_names):
             raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
-        return replace(self, **dict(zip(self.parameter_names, numbers.tolist(), strict=True)))
+        if not all(map(isfinite, numbers)):
+            as_samples(values, "values")  # says which is not
+        law = object.__new__(type(self))  # all else was checked when this law was made
+        held = law.__dict__
+        held.update(self.__dict__)
+        held.update(zip(self.parameter_names, numbers, strict=True))
+        held["engine"] = law._make_engine()
+        return law
 
     def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:
         """The same law with fewer modes; as in `reduce_spectrum`."""
@@ -285,20 +296,11 @@ class Law:
         ConvergenceError
             If CVODE or the iteration of a feedback fails; it has `time` and `residual_norm`.
         """
-        solver = self.solver(
-            time,
-            true_strain,
-            scheme,
-            strain_rate=strain_rate,
-            start=start,
-            jumps=jumps,
-            direction=direction,
-            relative_tolerance=relative_tolerance,
-            absolute_tolerance=absolute_tolerance,
-            max_steps=max_steps,
-        )
-        stress = as_output(out, (len(solver.history),))
-        solver.stress(self.engine, engine_change(change), stress)
+        options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        history = history_arguments(time, true_strain, strain_rate, jumps, direction)
+        shape = history[0].shape
+        stress = np.empty(shape) if out is None else as_output(out, shape)
+        _core.stress(self.engine, engine_change(change), options, stress, *history)
         return stress
 
     def sensitivity(
@@ -378,8 +380,28 @@ def make_solver(
     max_steps: int = 200_000,
 ) -> _core.Solver:
     """The engine's solver for one history."""
-    return _core.Solver(
-        history,
+    return _core.Solver(history, *_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+def solver_options(
+    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+) -> _core.SolverOptions:
+    """How a solver solves, as the engine takes it; what was asked for before is there already."""
+    try:
+        return _kept_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+    except TypeError:  # an argument that is not hashable: it is refused by its name
+        return _core.SolverOptions(*_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+@lru_cache(maxsize=64, typed=True)
+def _kept_options(*arguments: Any) -> _core.SolverOptions:
+    return _core.SolverOptions(*_checked(*arguments))
+
+
+def _checked(
+    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+) -> tuple[_core.Scheme, _core.Start, float, float, int]:
+    return (
         getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
         getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
         as_number(relative_tolerance, "relative_tolerance"),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "coefficient_table.hpp"
 #include "expansion.hpp"
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
@@ -46,44 +47,90 @@ double swept(ModalGroup& modes, const StepForcing<double>& taken) {
   return stress;
 }
 
-double largest(const ArrayXd& values) { return values.abs().maxCoeff(); }
+double largest(const ArrayXd& values) { return values.size() > 0 ? values.abs().maxCoeff() : 0.0; }
 
 }  // namespace
 
-TEST_CASE("a step expanded nearby is the step itself, for any number of modes") {
+TEST_CASE("a step looked at near its scale is the step itself, for any number of modes and any spectrum") {
   for (const StepRule rule : all_rules)
     for (const int modes : {1, 4, 5, 8, 13, 50})
-      for (const double off : {-1.0, 0.0, 1.0}) {
-        ModalGroup start = group(modes), expected = start;
-        ExpandedStep expanded{step(rule), {}};
-        ArrayXd rows(4 * start.padded());
-        best().expand(start.view(), one_step(expanded.tried, ratio), expanded.at, rows.data());
-        CHECK((start.state == expected.state).all());
-        const double eta = 0.99 * off * expanded.at.reach;
-        StepForcing<double> taken = expanded.tried;
-        taken.scale *= (1.0 + eta) / (1.0 - eta);
-        if (rule != StepRule::exponential) taken.forcing += 1e-3 * off;
-        const double stress = swept(expected, taken);
-        const StepForcing<Dual> asked{rule, taken.scale, taken.forcing, taken.curvature};
-        CHECK(expanded.reaches(asked));
-        CHECK(expanded.stress(asked).value == doctest::Approx(stress).epsilon(1e-12));
-        best().take(start.view(), rule, expanded.nearby(taken), rows.data());
-        CHECK(largest(start.state - expected.state) <= 1e-12 * largest(expected.state));
-        CHECK(largest(start.before - expected.before) == 0.0);
-        taken.scale *= 1.01;
-        CHECK_FALSE(expanded.reaches({rule, taken.scale, taken.forcing, taken.curvature}));
+      for (const bool log_spaced : {true, false})
+        for (const double scale : {0.125, 0.1254, 1e-7, 3e3, 4e-3}) {
+          ModalGroup start = group(modes);
+          if (!log_spaced) start.inverse_ratio[modes / 2] *= 1.01;
+          ModalGroup expected = start;
+          StepForcing<double> taken = step(rule);
+          taken.scale = scale;
+          const double stress = swept(expected, taken);
+
+          CoefficientTable table(rule == StepRule::exponential);
+          table.set(start, true);
+          ExpandedStep expanded;
+          expanded.set(rule, ratio);
+          expanded.set(table.near(expanded.unit * scale));
+          best().look(start.view(), expanded.near, expanded.modes);
+          const StepForcing<Dual> asked{rule, taken.scale, taken.forcing, taken.curvature};
+          REQUIRE(expanded.reaches(scale));
+          CHECK(expanded.stress(asked).stress.value == doctest::Approx(stress).epsilon(1e-12));
+          const NearStep same = expanded.taken(asked);
+          StressNearby next{};
+          best().advance(start.view(), same, &same, next);
+          const double rounding = 1e-12 * largest(expected.state) + 1e-14 * largest(expected.before);
+          // Modes that both steps enslave stay behind.
+          const Index followed = start.padded() - same.slaved;
+          CHECK(largest((start.state - expected.state).tail(followed)) <= rounding);
+          CHECK(largest((start.before - expected.before).tail(followed)) == 0.0);
+
+          // And the step after it, which was looked at in the same pass.
+          expanded.modes = next;
+          CHECK(expanded.stress(asked).stress.value ==
+                doctest::Approx(swept(expected, taken)).epsilon(1e-12));
+          CHECK_FALSE(expanded.reaches(1.01 * scale));
+        }
+}
+
+TEST_CASE("coefficients are those of the rule wherever a scale has been before") {
+  for (const bool exponential : {false, true})
+    for (const int modes : {1, 13, 50})
+      for (const bool log_spaced : {true, false}) {
+        ModalGroup of = group(modes);
+        if (!log_spaced) of.inverse_ratio[modes / 2] *= 1.01;
+        CoefficientTable table(exponential);
+        table.set(of, true);
+        double scale = 1e-9;
+        for (int n = 0; n < 4000; ++n) {  // wide jumps, small steps, and back
+          scale *= n % 3 == 0 ? 1e6 : n % 3 == 1 ? 1.0007 : 0.998e-6;
+          const CoefficientCell* cell = table.near(scale);
+          REQUIRE(cell);
+          for (Index j = 0; j < modes; ++j) {
+            const double x = scale * of.inverse_ratio[j];
+            const StepCoefficients<double> c =
+                exponential ? ExponentialStep::coefficients(x, 1.0) : BackwardEulerStep::coefficients(x, 1.0);
+            double forcing = 0.0, power = 1.0;
+            for (int k = 0; k < CoefficientRows::terms; ++k, power *= cell->distance(scale))
+              forcing += cell->rows.forcing[k * cell->rows.stride + j] * power;
+            REQUIRE(forcing == doctest::Approx(c.forcing).epsilon(1e-13));
+          }
+        }
+        CHECK(table.near(std::nan("")) == nullptr);
+        CHECK(table.near(0.0) == nullptr);
       }
 }
 
 TEST_CASE("its slopes are differences of the step, and so are those of a linearised one") {
   for (const StepRule rule : all_rules) {
     ModalGroup start = group(13);
-    ExpandedStep expanded{step(rule), {}};
+    const StepForcing<double> at = step(rule);
+    CoefficientTable table(rule == StepRule::exponential);
+    table.set(start, true);
+    ExpandedStep expanded;
+    expanded.set(rule, ratio);
+    expanded.set(table.near(expanded.unit * at.scale));
+    best().look(start.view(), expanded.near, expanded.modes);
     ArrayXd rows(5 * start.padded());
-    best().expand(start.view(), one_step(expanded.tried, ratio), expanded.at, rows.data());
-    const StepSlopes slopes = best().linearise(start.view(), one_step(expanded.tried, ratio), rows.data());
+    const StepSlopes slopes = best().linearise(start.view(), one_step(at, ratio), rows.data());
     const auto difference = [&](auto move) {
-      StepForcing<double> up = expanded.tried, down = expanded.tried;
+      StepForcing<double> up = at, down = at;
       move(up, 1e-5);
       move(down, -1e-5);
       ModalGroup one = start, other = start;
@@ -92,15 +139,15 @@ TEST_CASE("its slopes are differences of the step, and so are those of a lineari
     const double by_log_scale = difference([](StepForcing<double>& s, double d) { s.scale *= std::exp(d); });
     const double by_forcing = difference([](StepForcing<double>& s, double d) { s.forcing += d; });
     const double by_curvature = difference([](StepForcing<double>& s, double d) { s.curvature += d; });
-    const double scale = expanded.tried.scale;
-    CHECK(expanded.stress({rule, {scale, scale}, 30.0, expanded.tried.curvature}).slope ==
+    const auto slope = [&](const StepForcing<Dual>& moved) { return expanded.stress(moved).stress.slope; };
+    CHECK(slope({rule, {at.scale, at.scale}, 30.0, at.curvature}) ==
           doctest::Approx(by_log_scale).epsilon(1e-7));
-    CHECK(expanded.stress({rule, scale, {30.0, 1.0}, expanded.tried.curvature}).slope ==
-          doctest::Approx(by_forcing).epsilon(1e-7));
+    CHECK(slope({rule, at.scale, {30.0, 1.0}, at.curvature}) == doctest::Approx(by_forcing).epsilon(1e-7));
     CHECK(slopes.by_log_scale == doctest::Approx(by_log_scale).epsilon(1e-7));
     CHECK(slopes.by_forcing == doctest::Approx(by_forcing).epsilon(1e-7));
-    if (rule == StepRule::exponential)
-      CHECK(slopes.by_curvature == doctest::Approx(by_curvature).epsilon(1e-7));
+    if (rule != StepRule::exponential) continue;
+    CHECK(slope({rule, at.scale, 30.0, {at.curvature, 1.0}}) == doctest::Approx(by_curvature).epsilon(1e-7));
+    CHECK(slopes.by_curvature == doctest::Approx(by_curvature).epsilon(1e-7));
   }
 }
 

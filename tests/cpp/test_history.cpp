@@ -132,6 +132,17 @@ TEST_CASE("jumps may be given in any order, twice, and at the ends") {
   CHECK_THROWS_AS(History(uneven(), uneven(), ArrayXd(), {-1}), InputError);
 }
 
+TEST_CASE("a history that looks for its jumps finds the reversal, and refuses first what cannot be") {
+  const ArrayXd time = ArrayXd::LinSpaced(101, 0.0, 100.0);
+  ArrayXd strain = 0.01 * time;
+  for (Eigen::Index i = 61; i <= 100; ++i) strain[i] = 0.6 - 0.01 * (time[i] - 60.0);
+  CHECK(History(FindJumps{}, time, strain).jumps() == History::Indices{60});
+  CHECK(History(FindJumps{}, time, 0.01 * time).jumps().empty());
+  CHECK(History(FindJumps{}, time, strain).uniform_run(0) == 60);
+  strain[3] = NAN;
+  CHECK_THROWS_AS(History(FindJumps{}, time, strain), InputError);
+}
+
 TEST_CASE("histories that cannot be are refused") {
   CHECK_THROWS_AS(History(samples({0.0}), samples({0.0})), InputError);
   CHECK_THROWS_AS(History(uneven(), samples({0.0, 1.0})), InputError);

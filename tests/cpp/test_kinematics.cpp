@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,4 +45,31 @@ TEST_CASE("a sample that is not finite is the caller's mistake") {
     const Eigen::ArrayXd strain = Eigen::Array2d(0.1, bad);
     CHECK_THROWS_AS(haward_thackray_strain(strain), probation::InputError);
   }
+}
+
+TEST_CASE("samples in one pass keep every digit, near zero and far from it") {
+  // m (2 + m) + m / L with m = expm1(e) and L = exp(e) in long double.
+  const Eigen::Index n = 4001;
+  Eigen::ArrayXd strain(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double u = static_cast<double>(i) / 2000.0 - 1.0;
+    strain[i] = i % 3 == 0   ? 5.0 * u
+                : i % 3 == 1 ? std::copysign(std::pow(10.0, -15.0 * std::abs(u)), u)
+                             : 300.0 * u;
+  }
+  const Eigen::ArrayXd found = haward_thackray_strain(strain);
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const long double m = std::expm1(static_cast<long double>(strain[i]));
+    const long double exact = m * (2.0L + m) + m / std::exp(static_cast<long double>(strain[i]));
+    if (strain[i] != 0.0) worst = std::max(worst, static_cast<double>(std::abs((found[i] - exact) / exact)));
+  }
+  CHECK(worst < 1e-15);
+}
+
+TEST_CASE("a stretch beyond all numbers has no strain that is one") {
+  const Eigen::ArrayXd strain = Eigen::Array4d(360.0, 800.0, -720.0, -1e300);
+  const Eigen::ArrayXd result = haward_thackray_strain(strain);
+  CHECK((result.head(2) == std::numeric_limits<double>::infinity()).all());
+  CHECK((result.tail(2) == -std::numeric_limits<double>::infinity()).all());
 }

@@ -11,9 +11,9 @@ import pytest
 
 from probation.blind import laboratory
 from probation.blind.layout import Layout
-from probation.blind.pool import run_all
 from probation.blind.solve import solve_split
 from probation.cli import main
+from probation.pool import run_all
 
 COUNT = 12
 

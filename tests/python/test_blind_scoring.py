@@ -10,7 +10,6 @@ from scipy.stats import binom
 
 from probation.blind.layout import Layout
 from probation.blind.make import make_split
-from probation.blind.pool import run_all
 from probation.blind.score import score_split
 from probation.blind.scores.answer import NO_ANSWER, Answer, Region, read_answer
 from probation.blind.scores.baselines import majority, shuffled
@@ -24,6 +23,7 @@ from probation.blind.solve import solve_split
 from probation.blind.solvers import solver_named
 from probation.cli import main
 from probation.errors import InputError
+from probation.pool import run_all
 
 
 def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localised=False, everywhere=True):

@@ -33,6 +33,8 @@ def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_no
     whole = Campaign.from_files([DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"], control="displacement-rate")
     found = diagnose(replace(whole, records=tuple(thinned(each, 4) for each in whole.records)), design=False)
     assert found.gap.rejected
+    assert found.verdict == "unexplained"  # three times the noise is left
+    assert found.best.checks is not None
     assert all(RATE in effects for effects in found.answer_set)
     assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
     assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)

@@ -8,8 +8,11 @@ from scipy.stats import chi2
 from campaigns import linear_problem as problem
 from probation import gap
 from probation.diagnosis.checks import amplitude_consistency, checks, left_out_squares
+from probation.diagnosis.closure import Closure
 from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.remaining import leaves_too_much
+from probation.diagnosis.result import Shrink
 from probation.gap import Cause
 
 COUNT = 80
@@ -160,3 +163,17 @@ def test_a_record_that_says_nothing_of_the_amplitude_has_no_vote():
     more = problem.views([*(view.data for view in views), still], (*ENDS, 0.0))
     few, many = (amplitude_consistency(*[explained(each)[at] for at in (0, 2)]) for each in (views, more))
     assert_allclose(many, few, rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("after", "noise", "smooth", "too_much"),
+    [(0.88, 0.28, 0.27, True), (0.50, 0.15, 0.15, True), (0.88, 0.28, 0.80, False), (0.041, 0.040, None, False)],
+)
+def test_an_explanation_that_leaves_plainly_more_than_noise_explains_too_little(after, noise, smooth, too_much):
+    """More than half as much again as the noise, and as what any smooth correction would leave."""
+
+    def closed(left):
+        return Closure(before_MPa=2.0, after_MPa=left, noise_MPa=noise, closure=0.5, interval=None, how="")
+
+    ceiling = None if smooth is None else closed(smooth)
+    assert leaves_too_much(Shrink(closed(after), None, {}, (), ceiling)) is too_much

@@ -117,7 +117,7 @@ def test_checks_say_what_speaks_for_and_what_against():
     assert said(0.994, 0.4, 0.3) == [
         "foretells 99 % of the gap in records left out",
         "one strength suits all records",
-        "nothing but noise is left",
+        "what is left may be noise and the form's error",
     ]
     assert said(0.5, 1e-4, 1e-4)[0] == "foretells only 50 % of the gap in records left out"
     assert said(-0.1, 1e-4, 1e-4) == [

@@ -1,6 +1,7 @@
 """The law in felupe: one element against one dimension, and a turned one."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ LAW = probation.Law(
 )
 LOADING = [(0.004, 4.0)] * 25 + [(0.006, 0.6)] * 20
 """A ramp, then a rate ten times higher: increments of true strain, and s."""
+UNLOADING = [(-0.001, 1.0)] * 20
 
 
 def cube(point):
@@ -25,32 +27,66 @@ def cube(point):
     return field, felupe.SolidBody(felupe_material(point, 1.0), field)
 
 
-def largest_difference_from_one_dimension(bulk_modulus):
-    """Of the reaction of a bar of one element, over the largest stress."""
+def with_elastic_volume_change(point, bulk_modulus, rise, dt, stress, state):
+    """One increment of the law in one dimension in series with a spring of 9 K, which is uniaxial tension at finite K.
+
+    Lateral Kirchhoff stress vanishes where K ln J is a third of the axial one, s = K ln J + 2 s / 3, and the law sees
+    the strain without its volumetric part, ln J / 3 = s / 9 K.
+    """
+    spring, seen = 9.0 * bulk_modulus, rise
+    for _ in range(20):
+        found, tangent, _ = point.uniaxial(seen, dt, state)
+        excess = seen - rise + (found - stress) / spring
+        seen -= excess / (1.0 + tangent / spring)
+        if abs(excess) < 1e-15:
+            break
+    return point.uniaxial(seen, dt, state)
+
+
+def reactions_of_one_element(bulk_modulus, steps):
+    """Kirchhoff stress of a bar of one element, of the law in one dimension, and of that with a spring, each step."""
     point = MaterialPoint.from_law(LAW, bulk_modulus)
     field, solid = cube(point)
     boundaries = felupe.dof.uniaxial(field, clamped=False, return_loadcase=False)
     pulled = field.region.mesh.points[:, 0] == 1.0
-    strain, state, worst, most = 0.0, None, 0.0, 0.0
-    for rise, dt in LOADING:
+    strain, state, stress, elastic, rows = 0.0, None, 0.0, None, []
+    for rise, dt in steps:
         strain += rise
         expected, _, state = point.uniaxial(rise, dt, state)
+        stress, _, elastic = with_elastic_volume_change(point, bulk_modulus, rise, dt, stress, elastic)
         solid.umat.kwargs["dt"] = dt
         boundaries["move"].update(np.expm1(strain))
         dof0, dof1 = felupe.dof.partition(field, boundaries)
         ext0 = felupe.dof.apply(field, boundaries, dof0)
         felupe.newtonraphson(items=[solid], dof0=dof0, dof1=dof1, ext0=ext0, tol=1e-9, verbose=0)
         force = solid.results.force.toarray().reshape(-1, 3)[pulled, 0].sum()
-        worst = max(worst, abs(force * np.exp(strain) - expected))
-        most = max(most, expected)
-    return worst / most
+        rows.append((force * np.exp(strain), expected, stress))
+    return np.array(rows).T
+
+
+def largest_difference_from_one_dimension(bulk_modulus, steps):
+    """Of the reaction, over the largest stress."""
+    element, expected, _ = reactions_of_one_element(bulk_modulus, steps)
+    return np.abs(element - expected).max() / np.abs(expected).max()
 
 
 def test_the_reaction_of_one_element_is_the_law_in_one_dimension():
     """Within 1e-4 at K = 1e6 MPa; what is left is the volume change, in proportion to 1 / K."""
-    nearly, less = largest_difference_from_one_dimension(1e6), largest_difference_from_one_dimension(1e5)
+    nearly, less = (largest_difference_from_one_dimension(bulk_modulus, LOADING) for bulk_modulus in (1e6, 1e5))
     assert nearly < 1e-4
     assert less / nearly == pytest.approx(10.0, rel=0.02)
+
+
+def test_on_unloading_too_one_element_is_the_law_in_one_dimension_where_the_volume_can_hardly_change():
+    """Unloading is steeper than E_u, and the spring of 9 K counts for so much more: 1e-4 needs K = 2e6 MPa."""
+    assert largest_difference_from_one_dimension(2e6, [*LOADING, *UNLOADING]) < 1e-4
+
+
+@pytest.mark.parametrize("bulk_modulus", [3220.0, 1e6])
+def test_what_one_element_differs_by_is_the_elastic_volume_change(bulk_modulus):
+    """On loading and unloading, and where K is no larger than E_u."""
+    element, expected, elastic = reactions_of_one_element(bulk_modulus, [*LOADING, *UNLOADING])
+    np.testing.assert_allclose(element, elastic, rtol=0.0, atol=1e-8 * np.abs(expected).max())
 
 
 def test_an_element_that_is_stretched_and_turned_by_a_right_angle_carries_its_stress_along():
@@ -92,3 +128,9 @@ def test_the_necking_command_prints_its_figures_and_draws_them(tmp_path, capsys)
     assert "centre_rate_ratio" in capsys.readouterr().out
     assert picture.stat().st_size > 5000
     assert len(json.loads(answer.read_text())["centre_rate"]) > 3
+
+
+def test_without_felupe_the_necking_command_says_what_to_install(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "felupe", None)
+    assert main([]) == 2
+    assert "pip install 'probation[fe]'" in capsys.readouterr().err

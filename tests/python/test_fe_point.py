@@ -7,6 +7,7 @@ import probation
 from probation.fe import CutStep, MaterialPoint, cmake_prefix, include_path, interface_path
 from probation.fe.__main__ import main
 from probation.fe.constants import MaterialConstants
+from probation.fe.where import calculix_library
 
 LAW = probation.Law(
     unrelaxed_modulus=3220.0, alpha=1.1, hardening_modulus=1.8, companion=probation.Weissenberg(0.00464, 0.0367)
@@ -116,10 +117,12 @@ def test_headers_interfaces_and_package_files_are_where_it_says(capsys):
     assert (include_path() / "probation.h").is_file()
     assert {"abaqus.cpp", "calculix.cpp", "mgis.cpp", "c_abi.cpp"} <= {file.name for file in interface_path().iterdir()}
     assert (cmake_prefix() / "lib" / "cmake" / "probation" / "probationConfig.cmake").is_file()
+    assert calculix_library().is_file()
     for option, path in (
         ("--include", include_path()),
         ("--cmake", cmake_prefix()),
         ("--interfaces", interface_path()),
+        ("--calculix", calculix_library()),
     ):
         assert main([option]) == 0
         assert capsys.readouterr().out.strip() == str(path)

@@ -15,6 +15,9 @@ enum class Differentiator {
   three_point,  ///< slope of the parabola through three neighbours, one-sided at jumps (SA2, SA3)
 };
 
+/// Asks a history to look for the jumps of its rate itself; see History::find_rate_jumps.
+struct FindJumps {};
+
 /// The rate at the two ends of every step; shape (n_times - 1). At a jump the two sides differ.
 struct StepRates {
   Eigen::ArrayXd begin;  ///< [1/s]
@@ -39,6 +42,8 @@ class History {
   /// @throws InputError  naming the argument and the sample
   History(const Samples& time, const Samples& true_strain, const Samples& strain_rate = Eigen::ArrayXd(),
           Indices jumps = {}, const Eigen::ArrayXi& direction = Eigen::ArrayXi());
+  History(FindJumps, const Samples& time, const Samples& true_strain,
+          const Samples& strain_rate = Eigen::ArrayXd(), const Eigen::ArrayXi& direction = Eigen::ArrayXi());
 
   /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, thirty
   /// times more than it does around, and three times more than 95 % of the changes of the whole record (of 60
@@ -84,6 +89,10 @@ class History {
 
  private:
   StepRates take_given(const Samples& true_strain, const Samples& strain_rate) const;
+  /// Makes e_HT, and throws for samples that cannot be; returns whether all steps are even.
+  bool check();
+  void mark_fresh();
+  void find_stretches(bool even);
 
   Eigen::ArrayXd time_, true_strain_, strain_rate_, haward_thackray_strain_, step_;
   Indices jumps_;

@@ -1,12 +1,8 @@
 // Single steps whose inputs depend on the stress at their end. Compiled once per instruction set.
 //
-// The coefficients of bE2 and backward Euler go with 1 / (a + x). With q = x / (a + x), t = 1 - 2 q and eta =
-// (x' - x) / (x' + x) they become, at x' instead of x,
-//
-//   1 / (a + x') = (1 - eta) / (1 - eta t) / (a + x),     |t| <= 1,
-//
-// so that one pass over the modes gives the step's stress for all x' nearby as a polynomial in eta. Those of
-// the exponential rule have no such form: there the first two terms serve very nearby.
+// Coefficients near a scale are polynomials (kernels::CoefficientRows), and so is the stress at the end of a
+// step: its terms are had from one pass over the modes before its scale is known. That pass is the one in
+// which the step before is taken.
 
 #include "coupled_step.hpp"
 
@@ -28,69 +24,95 @@ struct OneStep {
         curvature(steps.curvature ? steps.curvature[0] : 0.0) {}
 };
 
-constexpr double rational_reach = 6e-4;     // eta^4 is 1e-13
-constexpr double exponential_reach = 1e-8;  // eta^2 is 1e-16
+constexpr int terms = CoefficientRows::terms;
 
-// Numbers and pointers are taken by value: stores to rows could otherwise change them, as far as a compiler
-// knows.
-
-template <class Step>
-void expand_rational(const Modes modes, const OneStep step, Expansion& found, double* rows) {
-  const std::ptrdiff_t m = modes.padded;
-  Vector stress[4] = {}, by_forcing[3] = {};
-  for (std::ptrdiff_t at = 0; at < m; at += lanes) {
-    const Vector x = load(modes.inverse_ratio + at) * step.scale;
-    const StepCoefficients<Vector> c = Step::template coefficients<Vector>(x, step.ratio);
-    const Vector t = 1.0 - 2.0 * (x * c.forcing);
-    Vector forcing = load(modes.weight + at) * c.forcing;
-    Vector next =
-        c.previous * load(modes.state + at) + (c.before * load(modes.before + at) + forcing * step.forcing);
-    store(rows + at, next);
-    store(rows + m + at, t);
-    store(rows + 2 * m + at, forcing);
-#pragma GCC unroll 4
-    for (Vector& total : stress) {
-      total += next;
-      next *= t;
-    }
-#pragma GCC unroll 3
-    for (Vector& total : by_forcing) {
-      total += forcing;
-      forcing *= t;
-    }
-  }
-  store(found.stress, sums(stress[0], stress[1], stress[2], stress[3]));
-  store(found.by_forcing, sums(by_forcing[0], by_forcing[1], by_forcing[2], Vector{}));
-  found.by_curvature = 0.0;
-  found.reach = rational_reach;
+PROBATION_INLINE Vector polynomial(const double* row, std::ptrdiff_t stride, double distance) {
+  Vector value = load(row + (terms - 1) * stride);
+#pragma GCC unroll 8
+  for (int k = terms - 2; k >= 0; --k) value = value * distance + load(row + k * stride);
+  return value;
 }
 
-void expand_exponential(const Modes modes, const OneStep step, Expansion& found, double* rows) {
-  const std::ptrdiff_t m = modes.padded;
-  Vector stress{}, stress_slope{}, by_forcing{}, by_forcing_slope{}, by_curvature{};
-  for (std::ptrdiff_t at = 0; at < m; at += lanes) {
-    const Vector x = load(modes.inverse_ratio + at) * step.scale;
-    const Vector weight = load(modes.weight + at), z = load(modes.state + at);
-    const StepCoefficients<Vector> c = ExponentialStep::coefficients<Vector>(x, step.ratio);
-    const StepCoefficients<Vector> d = ExponentialStep::log_slopes<Vector>(x, step.ratio);
-    const Vector next = c.previous * z + weight * (c.forcing * step.forcing + c.curvature * step.curvature);
-    const Vector slope = d.previous * z + weight * (d.forcing * step.forcing + d.curvature * step.curvature);
-    const Vector forcing = weight * c.forcing, curvature = weight * c.curvature;
-    const Vector parts[4] = {next, slope, forcing, curvature};
-    for (std::ptrdiff_t row = 0; row < 4; ++row) store(rows + row * m + at, parts[row]);
-    stress += next;
-    stress_slope += slope;
-    by_forcing += forcing;
-    by_forcing_slope += weight * d.forcing;
-    by_curvature += curvature;
+/// Coefficients of four modes, and what a rule makes of them; `curved`: V is not zero. Numbers and pointers
+/// are copied: stores to the states could otherwise change them, as far as a compiler knows.
+template <bool curved>
+struct ExponentialNear {
+  static constexpr bool two_step = false;
+  const double *forcing_rows, *curvature_rows;
+  std::ptrdiff_t stride;
+  double distance, scale, forcing, curvature;
+
+  PROBATION_INLINE explicit ExponentialNear(const NearStep& s)
+      : forcing_rows(s.rows.forcing),
+        curvature_rows(s.rows.curvature),
+        stride(s.rows.stride),
+        distance(s.distance),
+        scale(s.scale),
+        forcing(s.forcing),
+        curvature(s.curvature) {}
+  PROBATION_INLINE Vector driven(Vector z, Vector, Vector inverse) const { return inverse * z; }
+  PROBATION_INLINE Vector taken(std::ptrdiff_t at, Vector z, Vector, Vector inverse, Vector weight) const {
+    const Vector c = polynomial(forcing_rows + at, stride, distance);
+    Vector next = z + c * (weight * forcing - inverse * scale * z);
+    if constexpr (curved) next += polynomial(curvature_rows + at, stride, distance) * (weight * curvature);
+    return next;
   }
-  found = {};
-  found.stress[0] = sum(stress);
-  found.stress[1] = found.stress[0] + 2.0 * sum(stress_slope);  // d ln x = 2 d eta
-  found.by_forcing[0] = sum(by_forcing);
-  found.by_forcing[1] = found.by_forcing[0] + 2.0 * sum(by_forcing_slope);
-  found.by_curvature = sum(by_curvature);
-  found.reach = exponential_reach;
+};
+
+struct RationalNear {
+  static constexpr bool two_step = true;
+  const double* forcing_rows;
+  std::ptrdiff_t stride;
+  double distance, of_here, of_before, forcing;
+
+  PROBATION_INLINE explicit RationalNear(const NearStep& s)
+      : forcing_rows(s.rows.forcing),
+        stride(s.rows.stride),
+        distance(s.distance),
+        of_here(s.here),
+        of_before(s.before),
+        forcing(s.forcing) {}
+  PROBATION_INLINE Vector driven(Vector z, Vector before, Vector) const {
+    return of_here * z + of_before * before;
+  }
+  PROBATION_INLINE Vector taken(std::ptrdiff_t at, Vector z, Vector before, Vector, Vector weight) const {
+    const Vector c = polynomial(forcing_rows + at, stride, distance);
+    return c * (of_here * z + (of_before * before + weight * forcing));
+  }
+};
+
+template <class Near, bool takes, bool looks>
+void pass(const Modes& of, std::ptrdiff_t first, const NearStep& taken_step, const NearStep& next_step,
+          StressNearby& found) {
+  const Modes modes = of;
+  const Near taken(taken_step), next(next_step);
+  Vector sum_of[terms] = {}, kept{};
+  for (std::ptrdiff_t at = first; at < modes.padded; at += lanes) {
+    Vector z = load(modes.state + at), before{};
+    const Vector inverse = load(modes.inverse_ratio + at);
+    if constexpr (Near::two_step) before = load(modes.before + at);
+    if constexpr (takes) {
+      const Vector now = taken.taken(at, z, before, inverse, load(modes.weight + at));
+      store(modes.before + at, z);
+      store(modes.state + at, now);
+      before = z;
+      z = now;
+    }
+    if constexpr (looks) {
+      const Vector driven = next.driven(z, before, inverse);
+      const double* row = next.forcing_rows + at;
+#pragma GCC unroll 8
+      for (int k = 0; k < terms; ++k) sum_of[k] += load(row + k * next.stride) * driven;
+      kept += z;
+    }
+  }
+  if constexpr (looks) {
+    store(found.by_distance, sums(sum_of[0], sum_of[1], sum_of[2], sum_of[3]));
+    const Vector rest = sums(sum_of[4], sum_of[5], kept, Vector{});
+    found.by_distance[4] = rest[0];
+    found.by_distance[5] = rest[1];
+    found.kept = rest[2];
+  }
 }
 
 /// Coefficients, unweighted, and what d ln x does.
@@ -117,35 +139,27 @@ StepSlopes linearise_by(const Modes modes, const OneStep step, double* rows) {
 
 }  // namespace
 
-void expand(const Modes& modes, const Steps& steps, Expansion& found, double* rows) {
-  switch (steps.rule) {
-    case StepRule::backward_euler:
-      return expand_rational<BackwardEulerStep>(modes, OneStep(steps), found, rows);
-    case StepRule::bdf2:
-      return expand_rational<Bdf2Step>(modes, OneStep(steps), found, rows);
-    case StepRule::exponential:
-      return expand_exponential(modes, OneStep(steps), found, rows);
-  }
+void look(const Modes& modes, const NearStep& next, StressNearby& found) {
+  if (next.exponential)
+    return pass<ExponentialNear<false>, false, true>(modes, next.slaved, next, next, found);
+  pass<RationalNear, false, true>(modes, 0, next, next, found);
 }
 
-void take(const Modes& of, StepRule rule, const Nearby& nearby, const double* rows) {
-  const Modes modes = of;
-  const Nearby to = nearby;
-  const std::ptrdiff_t m = modes.padded;
-  for (std::ptrdiff_t at = 0; at < m; at += lanes) {
-    Vector next = load(rows + at);
-    if (rule == StepRule::exponential) {
-      next += load(rows + m + at) * (2.0 * to.eta) + load(rows + 2 * m + at) * to.forcing +
-              load(rows + 3 * m + at) * to.curvature;
-    } else {
-      const Vector turned = load(rows + m + at) * to.eta;
-      next += load(rows + 2 * m + at) * to.forcing;
-      next *= 1.0 - to.eta;
-      next += next * (turned * (1.0 + turned * (1.0 + turned)));
-    }
-    store(modes.before + at, load(modes.state + at));
-    store(modes.state + at, next);
+void advance(const Modes& modes, const NearStep& taken, const NearStep* next, StressNearby& found) {
+  const bool curved = taken.rows.curvature != nullptr;
+  if (next && next->exponential == taken.exponential) {
+    if (!taken.exponential) return pass<RationalNear, true, true>(modes, 0, taken, *next, found);
+    const int first = taken.slaved < next->slaved ? taken.slaved : next->slaved;
+    if (curved) return pass<ExponentialNear<true>, true, true>(modes, first, taken, *next, found);
+    return pass<ExponentialNear<false>, true, true>(modes, first, taken, *next, found);
   }
+  if (!taken.exponential)
+    pass<RationalNear, true, false>(modes, 0, taken, taken, found);
+  else if (curved)
+    pass<ExponentialNear<true>, true, false>(modes, 0, taken, taken, found);
+  else
+    pass<ExponentialNear<false>, true, false>(modes, 0, taken, taken, found);
+  if (next) look(modes, *next, found);
 }
 
 StepSlopes linearise(const Modes& modes, const Steps& steps, double* rows) {

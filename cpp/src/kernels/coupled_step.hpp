@@ -5,8 +5,8 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-void expand(const Modes&, const Steps&, Expansion& found, double* rows);
-void take(const Modes&, StepRule, const Nearby&, const double* rows);
+void look(const Modes&, const NearStep&, StressNearby& found);
+void advance(const Modes&, const NearStep& taken, const NearStep* next, StressNearby& found);
 StepSlopes linearise(const Modes&, const Steps&, double* rows);
 double drift(const Modes&, const Steps&, const StepDirection&, const double* rows);
 void move(const Modes&, const StepChange&, const StepDirection&, const double* rows);

@@ -58,23 +58,35 @@ struct Trial {
   double by_curvature;  ///< d stress / d V
 };
 
-/// A step tried where its end is thought to lie, and its stress nearby. With eta = (scale - tried) / (scale +
-/// tried), u and v the changes of U and V,
-///
-///   stress = (1 - eta) (sum_k stress[k] eta^k + u sum_k by_forcing[k] eta^k) + v by_curvature.
-///
-/// u is small itself, so that its sum needs a term less; the fourth place is zero.
-struct Expansion {
-  static constexpr int terms = 4;
-  double stress[terms];
-  double by_forcing[terms];
-  double by_curvature;
-  double reach;  ///< largest |eta| at which what is left out is rounding
+/// Coefficients of all modes near one scale, as polynomials in the scale's relative distance from it: the
+/// term of distance^k of mode j stands in [k * stride + j]. Of bE2 on uneven steps the scale is x / a, a the
+/// coefficient of Bdf2Difference at the end of the step, and the coefficients are a times as large.
+struct CoefficientRows {
+  static constexpr int terms = 6;
+  static constexpr double reach = 3.5e-3;  ///< distance at which what is left out is rounding
+  const double* forcing;                   ///< of U
+  const double* curvature;                 ///< of V; null: zero
+  long stride;
 };
 
-/// How far from the step that was tried the step is that is taken; see Expansion.
-struct Nearby {
-  double eta, forcing, curvature;
+/// A step near the scale of some rows. With c and d the coefficients of U and V there,
+///
+///   exponential: z+ = z + c (p U - scale z / r) + d p V,     otherwise: z+ = c (here z + before z- + p U).
+struct NearStep {
+  bool exponential;
+  CoefficientRows rows;
+  double distance;
+  double scale;         ///< where exponential
+  double here, before;  ///< where not
+  double forcing, curvature;
+  int slaved;  ///< modes (the first ones, a multiple of four) that keep nothing of what they were
+};
+
+/// What the modes before a step contribute to the stress after it: sum_j z_j+ for U = V = 0 is the sum over k
+/// of by_distance[k] distance^k, or where exponential, `kept` less scale times that.
+struct StressNearby {
+  double by_distance[CoefficientRows::terms];
+  double kept;
 };
 
 /// How the stress at the end of a step moves with its inputs.
@@ -104,10 +116,16 @@ struct Kernels {
                   double* scratch);
   /// One step (the first of steps) tried, in states z_j; nothing is advanced.
   Trial (*trial)(const Modes&, const Steps&);
-  /// The same and its stress nearby; what take() needs goes to rows (4 * padded entries).
-  void (*expand)(const Modes&, const Steps&, Expansion& found, double* rows);
-  /// The expanded step, or one nearby, taken.
-  void (*take)(const Modes&, StepRule, const Nearby&, const double* rows);
+  /// Rows of `count` modes (a multiple of four) whose x at the rows' scale are given.
+  void (*fill_rows)(bool exponential, long count, const double* x, double* forcing, double* curvature,
+                    long stride);
+  /// sum_j p_j times each row.
+  void (*weigh_rows)(const Modes&, const CoefficientRows&, double* by_forcing, double* by_curvature);
+  /// Looks at a step that is still to be taken.
+  void (*look)(const Modes&, const NearStep&, StressNearby& found);
+  /// Takes a step and, if there is a next one, looks at it in the same pass. Modes that both steps enslave
+  /// stay behind: whatever they are, nothing of it is left afterwards.
+  void (*advance)(const Modes&, const NearStep& taken, const NearStep* next, StressNearby& found);
   /// One step's coefficients and slopes, for drift() and move(), to rows (5 * padded entries); not taken.
   StepSlopes (*linearise)(const Modes&, const Steps&, double* rows);
   /// A direction advanced by the step while scale, U and V hold; returns the slope of the stress.

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "blocks.hpp"
+#include "coefficient_rows.hpp"
 #include "coupled_step.hpp"
 #include "sweeps.hpp"
 
@@ -52,7 +53,16 @@ Trial trial(const Modes& modes, const Steps& steps) {
 
 #define PROBATION_TEXT_OF(name) #name
 #define PROBATION_TEXT(name) PROBATION_TEXT_OF(name)
-const Kernels table{
-    PROBATION_TEXT(PROBATION_ISA), sweep, tangent_sweep, trial, expand, take, linearise, drift, move};
+const Kernels table{PROBATION_TEXT(PROBATION_ISA),
+                    sweep,
+                    tangent_sweep,
+                    trial,
+                    fill_rows,
+                    weigh_rows,
+                    look,
+                    advance,
+                    linearise,
+                    drift,
+                    move};
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -12,10 +12,10 @@ from typing import cast
 from probation._files import write_whole
 from probation.blind.layout import Layout
 from probation.blind.origin import origin
-from probation.blind.pool import Progress, run_all
 from probation.blind.release import check_seed
 from probation.blind.seal import SEALS_FILE, SEALS_SCHEMA, read_json, read_truth, seal_truth
 from probation.errors import InputError
+from probation.pool import Progress, run_all
 
 _PLAN_FILE = "plan.json"
 _MAKING = ".making-"

@@ -16,9 +16,9 @@ import probation
 from probation._files import write_whole
 from probation.blind.layout import Layout
 from probation.blind.origin import origin
-from probation.blind.pool import Progress, run_all
 from probation.blind.seal import read_json
 from probation.blind.solvers import solver_named
+from probation.pool import Progress, run_all
 
 Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
 """From a campaign's folder to the answer of ``probation diagnose --json``."""

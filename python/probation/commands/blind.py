@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
-from concurrent.futures import Executor
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
+from probation.commands.cluster import cluster
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
 from probation.commands.progress import shown
 from probation.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 NAME = "blind"
 
@@ -92,7 +87,7 @@ def _make(options: argparse.Namespace) -> int:
         warn(
             f"--count: found {options.count}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them"
         )
-    with shown(f"making {options.split}", lines=True) as advance, _cluster(options.scheduler) as executor:
+    with shown(f"making {options.split}", lines=True) as advance, cluster(options.scheduler) as executor:
         layout = make_split(
             options.out,
             seed=options.seed,
@@ -115,7 +110,7 @@ def _solve(options: argparse.Namespace) -> int:
 
     named = [options.solver] if options.solver in BASELINES and options.answers is None else []
     solver = None if named else solver_named(options.solver or "diagnose")
-    with shown("solving", lines=True) as advance, _cluster(options.scheduler) as executor:
+    with shown("solving", lines=True) as advance, cluster(options.scheduler) as executor:
         solved = solve_split(
             options.folder,
             solver,
@@ -162,23 +157,3 @@ def _score(options: argparse.Namespace) -> int:
     for failure in fallen_short:
         print(f"failed: {failure}", file=sys.stderr)
     return 1 if fallen_short else 0
-
-
-@contextmanager
-def _cluster(address: str | None) -> Iterator[Executor | None]:
-    """The executor of a dask cluster, if one is named."""
-    if address is None:
-        yield None
-        return
-    try:
-        distributed = importlib.import_module("distributed")
-    except ImportError:
-        raise InputError(
-            "--scheduler: found no distributed; pip install 'probation[cluster]', or leave it out"
-        ) from None
-    try:
-        client = distributed.Client(address)
-    except (OSError, ValueError) as failure:
-        raise InputError(f"--scheduler: found nobody at {address}: {failure}") from None
-    with client, client.get_executor() as executor:
-        yield executor

@@ -13,8 +13,15 @@ from probation.diagnosis.explain import base_parameters, explanations_of, region
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import next_test_of
-from probation.diagnosis.probabilities import TEMPERED, answer_set, weigh, with_none_leading, with_unknown_leading
-from probation.diagnosis.remaining import remaining_gap
+from probation.diagnosis.probabilities import (
+    TEMPERED,
+    answer_set,
+    weigh,
+    with_none_leading,
+    with_unknown,
+    with_unknown_leading,
+)
+from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
 from probation.diagnosis.sharp_gap import with_sharp
@@ -118,16 +125,18 @@ def diagnose(
     if gap.rejected:
         left, judged = _judged(weighed, chosen, base, seed)
         if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
-            weighed = with_unknown_leading(weighed)
-            chosen = answer_set(weighed)
+            weighed, chosen = _with_unknown(weighed, judged)
         verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-    best = weighed[0]
-    if best.effects == (UNKNOWN,):
+    if weighed[0].effects == (UNKNOWN,):
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
+    shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+    if verdict == "explained" and leaves_too_much(shrink):
+        weighed, chosen = _with_unknown(weighed, judged)
+        verdict = "unexplained"
+    best = weighed[0]
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
-    shrink, curves = shrink_of(base, best.hypothesis, campaign, where.located, seed=seed)
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
     following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if design else None
@@ -175,6 +184,17 @@ def _judged(
         if each.hypothesis.causes:
             found[each.effects] = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
     return left, found
+
+
+def _with_unknown(
+    weighed: Sequence[Weighed], judged: dict[tuple[str, ...], Checks]
+) -> tuple[list[Weighed], tuple[tuple[str, ...], ...]]:
+    """The best explanation led by itself with an unknown effect beside, which keeps its checks; and the answer set."""
+    changed = with_unknown_leading(weighed)
+    known = weighed[0].effects
+    if known in judged:
+        judged.setdefault(with_unknown(known), judged[known])
+    return changed, answer_set(changed)
 
 
 def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:

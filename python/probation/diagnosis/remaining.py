@@ -13,12 +13,25 @@ from probation.gap.gap_test import GapTest, GapTester
 if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.refit import Refit
+    from probation.diagnosis.result import Shrink
 
 TOLERATED = 0.05
 """Relative error of an effect's form, record by record, that evidence takes for the effect's own."""
 
 TOLD = 0.25
 """Part of what evidence lets pass beyond which a gap is told to be left: it is real, whatever its cause."""
+
+MOST_LEFT = 1.5
+"""Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it explains too
+little, however its form may be wrong. Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise."""
+
+
+def leaves_too_much(shrink: Shrink) -> bool:
+    """Whether the misfit after the best explanation is plainly larger than what noise there may be."""
+    reachable = shrink.identify.noise_MPa
+    if shrink.ceiling is not None:
+        reachable = max(reachable, shrink.ceiling.after_MPa)
+    return shrink.identify.after_MPa > MOST_LEFT * reachable
 
 
 def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD) -> GapTest:

@@ -178,7 +178,11 @@ def checks_text(each: Explanation) -> list[str]:
         same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
     if each.effects not in ((), (UNKNOWN,)):
-        found.append("nothing but noise is left" if checks.remaining_p_value >= LEVEL else "a gap is left beside it")
+        found.append(
+            "what is left may be noise and the form's error"
+            if checks.remaining_p_value >= LEVEL
+            else "a gap is left beside it"
+        )
     return [*found, *(_without_names(note, each) for note in checks.notes)]
 
 

@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from probation.fe.where import cmake_prefix, include_path, interface_path, library_path
+from probation.fe.where import calculix_library, cmake_prefix, include_path, interface_path, library_path
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ("--cmake", cmake_prefix, "for CMAKE_PREFIX_PATH"),
         ("--interfaces", interface_path, "sources of the Abaqus, CalculiX, MGIS and C interfaces"),
         ("--library", library_path, "the compiled C interface"),
+        ("--calculix", calculix_library, "the compiled CalculiX routine, whose folder LD_LIBRARY_PATH must name"),
     ):
         which.add_argument(option, dest="path", action="store_const", const=path, help=text)
     parser.set_defaults(path=include_path)

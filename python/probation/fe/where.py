@@ -25,3 +25,8 @@ def interface_path() -> Path:
 def library_path() -> Path:
     """The compiled C interface, probation.h."""
     return cmake_prefix() / "lib" / "libprobation_c.so"
+
+
+def calculix_library() -> Path:
+    """The compiled CalculiX routine; ccx finds it by its name, libPROBATION.so, on the library path."""
+    return cmake_prefix() / "lib" / "libPROBATION.so"

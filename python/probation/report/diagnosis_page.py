@@ -150,7 +150,7 @@ def _which(found: Diagnosis) -> Section:
     )
     checks = (
         "Besides its probability an explanation has to pass checks: does it foretell records that it was not fitted "
-        "to, does it need the same strength in every record, and does it leave nothing but noise?"
+        "to, does it need the same strength in every record, and does it leave more than noise and its form's error?"
     )
     caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
     table, rest = which_table(found, _EXPLANATIONS)

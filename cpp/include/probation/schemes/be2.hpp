@@ -8,19 +8,31 @@
 
 namespace probation {
 
+/// Which rule a step uses.
+PROBATION_INLINE StepRule be2_rule(bool fresh, double ratio, Start start) {
+  if (!fresh && ratio < bdf2_largest_step_ratio) return StepRule::bdf2;
+  return start == Start::exponential ? StepRule::exponential : StepRule::backward_euler;
+}
+
+/// The part of U that the strain alone makes.
+template <class Real>
+PROBATION_INLINE Real be2_stiff(const StepData<Real>& s, Start start) {
+  if (be2_rule(s.fresh, s.ratio, start) == StepRule::exponential) return sa2_stiff(s);
+  return s.unrelaxed_modulus.next * (s.h * s.end_rate);
+}
+
 /// In z-form the relaxed stress enters through the same two-step difference as the unknown: literally eq.
 /// (9).
-template <class Real>
-PROBATION_INLINE StepForcing<Real> be2_step(const StepData<Real>& s, Start start) {
-  const bool fresh = s.fresh || s.ratio >= bdf2_largest_step_ratio;
-  if (fresh && start == Start::exponential) return sa2_step(s);
-  const Real stiff = s.unrelaxed_modulus.next * (s.h * s.end_rate);
+template <class Real, class Stiff>
+PROBATION_INLINE StepForcing<Real> be2_step(const StepData<Real>& s, Start start, const Stiff& stiff) {
+  const StepRule rule = be2_rule(s.fresh, s.ratio, start);
+  if (rule == StepRule::exponential) return sa2_step(s, stiff);
   const Real scale = s.h * s.fluidity.next;
   const Three<Real>& relaxed = s.relaxed_stress;
-  if (fresh) return {StepRule::backward_euler, scale, stiff - (relaxed.next - relaxed.here), Real{}};
+  if (rule == StepRule::backward_euler) return {rule, scale, stiff - (relaxed.next - relaxed.here), Real{}};
   const Bdf2Difference difference(s.ratio);
   const Real change = difference(relaxed.next, relaxed.here, relaxed.before);
-  return {StepRule::bdf2, scale, stiff - change, Real{}};
+  return {rule, scale, stiff - change, Real{}};
 }
 
 }  // namespace probation

@@ -5,14 +5,24 @@
 
 namespace probation {
 
-/// Exact for piecewise-linear strain at constant tau_max but for the bend of e_HT within a step.
+/// The part of U that the strain alone makes.
 template <class Real>
-PROBATION_INLINE StepForcing<Real> sa2_step(const StepData<Real>& s) {
+PROBATION_INLINE Real sa2_stiff(const StepData<Real>& s) {
   const Real rise = s.true_strain.next - s.true_strain.here;
-  const Real stiff = s.constant_modulus ? s.unrelaxed_modulus.next * rise
-                                        : 0.5 * (s.unrelaxed_modulus.here + s.unrelaxed_modulus.next) * rise;
+  return s.constant_modulus ? s.unrelaxed_modulus.next * rise
+                            : 0.5 * (s.unrelaxed_modulus.here + s.unrelaxed_modulus.next) * rise;
+}
+
+/// Exact for piecewise-linear strain at constant tau_max but for the bend of e_HT within a step.
+template <class Real, class Stiff>
+PROBATION_INLINE StepForcing<Real> sa2_step(const StepData<Real>& s, const Stiff& stiff) {
   return {StepRule::exponential, trapezoid_reduced_time(s),
           stiff - (s.relaxed_stress.next - s.relaxed_stress.here), Real{}};
+}
+
+template <class Real>
+PROBATION_INLINE StepForcing<Real> sa2_step(const StepData<Real>& s) {
+  return sa2_step(s, sa2_stiff(s));
 }
 
 }  // namespace probation

@@ -19,12 +19,19 @@ PROBATION_INLINE Real parabolic_reduced_time(const StepData<Real>& s) {
   return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - (s.h * s.h / 6.0) * bend);
 }
 
+/// The part of U that the strain alone makes.
 template <class Real>
-PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s) {
-  if (s.fresh) return sa2_step(s);
+PROBATION_INLINE Real sa3_stiff(const StepData<Real>& s) {
+  return s.fresh ? sa2_stiff(s) : modulus_work(s);
+}
+
+template <class Real, class Stiff>
+PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s, const Stiff& stiff) {
+  if (s.fresh) return sa2_step(s, stiff);
   Real scale = parabolic_reduced_time(s);
-  if (!(scale > 0.0)) return sa2_step(s);  // f fell by more than 13 times: the parabola dips below zero
-  const Real change = modulus_work(s) - (s.relaxed_stress.next - s.relaxed_stress.here);
+  if (!(scale > 0.0))
+    return sa2_step(s, stiff);  // f fell by more than 13 times: the parabola dips below zero
+  const Real change = stiff - (s.relaxed_stress.next - s.relaxed_stress.here);
   const Real curvature =
       scale * (change - s.previous_forcing * scale / s.previous_scale) / (scale + s.previous_scale);
   return {StepRule::exponential, scale, change, curvature};

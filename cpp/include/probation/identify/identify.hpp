@@ -1,0 +1,75 @@
+#pragma once
+// Identification of the law on one record after another: E_u, tau_max (or alpha) and G of each.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "probation/solver.hpp"
+
+namespace probation {
+
+enum class IdentifyMethod {
+  variable_projection,  ///< E_u and G, in which the law is linear, projected out: a search in ln tau_max
+                        ///< alone
+  levenberg_marquardt,  ///< all three at once
+};
+
+/// What became of a record.
+enum class IdentifyStatus : std::int8_t {
+  converged = 0,
+  at_a_bound = 1,  ///< a parameter stopped at a bound, or tau_max (alpha) at the end of what is searched
+  did_not_converge = 2,
+  not_determined = 3,  ///< the record says nothing about a parameter: its error is infinite
+  not_finite = 4,      ///< a sample is not a finite number, or a noise not a positive one
+  times_do_not_increase = 5,
+  too_few_samples = 6,  ///< no more samples than parameters
+  impossible_rate = 7,  ///< the companion relation gives no time at a rate of the record
+};
+
+struct IdentifyOptions {
+  Scheme scheme = Scheme::sa3;
+  Start start = Start::exponential;
+  IdentifyMethod method = IdentifyMethod::variable_projection;
+  std::array<bool, 3> held{false, false, false};  ///< which keep the law's value
+  Eigen::Array3d lower = Eigen::Array3d::Zero();  ///< of E_u [MPa], tau_max [s] or alpha [-], G [MPa]
+  Eigen::Array3d upper = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  bool find_jumps = true;  ///< of the strain rate, record by record
+
+  /// @throws InputError  if nothing is left to identify, a bound is not possible or the scheme has no
+  /// sensitivities
+  void validate() const;
+};
+
+struct Identified {
+  Eigen::Array3d parameters;      ///< E_u [MPa], tau_max [s] or alpha [-], G [MPa]
+  Eigen::Array3d standard_error;  ///< white noise, s^2 (J^T J)^-1; 0 where held
+  double rms_residual;            ///< [MPa]
+  IdentifyStatus status;
+  int iterations;  ///< solves of the whole record with their slopes
+};
+
+/// Identifies records one after another; its arrays are kept between them.
+class Identifier {
+ public:
+  /// @param law  gives the spectrum, the companion relation and the values of what is held
+  Identifier(const Law& law, const IdentifyOptions& options);
+  ~Identifier();
+  Identifier(Identifier&&) noexcept;
+  Identifier& operator=(Identifier&&) noexcept;
+
+  /// A bad record gets a status and NaN; nothing is thrown on its account.
+  /// @param time, true_strain, true_stress  [s], [-], [MPa]; shape (n_times)
+  /// @param noise  standard deviation of the stress, for its ratios within the record [MPa]; shape (n_times)
+  /// or empty
+  Identified operator()(const Eigen::ArrayXd& time, const Eigen::ArrayXd& true_strain,
+                        const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise);
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> work_;
+};
+
+}  // namespace probation

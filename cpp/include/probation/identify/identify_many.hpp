@@ -1,0 +1,36 @@
+#pragma once
+// Identification in bulk: one record per row, a field of pixels say.
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "probation/identify/identify.hpp"
+#include "probation/sample_rows.hpp"
+#include "probation/thread_pool.hpp"
+
+namespace probation {
+
+struct BulkRecords {
+  Eigen::Index records, n_times;
+  SampleRows time;         ///< [s]
+  SampleRows true_strain;  ///< [-]
+  SampleRows true_stress;  ///< [MPa]
+  SampleRows noise;        ///< standard deviation of the stress [MPa]
+  bool noise_given = false;
+};
+
+/// Where the answers go; see Identified.
+struct BulkOutput {
+  Eigen::Ref<RowMajorMatrix> parameters;                            ///< shape (records, 3)
+  Eigen::Ref<RowMajorMatrix> standard_error;                        ///< shape (records, 3)
+  Eigen::Ref<Eigen::ArrayXd> rms_residual;                          ///< [MPa]; shape (records)
+  Eigen::Ref<Eigen::Array<std::int8_t, Eigen::Dynamic, 1>> status;  ///< IdentifyStatus; shape (records)
+  Eigen::Ref<Eigen::ArrayXi> iterations;                            ///< shape (records)
+};
+
+/// Identifies every record by itself; the answers depend on neither the threads nor the other records.
+/// @throws InputError  for options or shapes that do not fit; never for what a record holds
+void identify_many(const Law& law, const BulkRecords& records, const IdentifyOptions& options,
+                   const BatchRun& run, BulkOutput out);
+
+}  // namespace probation

@@ -1,0 +1,61 @@
+#pragma once
+// Step coefficients as functions of the scale: cells so narrow that in each a polynomial has all digits.
+// Filled where they are asked for, and kept from solve to solve.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/kernels.hpp"
+#include "modal_group.hpp"
+
+namespace probation {
+
+/// Coefficients of all modes for scales near `centre`, and their sums over the modal weights.
+struct CoefficientCell {
+  static constexpr std::int64_t none = INT64_MIN;
+
+  std::int64_t index = none;
+  double centre = 0.0, inverse_centre = 0.0;
+  kernels::CoefficientRows rows{};
+  int slaved = 0;  ///< as in kernels::NearStep
+  double by_forcing[kernels::CoefficientRows::terms], by_curvature[kernels::CoefficientRows::terms];
+
+  double distance(double scale) const { return scale * inverse_centre - 1.0; }
+};
+
+/// The cells of one rule. In a log-spaced spectrum one row of coefficients serves all scales that differ by
+/// the spacing: there they belong to the next mode. Other spectra have rows for each cell.
+class CoefficientTable {
+ public:
+  explicit CoefficientTable(bool exponential) : exponential_(exponential) {}
+
+  /// Forgets what belongs to other modes.
+  void set(const ModalGroup& modes, bool curved);
+  /// The cell around a scale; null where the scale is not a number of any use. Its rows
+  /// hold through the next call, for which others may have to go.
+  const CoefficientCell* near(double scale);
+
+ private:
+  struct Block {
+    std::int64_t first = CoefficientCell::none;  // which entry, or which cell, its rows begin with
+    std::vector<double> rows;
+  };
+  void find_spacing();
+  void enter(CoefficientCell& cell);
+  void forget_others_of(std::int64_t phase, std::int64_t index);
+  void fill(std::size_t block, std::int64_t first, double scale);
+
+  bool exponential_, curved_ = false, spaced_ = false;
+  ModalGroup modes_;                       // of which the rows are
+  double width_ = 0.0;                     // of a cell, in ln scale
+  std::int64_t step_ = 1;                  // to the entry that follows as the scale grows by the spacing
+  Eigen::Index entries_ = 0;               // in a row
+  Eigen::ArrayXd inverse_ratio_, scaled_;  // of the entries; times the scale of the block being filled
+  std::vector<Block> blocks_;
+  std::vector<double> before_;  // the rows that went last
+  std::vector<CoefficientCell> cells_;
+  CoefficientCell* last_ = nullptr;
+};
+
+}  // namespace probation

@@ -1,0 +1,171 @@
+#include "probation/identify/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "identify/search.hpp"
+#include "probation/errors.hpp"
+
+namespace probation {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Identified bad(IdentifyStatus status) {
+  return {Eigen::Array3d::Constant(not_a_number), Eigen::Array3d::Constant(not_a_number), not_a_number,
+          status, 0};
+}
+
+}  // namespace
+
+void IdentifyOptions::validate() const {
+  if (scheme == Scheme::exact || scheme == Scheme::cvode)
+    throw InputError("identification needs sensitivities: use the scheme be2, sa2 or sa3");
+  if (held[0] && held[1] && held[2])
+    throw InputError("every parameter is held; one is needed that is left to identify");
+  for (Index i = 0; i < 3; ++i)
+    if (!(lower[i] >= 0.0 && lower[i] < upper[i]))
+      throw InputError("the bounds of parameter " + std::to_string(i) + " are " + std::to_string(lower[i]) +
+                       " and " + std::to_string(upper[i]) + "; 0 <= lower < upper is needed");
+}
+
+struct Identifier::Workspace {
+  Law law;
+  IdentifyOptions options;
+  RecordFit full, thinned;
+
+  /// Range of tau_max (or alpha) worth searching: from far below a sample to far beyond the record.
+  Bounds log_time(const History& history) const {
+    double low = 1e-3, high = 1e3;
+    if (!law.companion) {
+      low *= history.step().minCoeff();
+      high *= history.time()[history.size() - 1] - history.time()[0];
+    }
+    low = std::max(low, options.lower[1]);
+    return {std::log(low), std::log(std::max(low, std::min(high, options.upper[1])))};
+  }
+
+  Search search(const SearchSpace& space, const ArrayXd& true_stress, const ArrayXd& noise) {
+    constexpr Index coarse_steps = 100;
+    full.take_data(true_stress, noise);
+    std::vector<double> starts{space.log_time.lower};
+    if (!options.held[1]) {
+      const Index stride = (full.solves.size() - 1) / coarse_steps;
+      if (stride > 1) {
+        thinned.solves.take_thinned(full.solves, stride);
+        thinned.take_data(true_stress, noise);
+      }
+      starts = coarse_search(stride > 1 ? thinned : full, space);
+    }
+    const auto from = [&](double start) {
+      return options.method == IdentifyMethod::variable_projection ? variable_projection(full, space, start)
+                                                                   : levenberg_marquardt(full, space, start);
+    };
+    Search best = from(starts[0]);
+    if (starts.size() == 1) return best;
+    int iterations = best.iterations;
+    std::size_t best_start = 0, last = 0;
+    for (std::size_t k = 1; k < starts.size(); ++k) {
+      Search other = from(starts[k]);
+      iterations += other.iterations;
+      last = k;
+      if (other.point.cost < best.point.cost) {
+        best = other;
+        best_start = k;
+      }
+    }
+    if (best_start != last) best = from(starts[best_start]);  // whose residual is kept
+    best.iterations = iterations;
+    return best;
+  }
+};
+
+Identifier::Identifier(const Law& law, const IdentifyOptions& options)
+    : work_(std::make_unique<Workspace>()) {
+  options.validate();
+  Law tried = law;  // what is not held may be anything
+  for (int i = 0; i < 3; ++i)
+    if (!options.held[static_cast<std::size_t>(i)])
+      (i == 0          ? tried.unrelaxed_modulus
+       : i == 2        ? tried.hardening_modulus
+       : law.companion ? tried.alpha
+                       : tried.tau_max) = 1.0;
+  tried.validate();
+  work_->law = tried;
+  work_->options = options;
+  work_->full.solves.set_modes(law.spectrum);
+  work_->thinned.solves.set_modes(law.spectrum);
+}
+Identifier::~Identifier() = default;
+Identifier::Identifier(Identifier&&) noexcept = default;
+Identifier& Identifier::operator=(Identifier&&) noexcept = default;
+
+Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strain, const ArrayXd& true_stress,
+                                  const ArrayXd& noise) {
+  // A stretch beyond all numbers: its square overflows.
+  constexpr double largest_strain = 350.0;
+  Workspace& w = *work_;
+  const IdentifyOptions& options = w.options;
+  const Law& law = w.law;
+  const Index n = time.size();
+  const auto free = static_cast<Index>(std::count(options.held.begin(), options.held.end(), false));
+  if (n < 2 || n <= free) return bad(IdentifyStatus::too_few_samples);
+  const bool finite = time.allFinite() && true_strain.allFinite() && true_stress.allFinite() &&
+                      true_strain.abs().maxCoeff() < largest_strain && noise.allFinite() &&
+                      (noise > 0.0).all();
+  if (!finite) return bad(IdentifyStatus::not_finite);
+  if (!(time.tail(n - 1) > time.head(n - 1)).all()) return bad(IdentifyStatus::times_do_not_increase);
+
+  SearchSpace space{options.held, {}, {}, {}};
+  try {
+    const History history =
+        options.find_jumps ? History(FindJumps{}, time, true_strain) : History(time, true_strain);
+    w.full.solves.take(law, history, options.scheme, options.start);
+    space.log_time = w.log_time(history);
+  } catch (const InputError&) {
+    return bad(IdentifyStatus::impossible_rate);
+  }
+  const double fixed[3] = {law.unrelaxed_modulus, law.companion ? law.alpha : law.tau_max,
+                           law.hardening_modulus};
+  space.modulus = options.held[0] ? Bounds{fixed[0], fixed[0]} : Bounds{options.lower[0], options.upper[0]};
+  space.hardening = options.held[2] ? Bounds{fixed[2], fixed[2]} : Bounds{options.lower[2], options.upper[2]};
+  if (options.held[1]) space.log_time = {std::log(fixed[1]), std::log(fixed[1])};
+
+  const Search search = w.search(space, true_stress, noise);
+  w.full.move(search.step);
+  const Eigen::Array3d ends[2] = {
+      {space.modulus.lower, std::exp(space.log_time.lower), space.hardening.lower},
+      {space.modulus.upper, std::exp(space.log_time.upper), space.hardening.upper}};
+  Identified found;
+  found.status = search.status;
+  found.iterations = search.iterations;
+  found.rms_residual = w.full.rms();
+  found.parameters = {search.point.unrelaxed_modulus + search.step[0],
+                      options.held[1] ? fixed[1] : std::exp(search.point.log_time + search.step[1]),
+                      search.point.hardening_modulus + search.step[2]};
+  found.parameters = found.parameters.max(ends[0]).min(ends[1]);
+
+  // At a bound, too, the others' errors count it as free.
+  const FreeInverse all = invert(search.point.normal, {!options.held[0], !options.held[1], !options.held[2]});
+  const double scatter = w.full.cost() / static_cast<double>(n - free);
+  for (int i = 0; i < 3; ++i) {
+    const bool held = options.held[static_cast<std::size_t>(i)];
+    const double variance = scatter * all.matrix(i, i);
+    found.standard_error[i] = held             ? 0.0
+                              : all.determined ? std::sqrt(variance)
+                                               : std::numeric_limits<double>::infinity();
+    if (i == 1) found.standard_error[i] *= found.parameters[1];
+    if (!held && found.status == IdentifyStatus::converged &&
+        (found.parameters[i] <= ends[0][i] || found.parameters[i] >= ends[1][i]))
+      found.status = IdentifyStatus::at_a_bound;
+  }
+  if (!all.determined && found.status == IdentifyStatus::converged)
+    found.status = IdentifyStatus::not_determined;
+  return found;
+}
+
+}  // namespace probation

@@ -1,0 +1,54 @@
+#include "probation/identify/identify_many.hpp"
+
+#include <string>
+#include <vector>
+
+#include "probation/errors.hpp"
+
+namespace probation {
+namespace {
+
+using Eigen::Index;
+
+struct Scratch {
+  Identifier identifier;
+  Eigen::ArrayXd time, true_strain, true_stress, noise;
+};
+
+void require_length(Index found, Index expected, const char* name) {
+  if (found != expected)
+    throw InputError(std::string("out.") + name + " has " + std::to_string(found) + " records; " +
+                     std::to_string(expected) + " are needed");
+}
+
+}  // namespace
+
+void identify_many(const Law& law, const BulkRecords& records, const IdentifyOptions& options,
+                   const BatchRun& run, BulkOutput out) {
+  require_length(out.parameters.rows(), records.records, "parameters");
+  require_length(out.standard_error.rows(), records.records, "standard_error");
+  require_length(out.rms_residual.size(), records.records, "rms_residual");
+  require_length(out.status.size(), records.records, "status");
+  require_length(out.iterations.size(), records.records, "iterations");
+  std::vector<Scratch> scratches;
+  for (int worker = workers_for(records.records, run); worker > 0; --worker) {
+    const auto n = records.n_times;
+    scratches.push_back({Identifier(law, options), Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n),
+                         Eigen::ArrayXd(records.noise_given ? n : 0)});
+  }
+  in_parallel(records.records, run, [&](int worker, Index record) {
+    Scratch& s = scratches[static_cast<std::size_t>(worker)];
+    records.time.read(record, s.time);
+    records.true_strain.read(record, s.true_strain);
+    records.true_stress.read(record, s.true_stress);
+    if (records.noise_given) records.noise.read(record, s.noise);
+    const Identified found = s.identifier(s.time, s.true_strain, s.true_stress, s.noise);
+    out.parameters.row(record) = found.parameters.matrix().transpose();
+    out.standard_error.row(record) = found.standard_error.matrix().transpose();
+    out.rms_residual[record] = found.rms_residual;
+    out.status[record] = static_cast<std::int8_t>(found.status);
+    out.iterations[record] = found.iterations;
+  });
+}
+
+}  // namespace probation

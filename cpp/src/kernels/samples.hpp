@@ -1,0 +1,36 @@
+#pragma once
+// What is had of the samples of a record in one pass over them. Plain pointers, as in kernels.hpp.
+
+#include <cstdint>
+
+namespace probation::kernels {
+
+/// What the steps of a record look like. A pass only says whether all is as it mostly is.
+struct StepTraits {
+  bool increasing;  ///< every step is positive and finite
+  bool even;        ///< every step differs from the first by no more than was allowed
+};
+
+struct SamplePasses {
+  /// e_HT of every sample; -inf, inf or nan where there is none. False if such a sample is there.
+  bool (*haward_thackray)(const double* true_strain, std::int64_t count, double* result);
+  /// Of `count` instants, at least 2.
+  StepTraits (*inspect_steps)(const double* time, std::int64_t count, double allowed_difference);
+  /// Whether the secant changes anywhere by more than `least`, relative to the larger of the two.
+  bool (*secant_changes)(const double* time, const double* values, std::int64_t count, double least);
+};
+
+/// In the build of the kernels that runs.
+const SamplePasses& sample_passes();
+
+namespace portable {
+extern const SamplePasses sample_passes;
+}
+namespace baseline {
+extern const SamplePasses sample_passes;
+}
+namespace v3 {
+extern const SamplePasses sample_passes;
+}
+
+}  // namespace probation::kernels

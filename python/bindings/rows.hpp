@@ -1,0 +1,18 @@
+#pragma once
+// Rows of samples where NumPy holds them, and the interpreter during a long batch.
+
+#include "bindings.hpp"
+#include "probation/sample_rows.hpp"
+
+/// float32 or float64, contiguous; one row is every record's.
+inline probation::SampleRows rows(const py::array& samples) {
+  const py::ssize_t stride = samples.ndim() == 2 ? samples.shape(1) : 0;
+  if (samples.itemsize() == sizeof(float)) return {static_cast<const float*>(samples.data()), stride};
+  return {static_cast<const double*>(samples.data()), stride};
+}
+
+/// An interrupt from the keyboard ends a batch: called now and then without the interpreter's lock.
+inline void raise_signals() {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}

@@ -1,0 +1,215 @@
+"""Identification in bulk: one record per pixel of a field, each identified by itself in the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from probation import _core
+from probation._arrays import FloatArray, Rows, as_rows, as_whole_number, one_of
+from probation.errors import InputError
+from probation.history import Jumps
+from probation.law import Law, Scheme, Start
+
+Method = Literal["variable projection", "levenberg-marquardt"]
+METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
+
+SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+"""The schemes that have sensitivities."""
+
+STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
+"""What the entries of `BulkIdentification.status` mean, by number."""
+
+SOLVED = (0, 1)
+"""The statuses of records whose parameters are a minimum: converged, and at a bound."""
+
+
+@dataclass(frozen=True, eq=False)
+class BulkIdentification:
+    """What `identify_many` found.
+
+    Attributes
+    ----------
+    parameters : ndarray, shape (records, 3)
+        E_u [MPa], tau_max [s] or alpha [-], G [MPa], held ones too; NaN where the record is bad.
+    standard_error : ndarray, shape (records, 3)
+        As the parameters, for white noise, s^2 (J^T J)^-1: 0 where held, inf where the record does not tell.
+    rms_residual : ndarray, shape (records,) [MPa]
+    status : ndarray of int8, shape (records,)
+        A key of `STATUS_WORDS`.
+    iterations : ndarray of int32, shape (records,)
+        Solves of the whole record with their slopes.
+    """
+
+    parameters: FloatArray
+    standard_error: FloatArray
+    rms_residual: FloatArray
+    status: NDArray[np.int8]
+    iterations: NDArray[np.int32]
+
+    @classmethod
+    def empty(cls, records: int) -> BulkIdentification:
+        """Arrays to be filled."""
+        return cls(
+            np.empty((records, 3)),
+            np.empty((records, 3)),
+            np.empty(records),
+            np.empty(records, dtype=np.int8),
+            np.empty(records, dtype=np.int32),
+        )
+
+    @property
+    def converged(self) -> NDArray[np.bool_]:
+        """Whether each record was identified with no bound in the way, shape (records,)."""
+        return np.asarray(self.status == 0)
+
+    def counts(self) -> dict[str, int]:
+        """How many records have each status, by its words."""
+        numbers, times = np.unique(self.status, return_counts=True)
+        return {STATUS_WORDS[int(number)]: int(count) for number, count in zip(numbers, times, strict=True)}
+
+
+def identify_many(
+    law: Law,
+    time: ArrayLike,
+    true_strain: ArrayLike,
+    true_stress: ArrayLike,
+    scheme: Scheme = "sa3",
+    *,
+    method: Method = "variable projection",
+    noise: ArrayLike | None = None,
+    held: Collection[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    start: Start = "exponential",
+    jumps: Jumps | None = "auto",
+    threads: int = 0,
+    out: BulkIdentification | None = None,
+) -> BulkIdentification:
+    """Identify the law on many records, each by itself.
+
+    The estimates are those of `fit` with white noise and one step of the scheme from sample to sample. A record that is
+    bad gets a status and NaN; the others go on.
+
+    Parameters
+    ----------
+    law : Law
+        Gives the spectrum, the companion relation, and the values of the parameters that are held.
+    time : array_like, shape (n_times,) or (records, n_times) [s]
+    true_strain : array_like, shape (n_times,) or (records, n_times) [-]
+    true_stress : array_like, shape (n_times,) or (records, n_times) [MPa]
+        These three in float32 or float64, rows contiguous, are read where they are; other types are copied. One row is
+        shared by all records.
+    scheme : {"be2", "sa2", "sa3"}
+    method : {"variable projection", "levenberg-marquardt"}
+        Both find the same minimum, after the same coarse search over all of tau_max (or alpha).
+    noise : array_like, optional
+        Standard deviation of the stress [MPa], as NumPy spreads it to (records, n_times). Only its ratios within a
+        record matter: what a record's residuals scatter says how large it is.
+    held : collection of str
+        Names of the law's parameters that keep their values.
+    bounds : dict of str to (float, float), optional
+        By the law's parameter names; every parameter is positive in any case.
+    start : {"exponential", "backward_euler"}
+        bE2's first step.
+    jumps : "auto" or None
+        Whether each record is searched for jumps of its strain rate, as `Law.stress` does.
+    threads : int
+        0: all cores.
+    out : BulkIdentification, optional
+        Where to write.
+
+    Returns
+    -------
+    BulkIdentification
+
+    Raises
+    ------
+    InputError
+        For arguments that do not fit together; never for what a record holds.
+    """
+    arrays = {
+        "time": as_rows(time, "time"),
+        "true_strain": as_rows(true_strain, "true_strain"),
+        "true_stress": as_rows(true_stress, "true_stress"),
+    }
+    n_times = arrays["time"].shape[-1]
+    shapes = {len(each) for each in arrays.values() if each.ndim == 2}
+    records = max(shapes) if len(shapes) == 1 else 1
+    if len(shapes) > 1 or any(each.shape[-1] != n_times for each in arrays.values()):
+        found = ", ".join(f"{name} {each.shape}" for name, each in arrays.items())
+        raise InputError(f"found {found}; expected (n_times,) or (records, n_times) each, the same for all")
+    weights = None
+    if noise is not None:
+        weights = _as_noise(noise, records, n_times)
+    answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
+    _core.identify_many(
+        law.engine,
+        arrays["time"],
+        arrays["true_strain"],
+        arrays["true_stress"],
+        weights,
+        _options(law, scheme, method, held, bounds or {}, start, jumps),
+        as_whole_number(threads, "threads"),
+        answer.parameters,
+        answer.standard_error,
+        answer.rms_residual,
+        answer.status,
+        answer.iterations,
+    )
+    return answer
+
+
+def _options(
+    law: Law,
+    scheme: Scheme,
+    method: Method,
+    held: Collection[str],
+    bounds: Mapping[str, tuple[float, float]],
+    start: Start,
+    jumps: Jumps | None,
+) -> _core.IdentifyOptions:
+    names = law.parameter_names
+    for name in held:
+        one_of(name, "held", names)
+    lower, upper = np.zeros(3), np.full(3, np.inf)
+    for name, (low, high) in bounds.items():
+        index = names.index(one_of(name, "bounds", names))
+        lower[index], upper[index] = low, high
+    if jumps is not None:
+        one_of(jumps, "jumps", ("auto",))
+    return _core.IdentifyOptions(
+        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
+        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+        getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
+        [name in held for name in names],
+        lower,
+        upper,
+        jumps is not None,
+    )
+
+
+def _as_noise(noise: ArrayLike, records: int, n_times: int) -> Rows:
+    shape = np.shape(noise)
+    if shape in ((n_times,), (records, n_times)):
+        return as_rows(noise, "noise")
+    try:
+        return np.ascontiguousarray(np.broadcast_to(np.asarray(noise, dtype=np.float64), (records, n_times)))
+    except (TypeError, ValueError):
+        raise InputError(
+            f"noise has the shape {shape}; expected one that spreads to (records, n_times), {(records, n_times)}"
+        ) from None
+
+
+def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
+    wanted = BulkIdentification.empty(0)
+    for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
+        array, like = getattr(out, name), getattr(wanted, name)
+        shape = (records, *like.shape[1:])
+        fits = isinstance(array, np.ndarray) and array.shape == shape and array.dtype == like.dtype
+        if not (fits and array.flags.c_contiguous and array.flags.writeable):
+            raise InputError(f"out.{name} must be a writeable, contiguous {like.dtype} array of shape {shape}")
+    return out

@@ -1,0 +1,147 @@
+"""``probation field``: the law on every pixel of a full-field campaign."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+
+from probation.commands.cluster import cluster
+from probation.commands.delivery import add_delivery, deliver, named_numbers, said, tell
+from probation.commands.progress import shown
+from probation.errors import InputError
+
+NAME = "field"
+
+_DESCRIPTION = """\
+The law on every pixel of a field: a zarr store of strain and stress over (y, x, time), maps of parameters out of it.
+
+  probation field example --out neck/                          a synthetic necking specimen, 256 x 256 pixels
+  probation field identify neck/field.zarr --out neck/maps.zarr
+  probation field map neck/maps.zarr --truth neck/truth.zarr --plot maps.png
+
+An interrupted identification goes on where it stopped when it is called again. --scheduler takes the same call to a
+dask cluster whose workers see the same folders.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the command."""
+    parser = subparsers.add_parser(NAME, help="full fields: the law on every pixel", description=_DESCRIPTION)
+    steps = parser.add_subparsers(title="steps", metavar="STEP", dest="step")
+    example = steps.add_parser("example", help="make a synthetic necking field")
+    example.add_argument("--out", metavar="DIR", required=True, help="folder for field.zarr and truth.zarr")
+    example.add_argument("--size", type=int, default=256, help="pixels along each side (256)")
+    example.add_argument("--times", type=int, default=301, help="instants (301)")
+    example.add_argument("--seed", type=int, default=1, help="of the noise (1)")
+    identify = steps.add_parser("identify", help="identify the law on every pixel")
+    identify.add_argument("field", metavar="FIELD", help="zarr store or netCDF file")
+    identify.add_argument("--out", metavar="MAPS.zarr", required=True, help="store of the maps; gone on with if there")
+    identify.add_argument(
+        "--column",
+        metavar="ROLE=NAME",
+        action="append",
+        default=[],
+        help="variable of a role (time, true_strain, engineering_strain, stretch, true_stress, engineering_stress, "
+        "force, initial_area) where it is not named for it; repeatable",
+    )
+    identify.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="(be2)")
+    identify.add_argument(
+        "--method", choices=("variable-projection", "levenberg-marquardt"), default="variable-projection", help="search"
+    )
+    identify.add_argument(
+        "--companion", metavar="FORM:NUMBERS", help="tau_max from the strain rate, as in probation simulate"
+    )
+    identify.add_argument(
+        "--hold", metavar="NAME=VALUE", action="append", default=[], help="hold a parameter; repeatable"
+    )
+    identify.add_argument(
+        "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
+    )
+    identify.add_argument("--pixels", type=int, default=4096, help="of a task, at most (4096)")
+    identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
+    identify.add_argument("--afresh", action="store_true", help="remove the maps that are there and begin anew")
+    for step in (example, identify):
+        step.add_argument("--processes", type=int, help="at a time (all processors)")
+        step.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
+    maps = steps.add_parser("map", help="tell and draw what was identified")
+    maps.add_argument("maps", metavar="MAPS.zarr", help="as identify wrote it")
+    maps.add_argument("--truth", metavar="TRUTH.zarr", help="what is true, as example writes it")
+    add_delivery(maps, report=False)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    if options.step is None:
+        raise InputError("field: found no step, expected example, identify or map; see probation field --help")
+    return {"example": _example, "identify": _identify, "map": _map}[options.step](options)
+
+
+def _example(options: argparse.Namespace) -> int:
+    from probation.field.example.make import make_example  # noqa: PLC0415 - xarray and zarr are an extra
+
+    with shown("making the field", lines=True) as advance, cluster(options.scheduler) as executor:
+        field, truth = make_example(
+            options.out,
+            size=options.size,
+            times=options.times,
+            seed=options.seed,
+            processes=options.processes,
+            executor=executor,
+            progress=advance,
+        )
+    said("field", field)
+    said("truth", truth)
+    return 0
+
+
+def _identify(options: argparse.Namespace) -> int:
+    from probation.commands.law_options import companion_from  # noqa: PLC0415
+    from probation.field.identify import identify_field  # noqa: PLC0415
+    from probation.field.maps import open_maps  # noqa: PLC0415
+    from probation.field.source import open_field  # noqa: PLC0415
+    from probation.law import Law  # noqa: PLC0415
+
+    columns = {}
+    for entry in options.column:
+        role, equals, name = (part.strip() for part in entry.partition("="))
+        if not equals or not name:
+            raise InputError(f"--column: found {entry!r}, expected ROLE=NAME")
+        columns[role] = name
+    law = None
+    if options.companion is not None:
+        law = Law(unrelaxed_modulus=1000.0, hardening_modulus=1.0, companion=companion_from(options.companion))
+    source = open_field(options.field, columns)
+    begun = time.perf_counter()
+    with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
+        done = identify_field(
+            source,
+            options.out,
+            law,
+            options.scheme,
+            method=options.method.replace("variable-projection", "variable projection"),
+            smoothing=not options.raw_strain,
+            hold=named_numbers(options.hold, "--hold"),
+            pixels=options.pixels,
+            processes=options.processes,
+            threads=options.threads,
+            executor=executor,
+            afresh=options.afresh,
+            progress=advance,
+        )
+    took = time.perf_counter() - begun
+    again = f" ({done.again} of them anew: their maps were not what had been written)" if done.again else ""
+    tell(open_maps(done.path).summary(), sys.stdout)
+    print(f"  {done.now} blocks done now{again}, {done.before} before; {took:.3g} s")
+    said("maps", os.path.relpath(done.path))
+    return 0
+
+
+def _map(options: argparse.Namespace) -> int:
+    from probation.field.maps import open_maps  # noqa: PLC0415
+
+    maps = open_maps(options.maps)
+    deliver(maps if options.truth is None else maps.beside(options.truth), options)
+    return 0

@@ -1,0 +1,69 @@
+"""One task: read a block of pixels, identify the law on each, write the maps."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation.field.errors import drawn_errors
+from probation.field.pixels import Way, identify_pixels, with_more_noise
+from probation.field.samples import used_samples
+from probation.field.store import map_kinds, product_name
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from probation.field.grid import Block
+    from probation.field.source import FieldSource
+    from probation.field.store import MapStore
+
+SEED = 20200905
+"""Of the noise that is drawn for standard errors: with the block, so that a block done twice is the same."""
+
+
+@dataclass(frozen=True)
+class FieldTask:
+    """All that a worker needs to know, but for the block."""
+
+    source: FieldSource
+    store: MapStore
+    way: Way
+
+
+def identify_block(task: FieldTask, block: Block) -> Block:
+    """Do one block, unless it is done: a scheduler that lost the news of it asks again."""
+    if task.store.done(block, map_kinds(task.way.law)):
+        return block
+    clock = time.thread_time if task.way.threads == 1 else time.process_time
+    start = clock()
+    maps = block_maps(task, block)
+    task.store.write(block, maps, clock() - start)
+    return block
+
+
+def block_maps(task: FieldTask, block: Block) -> dict[str, NDArray[Any]]:
+    """Every map on a block."""
+    rows, columns = task.store.grid.slices(block)
+    shape = (rows.stop - rows.start, columns.stop - columns.start)
+    times, way = task.source.time, task.way
+    strain, stress = task.source.read(rows, columns)
+    used = used_samples(strain, stress)
+    found = identify_pixels(way, times, strain, stress, used)
+    chance = np.random.default_rng([SEED, *block])
+    strain, stress, level = with_more_noise(times, strain, stress, used, chance)
+    errors = drawn_errors(found, identify_pixels(way, times, strain, stress, used), level, shape)
+    maps: dict[str, NDArray[Any]] = {}
+    for column, name in enumerate(way.law.parameter_names):
+        maps[name] = found.parameters[:, column]
+        maps[f"{name}_standard_error"] = errors.parameters[:, column]
+    product = product_name(way.law)
+    maps[product] = found.parameters[:, 0] * found.parameters[:, 1]
+    maps[f"{product}_standard_error"] = errors.product
+    maps["rms_residual"], maps["noise"] = found.rms_residual, errors.noise
+    maps["samples"] = np.count_nonzero(used, axis=1)
+    maps["status"] = found.status
+    kinds = map_kinds(way.law)
+    return {name: maps[name].reshape(shape).astype(kind.dtype) for name, kind in kinds.items()}

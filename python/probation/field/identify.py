@@ -1,0 +1,245 @@
+"""`identify_field`: the law on every pixel of a field, block by block, on this machine or on a cluster."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from probation._arrays import one_of
+from probation._core import __version__
+from probation.answers import plain
+from probation.blind.origin import commit
+from probation.bulk import METHODS, SCHEMES, Method
+from probation.errors import InputError
+from probation.field.block import FieldTask, identify_block
+from probation.field.fingerprint import COVERS, fingerprint
+from probation.field.grid import block_grid
+from probation.field.pixels import Way
+from probation.field.source import FieldSource, open_field
+from probation.field.store import MapStore, map_kinds, read_run
+from probation.identify.parameter import inside_name, outside_name
+from probation.law import Law
+from probation.law_answer import law_answer
+from probation.pool import run_all
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+    from concurrent.futures import Executor
+
+    from probation.pool import Progress
+
+PIXELS = 4096
+"""Pixels of a task, unless told otherwise: seconds of work, megabytes of samples."""
+
+
+@dataclass(frozen=True)
+class FieldRun:
+    """What a run has done.
+
+    Attributes
+    ----------
+    path : str
+        Of the maps.
+    now, before : int
+        Blocks done in this run and found done.
+    again : int
+        Blocks that were marked as done, but whose maps were not what had been written; done anew.
+    """
+
+    path: str
+    now: int
+    before: int
+    again: int
+
+
+def identify_field(
+    field: str | os.PathLike[str] | FieldSource,
+    out: str | os.PathLike[str],
+    law: Law | None = None,
+    scheme: Literal["be2", "sa2", "sa3"] = "be2",
+    *,
+    method: Method = "variable projection",
+    hold: Mapping[str, float] | None = None,
+    smoothing: bool = True,
+    pixels: int = PIXELS,
+    processes: int | None = None,
+    threads: int = 0,
+    executor: Executor | None = None,
+    afresh: bool = False,
+    progress: Progress | None = None,
+) -> FieldRun:
+    """Identify the law on every pixel.
+
+    A run that was interrupted, or whose workers were, goes on where it stopped when it is called again: a block is
+    marked as done once it is whole, and not before.
+
+    Parameters
+    ----------
+    field : path or FieldSource
+        As `open_field` reads it.
+    out : path
+        A zarr store for the maps; begun, or gone on with.
+    law : Law, optional
+        Gives spectrum and companion relation; the paper's spectrum and a constant tau_max if left out.
+    scheme : {"be2", "sa2", "sa3"}
+    method : {"variable projection", "levenberg-marquardt"}
+    hold : dict of str to float, optional
+        Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
+    smoothing : bool
+        Whether the strain's noise is taken out first, with a spline that each record chooses; leave it on unless the
+        strain is free of noise or its rate jumps.
+    pixels : int
+        Of a task, at most.
+    processes : int, optional
+        At a time, each with one thread; all processors if left out. 1 stays in this process.
+    threads : int
+        Of the engine where there is one process; 0: all cores.
+    executor : Executor, optional
+        Instead of processes of its own, such as that of a cluster's client; its workers see the same folders.
+    afresh : bool
+        Remove what is in `out` and begin anew.
+    progress : callable, optional
+        Called with blocks done, blocks in all, and which.
+
+    Returns
+    -------
+    FieldRun
+
+    Raises
+    ------
+    InputError
+        For a field that cannot be read, or maps in `out` that were made from another field or in another way.
+    """
+    one_of(scheme, "scheme", SCHEMES)
+    one_of(method, "method", METHODS)
+    if pixels < 1 or threads < 0:
+        raise InputError(f"found pixels = {pixels}, threads = {threads}; expected at least 1 and 0")
+    source = field if isinstance(field, FieldSource) else open_field(field)
+    law, held = _law_with(law, hold or {})
+    grid = block_grid(source.shape, source.chunks, pixels)
+    path = Path(out).absolute()
+    run = _run(source, law, scheme, method, held, smoothing, grid.block)
+    store = MapStore(str(path), grid)
+    if afresh and path.exists():
+        read_run(str(path))  # nothing else is ever removed
+        shutil.rmtree(path)
+    if path.exists():
+        _check_same(path, run)
+    else:
+        begun = {**run, "version": __version__, "commit": commit(), "field": source.path, "sha256_covers": COVERS}
+        store.create(map_kinds(law), begun, source.coordinates())
+    alone = executor is None and processes == 1
+    task = FieldTask(source, store, Way(law, scheme, method, held, smoothing, threads if alone else 1))
+    return _run_blocks(task, processes=processes, executor=executor, progress=progress)
+
+
+def _run_blocks(
+    task: FieldTask,
+    *,
+    processes: int | None,
+    executor: Executor | None,
+    progress: Progress | None,
+) -> FieldRun:
+    """Do the blocks that are not done, however often it takes.
+
+    Raises
+    ------
+    RuntimeError
+        If workers die of a block again and again, or a block that was done is not there.
+    """
+    kinds = map_kinds(task.way.law)
+    marked = task.store.marked()
+    whole = {block for block in task.store.grid.blocks() if marked[block] and task.store.done(block, kinds)}
+    left = [block for block in task.store.grid.blocks() if block not in whole]
+    total = len(whole) + len(left)
+    advance = None if progress is None else lambda done, _, what: progress(len(whole) + done, total, what)
+    try:
+        run_all(
+            identify_block,
+            {block: (task, block) for block in left},
+            processes=processes,
+            executor=executor,
+            progress=advance,
+            on_done=None,
+        )
+    except Exception as failure:
+        if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
+            raise
+        raise RuntimeError(
+            f"{task.store.path}: workers died of the same block again and again, as they do where memory is short: "
+            f"give fewer --pixels than {task.store.grid.block[0] * task.store.grid.block[1]}; what is done is kept"
+        ) from failure
+    lacking = np.argwhere(~task.store.marked())
+    if len(lacking):
+        raise RuntimeError(f"{task.store.path}: block {tuple(lacking[0].tolist())} was done and is not marked")
+    return FieldRun(task.store.path, len(left), len(whole), int(np.count_nonzero(marked)) - len(whole))
+
+
+def _law_with(law: Law | None, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
+    """The law with what is held, and the names of that."""
+    law = law or Law(unrelaxed_modulus=1000.0, tau_max=1.0, hardening_modulus=1.0)
+    values = dict(zip(law.parameter_names, law.parameters.tolist(), strict=True))
+    for outside, value in hold.items():
+        inside = inside_name(outside)
+        if inside not in values:
+            expected = ", ".join(outside_name(name) for name in values)
+            raise InputError(f"hold: {outside!r} is not a parameter of this law; expected one of {expected}")
+        values[inside] = float(value)
+    held = tuple(name for name in law.parameter_names if outside_name(name) in hold)
+    if len(held) == len(values):
+        raise InputError("hold: found every parameter held, expected one left to identify")
+    return law.with_parameters(list(values.values())), held
+
+
+def _run(
+    source: FieldSource,
+    law: Law,
+    scheme: str,
+    method: str,
+    held: tuple[str, ...],
+    smoothing: bool,
+    block: tuple[int, int],
+) -> dict[str, Any]:
+    """What must be the same for a run to go on."""
+    told = law_answer(law)
+    told["parameters"] = {outside_name(name): getattr(law, name) for name in held}
+    content = {
+        "field_sha256": fingerprint(source),
+        "law": told,
+        "scheme": scheme,
+        "method": method,
+        "smoothing": smoothing,
+        "block": list(block),
+    }
+    return {name: plain(value) for name, value in content.items()}
+
+
+def _check_same(path: Path, run: Mapping[str, Any]) -> None:
+    """Raise an InputError where maps were begun otherwise."""
+    before = read_run(str(path))
+    told = {
+        "field_sha256": "the field has changed, or is another",
+        "law": "the law is another",
+        "scheme": "the scheme is another",
+        "method": "the method is another",
+        "smoothing": "the strain is smoothed, or not",
+        "block": "the blocks are others (--pixels)",
+        "version": "the version of probation is another",
+    }
+    now = {**run, "version": __version__}
+    for key, what in told.items():
+        if before.get(key) != now[key]:
+            raise InputError(
+                f"{path}: {what}: found maps begun with {key} {_short(before.get(key))}, expected {_short(now[key])}; "
+                "give another --out, or --afresh to begin anew"
+            )
+
+
+def _short(value: object) -> str:
+    text = str(value)
+    return text if len(text) <= 160 else text[:157] + "..."

@@ -1,0 +1,119 @@
+"""The law identified on the pixels of a block."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.bulk import identify_many
+from probation.field.noise import scatter
+from probation.field.samples import alike
+from probation.field.smoothing import smoothed_records
+from probation.field.source import SHORTEST
+from probation.field.status import Status
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.bulk import Method
+    from probation.field.samples import BoolArray
+    from probation.field.source import Samples
+    from probation.law import Law, Scheme
+
+
+@dataclass(frozen=True)
+class Way:
+    """How each pixel is identified.
+
+    Attributes
+    ----------
+    law : Law
+        Spectrum, companion relation, and the values of what is held.
+    scheme, method : str
+    held : tuple of str
+        Parameters that are not identified.
+    smoothing : bool
+        Whether the noise of the strain is taken out first.
+    threads : int
+        Of the engine; 0: all cores.
+    """
+
+    law: Law
+    scheme: Scheme
+    method: Method
+    held: tuple[str, ...]
+    smoothing: bool
+    threads: int
+
+
+@dataclass(frozen=True)
+class Pixels:
+    """Estimates: parameters and standard_error (pixels, 3), rms_residual (pixels,) [MPa], status (pixels,)."""
+
+    parameters: FloatArray
+    standard_error: FloatArray
+    rms_residual: FloatArray
+    status: NDArray[np.int8]
+
+    @property
+    def identified(self) -> BoolArray:
+        """Where the law was identified."""
+        return np.asarray(self.status == Status.IDENTIFIED)
+
+
+def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray) -> Pixels:
+    """Estimates on every pixel, from its samples in use.
+
+    Parameters
+    ----------
+    way : Way
+    time : ndarray, shape (n_times,) [s]
+    strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
+    """
+    count = len(strain)
+    empty = np.where(used.any(axis=1), Status.TOO_FEW_SAMPLES, Status.NO_DATA).astype(np.int8)
+    found = Pixels(np.full((count, 3), np.nan), np.full((count, 3), np.nan), np.full(count, np.nan), empty)
+    drawn = smoothed_records(time, strain, used) if way.smoothing else strain
+    for pixels, samples in alike(used):
+        if np.count_nonzero(samples) < SHORTEST:
+            continue
+        some = identify_many(
+            way.law,
+            time[samples],
+            drawn[np.ix_(pixels, samples)],
+            stress[np.ix_(pixels, samples)],
+            way.scheme,
+            method=way.method,
+            held=way.held,
+            threads=way.threads,
+        )
+        found.parameters[pixels], found.standard_error[pixels] = some.parameters, some.standard_error
+        found.rms_residual[pixels], found.status[pixels] = some.rms_residual, some.status
+    return found
+
+
+def with_more_noise(
+    time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
+) -> tuple[Samples, Samples, FloatArray]:
+    """The same records with as much noise once more, of what each record scatters.
+
+    Returns
+    -------
+    strain, stress : ndarray, shape (pixels, n_times) [-], [MPa]
+    level : ndarray, shape (pixels,) [MPa]
+        Root mean square of the stress noise; NaN where the record is too short.
+    """
+    noisier, level = [], np.full(len(strain), np.nan)
+    for values in (strain, stress):
+        more = values.copy()
+        for pixels, samples in alike(used):
+            if np.count_nonzero(samples) >= SHORTEST:
+                own = values[np.ix_(pixels, samples)]
+                noise = scatter(time[samples], own)
+                more[np.ix_(pixels, samples)] += noise * chance.standard_normal(own.shape)
+                level[pixels] = np.sqrt(np.mean(noise**2, axis=1))  # the stress comes last
+        noisier.append(more)
+    return noisier[0], noisier[1], level

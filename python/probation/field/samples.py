@@ -1,0 +1,57 @@
+"""Which samples of a pixel's record are good for the law: images lose pixels, for an instant or for good."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from probation.field.source import Samples
+
+BoolArray: TypeAlias = NDArray[np.bool_]
+IndexArray: TypeAlias = NDArray[np.intp]
+
+LONGEST_GAP = 3
+"""Samples that may lack in a row: the strain is straight across. A longer gap ends the record."""
+LENGTHS = 16
+"""Lengths that a record which ends early is cut to: pixels that share their instants are identified together."""
+
+
+def used_samples(strain: Samples, stress: Samples) -> BoolArray:
+    """Samples up to the first long gap where both are finite; none where the first sample lacks, for the start is lost.
+
+    Parameters
+    ----------
+    strain, stress : ndarray, shape (pixels, n_times)
+
+    Returns
+    -------
+    ndarray of bool, shape (pixels, n_times)
+    """
+    there = np.isfinite(strain) & np.isfinite(stress)
+    gap = LONGEST_GAP + 1
+    seen = np.cumsum(np.pad(there, ((0, 0), (1, 0))), axis=1)
+    ends = np.zeros_like(there)
+    ends[:, : there.shape[1] - LONGEST_GAP] = seen[:, gap:] == seen[:, :-gap]  # nothing in the next `gap` samples
+    before = ~np.maximum.accumulate(ends, axis=1)
+    length = np.count_nonzero(before, axis=1)
+    length = np.where(length < there.shape[1], length * LENGTHS // there.shape[1] * there.shape[1] // LENGTHS, length)
+    return np.asarray(there & (np.arange(there.shape[1]) < length[:, None]) & there[:, :1])
+
+
+def alike(used: BoolArray) -> Iterator[tuple[IndexArray, BoolArray]]:
+    """Pixels that use the same samples, together: they share one time grid.
+
+    Yields
+    ------
+    pixels : ndarray of int
+    samples : ndarray of bool, shape (n_times,)
+    """
+    patterns, which = np.unique(np.packbits(used, axis=1), axis=0, return_inverse=True)
+    order = np.argsort(which.ravel(), kind="stable")
+    for pixels in np.split(order, np.cumsum(np.bincount(which.ravel(), minlength=len(patterns)))[:-1]):
+        yield pixels, used[pixels[0]]

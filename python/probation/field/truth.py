@@ -1,0 +1,72 @@
+"""How near maps are to what is true, where that is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.errors import InputError
+from probation.field.extra import load
+
+if TYPE_CHECKING:
+    import os
+
+    from probation.field.maps import FieldMaps
+
+
+@dataclass(frozen=True)
+class Closeness:
+    """Of one map to the truth, over the pixels that were identified.
+
+    Attributes
+    ----------
+    name : str
+    bias : float
+        Mean relative error [-].
+    scatter : float
+        Standard deviation of the relative error [-].
+    spread : float
+        Standard deviation of error over standard error [-]; 1 where the standard errors tell the truth.
+    coverage : float
+        Part of the pixels whose 95 % interval holds the truth [-].
+    """
+
+    name: str
+    bias: float
+    scatter: float
+    spread: float
+    coverage: float
+
+
+def closeness(maps: FieldMaps, truth: str | os.PathLike[str]) -> tuple[Closeness, ...]:
+    """One for the product and for each parameter."""
+    product, *parameters = maps.names
+    try:
+        group = load("zarr").open_group(str(Path(truth).absolute()), mode="r")
+        true = {name: np.asarray(group[name][...]) for name in parameters}
+    except (OSError, ValueError, KeyError) as failure:
+        raise InputError(f"{truth}: found no maps of {', '.join(parameters)} ({failure}), expected them") from None
+    good = maps.identified
+    for name, values in true.items():
+        if values.shape != good.shape:
+            raise InputError(f"{truth}: {name}: found the shape {values.shape}, expected {good.shape}, as of the maps")
+    true[product] = true[parameters[0]] * true[parameters[1]]
+    found = []
+    for name in maps.names:
+        if not good.any():
+            break
+        error = maps.maps[name][good] - true[name][good]
+        relative, standard = error / true[name][good], error / maps.maps[f"{name}_standard_error"][good]
+        found.append(
+            Closeness(
+                name,
+                float(np.mean(relative)),
+                float(np.std(relative)),
+                float(np.std(standard)),
+                float(np.mean(np.abs(standard) < 1.959964)),
+            )
+        )
+    return tuple(found)
