@@ -78,7 +78,7 @@ def as_rows(values: ArrayLike, name: str) -> Rows:
     """
     try:
         if isinstance(values, np.ma.MaskedArray):
-            values = values.astype(np.float64).filled(np.nan)
+            values = np.ma.filled(values.astype(np.float64), np.nan)
         given = np.asarray(values)
         if given.dtype.kind not in "biufO":
             raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
