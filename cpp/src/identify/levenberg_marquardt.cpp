@@ -33,7 +33,7 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
       free[static_cast<std::size_t>(i)] = !space.held[static_cast<std::size_t>(i)] &&
                                           !(here[i] <= bounds[i].lower && p.gradient[i] > 0.0) &&
                                           !(here[i] >= bounds[i].upper && p.gradient[i] < 0.0);
-    if (free != last_free) last_size = 0.0;  // other steps shrink otherwise
+    if (free != last_free) last_size = 0.0;
     last_free = free;
     p.modulus_free = free[0];
     p.hardening_free = free[2];

@@ -37,9 +37,11 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     const bool smooth = search.iterations > 1 && theta != last_theta && p.modulus_free == last_modulus_free &&
                         p.hardening_free == last_hardening_free;
     double slope = gauss_newton;
-    if (smooth) {
+    bool smooth = false;  // no parameter met its bound between the last two points, say
+    if (search.iterations > 1 && theta != last_theta) {
       const double secant = (gradient - last_gradient) / (theta - last_theta);
-      if (secant > least_secant * gauss_newton && secant < largest_secant * gauss_newton) slope = secant;
+      if (secant > least_secant * gauss_newton) slope = secant;
+      smooth = std::abs(secant - gauss_newton) < 0.1 * gauss_newton;
     }
     const double step = std::clamp(-gradient / slope, -longest_step, longest_step);
     // What a secant step leaves is about the product of this step and the one before.
