@@ -7,15 +7,14 @@ namespace probation {
 
 Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_time, double accuracy) {
   constexpr int most_iterations = 60;
-  constexpr double longest_step = 0.5;                         // of ln time
-  constexpr double least_secant = 0.1, largest_secant = 10.0;  // of the Gauss-Newton slope: what is trusted
+  constexpr double longest_step = 0.5;  // of ln time
+  constexpr double least_secant = 0.1;  // of the Gauss-Newton slope: below, the secant is not trusted
   const bool time_free = !space.held[1];
   Search search;
   Bounds bracket = space.log_time;  // the derivative of the cost is negative at its lower end, else positive
   bool lower_known = false, upper_known = false;
   double theta = std::clamp(log_time, space.log_time.lower, space.log_time.upper);
   double last_theta = 0.0, last_gradient = 0.0, last_step = 0.0;
-  bool last_modulus_free = false, last_hardening_free = false;
   for (;;) {
     FitPoint& p = search.point;
     p = fit.project(theta, space.modulus, space.hardening);
@@ -33,9 +32,6 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     (gradient < 0.0 ? bracket.lower : bracket.upper) = theta;
     (gradient < 0.0 ? lower_known : upper_known) = true;
 
-    // Where a bound took hold or let go in between, the gradient has a kink.
-    const bool smooth = search.iterations > 1 && theta != last_theta && p.modulus_free == last_modulus_free &&
-                        p.hardening_free == last_hardening_free;
     double slope = gauss_newton;
     bool smooth = false;  // no parameter met its bound between the last two points, say
     if (search.iterations > 1 && theta != last_theta) {
@@ -69,8 +65,6 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     }
     last_theta = theta;
     last_gradient = gradient;
-    last_modulus_free = p.modulus_free;
-    last_hardening_free = p.hardening_free;
     last_step = next - theta;
     theta = next;
   }
