@@ -7,8 +7,8 @@ namespace probation {
 
 Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_time, double accuracy) {
   constexpr int most_iterations = 60;
-  constexpr double longest_step = 0.5;  // of ln time
-  constexpr double least_secant = 0.1;  // of the Gauss-Newton slope: below, the secant is not trusted
+  constexpr double longest_step = 0.5;                         // of ln time
+  constexpr double least_secant = 0.1, largest_secant = 10.0;  // of the Gauss-Newton slope: what is trusted
   const bool time_free = !space.held[1];
   Search search;
   Bounds bracket = space.log_time;  // the derivative of the cost is negative at its lower end, else positive
@@ -36,7 +36,7 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     bool smooth = false;  // no parameter met its bound between the last two points, say
     if (search.iterations > 1 && theta != last_theta) {
       const double secant = (gradient - last_gradient) / (theta - last_theta);
-      if (secant > least_secant * gauss_newton) slope = secant;
+      if (secant > least_secant * gauss_newton && secant < largest_secant * gauss_newton) slope = secant;
       smooth = std::abs(secant - gauss_newton) < 0.1 * gauss_newton;
     }
     const double step = std::clamp(-gradient / slope, -longest_step, longest_step);
