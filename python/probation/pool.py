@@ -99,20 +99,24 @@ def run_all(
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
                 key = waiting.pop(future)
-                try:
-                    result = future.result()
-                except BrokenExecutor as failure:
-                    raise WorkersLostError((key, *waiting.values())) from failure
-                except Exception as failure:
-                    if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
-                        raise
-                    raise WorkersLostError((key,)) from failure
-                finish(key, result)
+                finish(key, _result(future, (key, *waiting.values())))
     finally:
         for future in waiting:
             future.cancel()
         if executor is None:
             own.shutdown(wait=True, cancel_futures=True)
+
+
+def _result(future: Future[Result], keys: tuple[Hashable, ...]) -> Result:
+    """What a job gave; its own key is the first of the keys, the others are under way."""
+    try:
+        return future.result()
+    except BrokenExecutor as failure:
+        raise WorkersLostError(keys) from failure
+    except Exception as failure:
+        if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
+            raise
+        raise WorkersLostError(keys[:1]) from failure
 
 
 def _end_with_parent() -> None:
