@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 from collections.abc import Callable, Hashable, Mapping
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from threading import Thread
 from typing import TypeAlias, TypeVar
 
@@ -17,6 +17,21 @@ Result = TypeVar("Result")
 
 _WAITING = 4
 """Jobs handed out at a time, per process."""
+
+
+class WorkersLostError(RuntimeError):
+    """Processes that had jobs died.
+
+    Attributes
+    ----------
+    keys : tuple
+        Of the job that a cluster's workers died of again and again, or of those that had been handed to processes of
+        one's own.
+    """
+
+    def __init__(self, keys: tuple[Hashable, ...]) -> None:
+        super().__init__(f"processes died while they had {', '.join(map(str, keys))}")
+        self.keys = keys
 
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -48,6 +63,8 @@ def run_all(
     ------
     InputError
         For a number of processes below 1.
+    WorkersLostError
+        If a process of one's own died, or workers of a cluster did again and again of the same job.
     """
     if processes is not None and processes < 1:
         raise InputError(f"processes: found {processes}, expected at least 1")
@@ -81,12 +98,25 @@ def run_all(
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                finish(waiting.pop(future), future.result())
+                key = waiting.pop(future)
+                finish(key, _result(future, (key, *waiting.values())))
     finally:
         for future in waiting:
             future.cancel()
         if executor is None:
             own.shutdown(wait=True, cancel_futures=True)
+
+
+def _result(future: Future[Result], keys: tuple[Hashable, ...]) -> Result:
+    """What a job gave; its own key is the first of the keys, the others are under way."""
+    try:
+        return future.result()
+    except BrokenExecutor as failure:
+        raise WorkersLostError(keys) from failure
+    except Exception as failure:
+        if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
+            raise
+        raise WorkersLostError(keys[:1]) from failure
 
 
 def _end_with_parent() -> None:

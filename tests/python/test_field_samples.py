@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import probation
-from probation.field.errors import drawn_errors
+from probation.field.errors import drawn_errors, neighbourhoods, rounds
 from probation.field.example import specimen
 from probation.field.example.superposition import superpose
 from probation.field.noise import scatter
@@ -94,10 +94,23 @@ def test_drawn_errors_are_those_of_the_draws():
     status[7] = 2
     first = Pixels(true, given, np.full(count, 0.3), status)
     again = Pixels(true + deviation * chance.standard_normal((count, 3)), given, np.full(count, 0.5), status * 0)
-    errors = drawn_errors(first, again, np.full(count, 0.1), (32, 32))
+    near = neighbourhoods(np.ones((count, 20), dtype=bool), (32, 32))
+    errors = drawn_errors(first, [(np.arange(count), again)], np.full(count, 0.1), near)
     good = np.arange(count) != 7
     assert np.isnan(errors.parameters[7]).all()
     assert errors.parameters[good].mean(axis=0) == pytest.approx(deviation, rel=0.05)
     relative = np.hypot(20.0 / 3000.0, 0.1 / 5.0)  # of the product of two that err by themselves
     assert errors.product[good].mean() == pytest.approx(15000.0 * relative, rel=0.05)
     assert errors.noise[good] == pytest.approx(0.4)  # 0.5^2 - 0.3^2 = 0.4^2
+
+
+def test_a_record_with_few_like_it_near_by_is_drawn_more_often():
+    """Of 8 x 16 pixels, one record ends half-way and is drawn 16 times; one pixel was refused and is not drawn."""
+    used = np.ones((128, 32), dtype=bool)
+    used[20, 16:] = False
+    identified = np.arange(128) != 30
+    near = neighbourhoods(used, (8, 16))
+    assert sorted(np.unique(near, return_counts=True)[1].tolist()) == [1, 63, 64]
+    drawn = list(rounds(identified, near))
+    assert [len(pixels) for pixels in drawn] == [127] + 15 * [1]
+    assert all(pixels.tolist() == [20] for pixels in drawn[1:])

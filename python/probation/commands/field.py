@@ -99,7 +99,7 @@ def _example(options: argparse.Namespace) -> int:
 
 def _identify(options: argparse.Namespace) -> int:
     from probation.commands.law_options import companion_from  # noqa: PLC0415
-    from probation.field.identify import identify_field  # noqa: PLC0415
+    from probation.field.identify import BlockLostError, identify_field  # noqa: PLC0415
     from probation.field.maps import open_maps  # noqa: PLC0415
     from probation.field.source import open_field  # noqa: PLC0415
     from probation.law import Law  # noqa: PLC0415
@@ -115,22 +115,26 @@ def _identify(options: argparse.Namespace) -> int:
         law = Law(unrelaxed_modulus=1000.0, hardening_modulus=1.0, companion=companion_from(options.companion))
     source = open_field(options.field, columns)
     begun = time.perf_counter()
-    with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
-        done = identify_field(
-            source,
-            options.out,
-            law,
-            options.scheme,
-            method=options.method.replace("variable-projection", "variable projection"),
-            smoothing=not options.raw_strain,
-            hold=named_numbers(options.hold, "--hold"),
-            pixels=options.pixels,
-            processes=options.processes,
-            threads=options.threads,
-            executor=executor,
-            afresh=options.afresh,
-            progress=advance,
-        )
+    try:
+        with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
+            done = identify_field(
+                source,
+                options.out,
+                law,
+                options.scheme,
+                method=options.method.replace("variable-projection", "variable projection"),
+                smoothing=not options.raw_strain,
+                hold=named_numbers(options.hold, "--hold"),
+                pixels=options.pixels,
+                processes=options.processes,
+                threads=options.threads,
+                executor=executor,
+                afresh=options.afresh,
+                progress=advance,
+            )
+    except BlockLostError as failure:
+        print(f"probation: {failure}", file=sys.stderr)
+        return 1
     took = time.perf_counter() - begun
     again = f" ({done.again} of them anew: their maps were not what had been written)" if done.again else ""
     tell(open_maps(done.path).summary(), sys.stdout)

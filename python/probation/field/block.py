@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.field.errors import drawn_errors
+from probation.field.errors import drawn_errors, neighbourhoods, rounds
 from probation.field.pixels import Way, identify_pixels, with_more_noise
 from probation.field.samples import used_samples
 from probation.field.store import map_kinds, product_name
@@ -53,8 +53,12 @@ def block_maps(task: FieldTask, block: Block) -> dict[str, NDArray[Any]]:
     used = used_samples(strain, stress)
     found = identify_pixels(way, times, strain, stress, used)
     chance = np.random.default_rng([SEED, *block])
-    strain, stress, level = with_more_noise(times, strain, stress, used, chance)
-    errors = drawn_errors(found, identify_pixels(way, times, strain, stress, used), level, shape)
+    near, level, draws = neighbourhoods(used, shape), np.full(len(used), np.nan), []
+    for pixels in rounds(found.identified, near):
+        more = with_more_noise(times, strain[pixels], stress[pixels], used[pixels], chance)
+        draws.append((pixels, identify_pixels(way, times, more[0], more[1], used[pixels])))
+        level[pixels] = more[2]
+    errors = drawn_errors(found, draws, level, near)
     maps: dict[str, NDArray[Any]] = {}
     for column, name in enumerate(way.law.parameter_names):
         maps[name] = found.parameters[:, column]

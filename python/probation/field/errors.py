@@ -1,8 +1,9 @@
 """Standard errors that know of the strain's noise: every pixel is identified once more with as much noise again.
 
-What the estimate does then is one draw of its error. Neighbours have the same noise and much the same history, so that
-their draws together tell how large the errors are; the engine's own standard error, which takes the residual for white
-noise of the stress, tells the pixels of a neighbourhood apart.
+What the estimate does then is one draw of its error. Neighbours whose records are as long have the same noise and much
+the same history, so that their draws together tell how large the errors are; the engine's own standard error, which
+takes the residual for white noise of the stress, tells the pixels of a neighbourhood apart. Pixels with few such
+neighbours are drawn more often.
 """
 
 from __future__ import annotations
@@ -12,14 +13,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.field.samples import LENGTHS
+
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from probation._arrays import FloatArray
     from probation.field.pixels import Pixels
+    from probation.field.samples import BoolArray, IndexArray
 
 SIDE = 8
 """Pixels along a neighbourhood."""
 FEWEST = 16
-"""Draws in a neighbourhood, below which those of the whole block are taken."""
+"""Draws in a neighbourhood, at least."""
 
 
 @dataclass(frozen=True)
@@ -40,44 +46,70 @@ class Errors:
     noise: FloatArray
 
 
-def drawn_errors(first: Pixels, again: Pixels, level: FloatArray, shape: tuple[int, int]) -> Errors:
+def neighbourhoods(used: BoolArray, shape: tuple[int, int]) -> IndexArray:
+    """Number of each pixel's neighbourhood: within `SIDE` x `SIDE` pixels, records of the same sixteenths of the time.
+
+    Parameters
+    ----------
+    used : ndarray of bool, shape (pixels, n_times)
+    shape : (int, int)
+        Of the block.
+    """
+    y, x = np.divmod(np.arange(len(used)), shape[1])
+    tile = y // SIDE * (-(-shape[1] // SIDE)) + x // SIDE
+    within = np.where(used.any(axis=1), used.shape[1] - np.argmax(used[:, ::-1], axis=1), 0)
+    return np.asarray(tile * (LENGTHS + 1) + -(-within * LENGTHS // used.shape[1]), dtype=np.intp)
+
+
+def rounds(identified: BoolArray, neighbourhood: IndexArray) -> Iterator[IndexArray]:
+    """Pixels to draw, round by round, until each neighbourhood has had `FEWEST` draws."""
+    mates = np.bincount(neighbourhood[identified], minlength=neighbourhood.max() + 1)[neighbourhood]
+    times = np.where(identified, -(-FEWEST // np.maximum(mates, 1)), 0)
+    return (np.flatnonzero(times > done) for done in range(times.max()))
+
+
+def drawn_errors(
+    first: Pixels, draws: Sequence[tuple[IndexArray, Pixels]], level: FloatArray, neighbourhood: IndexArray
+) -> Errors:
     """Standard errors from estimates and estimates with as much noise again.
 
     Parameters
     ----------
-    first, again : Pixels
+    first : Pixels
+    draws : sequence of (ndarray of int, Pixels)
+        Of each round, which pixels, and their estimates with more noise.
     level : ndarray, shape (pixels,) [MPa]
         Noise of each pixel's stress.
-    shape : (int, int)
-        Of the block.
+    neighbourhood : ndarray of int, shape (pixels,)
     """
-    both = first.identified & again.identified
+    own, held = first.standard_error, first.standard_error == 0.0
+    product = first.parameters[:, 0] * first.parameters[:, 1]
     with np.errstate(invalid="ignore", divide="ignore"):
-        moved = (again.parameters - first.parameters) / first.standard_error
-        product = first.parameters[:, 0] * first.parameters[:, 1]
-        moved_product = again.parameters[:, 0] * again.parameters[:, 1] / product - 1.0
-        own = np.hypot(*(first.standard_error / first.parameters)[:, :2].T)
-        more = (again.rms_residual**2 - first.rms_residual**2) / level**2
-    held = first.standard_error == 0.0
-    moved[held] = 0.0
-    factors = np.sqrt(np.stack([_pooled(moved[:, k] ** 2, both, shape) for k in range(3)], axis=1))
-    errors = np.where(held, 0.0, first.standard_error * factors)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        relative = own * np.sqrt(_pooled((moved_product / own) ** 2, both, shape))
-    noise = level * np.sqrt(np.maximum(_pooled(more, both, shape), 0.0))
+        own_product = np.hypot(*(own / first.parameters)[:, :2].T)
+    squares: list[FloatArray] = [np.empty((0, 5))]
+    where = [np.empty(0, dtype=np.intp)]
+    for pixels, again in draws:
+        with np.errstate(invalid="ignore", divide="ignore"):
+            moved = np.where(held[pixels], 0.0, (again.parameters - first.parameters[pixels]) / own[pixels])
+            moved_product = again.parameters[:, 0] * again.parameters[:, 1] / product[pixels] - 1.0
+            more = (again.rms_residual**2 - first.rms_residual[pixels] ** 2) / level[pixels] ** 2
+            drawn = np.column_stack([moved**2, (moved_product / own_product[pixels]) ** 2, more])
+        squares.append(drawn[again.identified])
+        where.append(neighbourhood[pixels[again.identified]])
+    pooled = _means(np.concatenate(squares), np.concatenate(where), neighbourhood)
+    factors = np.sqrt(np.maximum(pooled, 0.0))
     there = first.identified
     return Errors(
-        np.where(there[:, None], errors, np.nan),
-        np.where(there, np.abs(product) * relative, np.nan),
-        np.where(there, noise, np.nan),
+        np.where(there[:, None], np.where(held, 0.0, own * factors[:, :3]), np.nan),
+        np.where(there, np.abs(product) * own_product * factors[:, 3], np.nan),
+        np.where(there, level * factors[:, 4], np.nan),
     )
 
 
-def _pooled(values: FloatArray, good: np.ndarray, shape: tuple[int, int]) -> FloatArray:
-    """Mean over each pixel's neighbourhood, or over the block where that has too few; NaN where that has none."""
-    y, x = np.divmod(np.arange(len(values)), shape[1])
-    tile = y // SIDE * (-(-shape[1] // SIDE)) + x // SIDE
-    number = np.bincount(tile[good], minlength=tile.max() + 1)
-    total = np.bincount(tile[good], weights=values[good], minlength=tile.max() + 1)
-    everywhere = total.sum() / number.sum() if number.sum() else np.nan
-    return np.asarray(np.where(number >= FEWEST, total / np.maximum(number, 1), everywhere)[tile])
+def _means(values: FloatArray, where: IndexArray, neighbourhood: IndexArray) -> FloatArray:
+    """Mean of each column over each pixel's neighbourhood; NaN where that has no values."""
+    count = int(neighbourhood.max()) + 1
+    number = np.bincount(where, minlength=count)
+    total = np.stack([np.bincount(where, weights=column, minlength=count) for column in values.T], axis=1)
+    with np.errstate(invalid="ignore"):
+        return np.asarray((total / number[:, None])[neighbourhood])

@@ -56,7 +56,9 @@ def _draw(axes: Axes, maps: FieldMaps, values: FloatArray, title: str, unit: str
     place = maps.length_unit or "pixel"
     axes.set(xlabel=f"x [{place}]", ylabel=f"y [{place}]")
     axes.grid(visible=False)
-    axes.figure.colorbar(mesh, ax=axes, label=f"[{unit}]" if unit not in ("", "1") else "[-]", extend="both")
+    axes.figure.colorbar(
+        mesh, ax=axes, label=f"[{unit}]" if unit not in ("", "1") else "[-]", extend="both", shrink=0.7, aspect=14
+    )
 
 
 def _borders(centres: FloatArray) -> FloatArray:

@@ -24,7 +24,7 @@ from probation.field.store import MapStore, map_kinds, read_run
 from probation.identify.parameter import inside_name, outside_name
 from probation.law import Law
 from probation.law_answer import law_answer
-from probation.pool import run_all
+from probation.pool import WorkersLostError, run_all
 
 if TYPE_CHECKING:
     import os
@@ -35,6 +35,10 @@ if TYPE_CHECKING:
 
 PIXELS = 4096
 """Pixels of a task, unless told otherwise: seconds of work, megabytes of samples."""
+
+
+class BlockLostError(RuntimeError):
+    """A block could not be done, or its maps did not reach the store; what is done is kept."""
 
 
 @dataclass(frozen=True)
@@ -114,6 +118,8 @@ def identify_field(
     ------
     InputError
         For a field that cannot be read, or maps in `out` that were made from another field or in another way.
+    BlockLostError
+        If processes die of a block, naming it.
     """
     one_of(scheme, "scheme", SCHEMES)
     one_of(method, "method", METHODS)
@@ -149,8 +155,9 @@ def _run_blocks(
 
     Raises
     ------
-    RuntimeError
-        If workers die of a block again and again, or a block that was done is not there.
+    BlockLostError
+        If a process of its own dies, workers of a cluster die of a block again and again, or a block that was done is
+        not there.
     """
     kinds = map_kinds(task.way.law)
     marked = task.store.marked()
@@ -167,16 +174,15 @@ def _run_blocks(
             progress=advance,
             on_done=None,
         )
-    except Exception as failure:
-        if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
-            raise
-        raise RuntimeError(
-            f"{task.store.path}: workers died of the same block again and again, as they do where memory is short: "
+    except WorkersLostError as failure:
+        lost = ", ".join(str(key) for key in sorted(failure.keys))  # type: ignore[type-var]
+        raise BlockLostError(
+            f"{task.store.path}: processes died while they had block {lost}, as they do where memory is short: "
             f"give fewer --pixels than {task.store.grid.block[0] * task.store.grid.block[1]}; what is done is kept"
         ) from failure
     lacking = np.argwhere(~task.store.marked())
     if len(lacking):
-        raise RuntimeError(f"{task.store.path}: block {tuple(lacking[0].tolist())} was done and is not marked")
+        raise BlockLostError(f"{task.store.path}: block {tuple(lacking[0].tolist())} was done and is not marked")
     return FieldRun(task.store.path, len(left), len(whole), int(np.count_nonzero(marked)) - len(whole))
 
 

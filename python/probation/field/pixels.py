@@ -9,7 +9,7 @@ import numpy as np
 
 from probation.bulk import identify_many
 from probation.field.noise import scatter
-from probation.field.samples import alike
+from probation.field.samples import alike, bridged
 from probation.field.smoothing import smoothed_records
 from probation.field.source import SHORTEST
 from probation.field.status import Status
@@ -108,12 +108,11 @@ def with_more_noise(
     """
     noisier, level = [], np.full(len(strain), np.nan)
     for values in (strain, stress):
-        more = values.copy()
-        for pixels, samples in alike(used):
+        noise = np.zeros(values.shape)
+        for pixels, samples, own in bridged(time, values, used):
             if np.count_nonzero(samples) >= SHORTEST:
-                own = values[np.ix_(pixels, samples)]
-                noise = scatter(time[samples], own)
-                more[np.ix_(pixels, samples)] += noise * chance.standard_normal(own.shape)
-                level[pixels] = np.sqrt(np.mean(noise**2, axis=1))  # the stress comes last
-        noisier.append(more)
+                part = scatter(time[samples], own)
+                noise[np.ix_(pixels, samples)] = part
+                level[pixels] = np.sqrt(np.mean(part**2, axis=1))  # the stress comes last
+        noisier.append((values + noise * chance.standard_normal(values.shape)).astype(values.dtype))
     return noisier[0], noisier[1], level

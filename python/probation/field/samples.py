@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from probation._arrays import FloatArray
     from probation.field.source import Samples
 
 BoolArray: TypeAlias = NDArray[np.bool_]
@@ -51,7 +52,30 @@ def alike(used: BoolArray) -> Iterator[tuple[IndexArray, BoolArray]]:
     pixels : ndarray of int
     samples : ndarray of bool, shape (n_times,)
     """
-    patterns, which = np.unique(np.packbits(used, axis=1), axis=0, return_inverse=True)
-    order = np.argsort(which.ravel(), kind="stable")
-    for pixels in np.split(order, np.cumsum(np.bincount(which.ravel(), minlength=len(patterns)))[:-1]):
-        yield pixels, used[pixels[0]]
+    together: dict[bytes, list[int]] = {}
+    for at, pattern in enumerate(np.packbits(used, axis=1)):
+        together.setdefault(pattern.tobytes(), []).append(at)
+    for pixels in together.values():
+        yield np.array(pixels, dtype=np.intp), used[pixels[0]]
+
+
+def bridged(
+    time: FloatArray, values: Samples, used: BoolArray
+) -> Iterator[tuple[IndexArray, BoolArray, NDArray[np.float64]]]:
+    """Pixels whose records are of the same length, together, their short gaps bridged straight.
+
+    Yields
+    ------
+    pixels : ndarray of int
+    samples : ndarray of bool, shape (n_times,)
+        Within the records, those in gaps too.
+    values : ndarray, shape (len(pixels), samples in all)
+    """
+    within = np.maximum.accumulate(used[:, ::-1], axis=1)[:, ::-1]
+    for pixels, samples in alike(within):
+        some = values[np.ix_(pixels, samples)].astype(np.float64)
+        there = used[np.ix_(pixels, samples)]
+        instants = time[samples]
+        for at in np.flatnonzero(~there.all(axis=1)):
+            some[at] = np.interp(instants, instants[there[at]], some[at, there[at]])
+        yield pixels, samples, some

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.field.samples import alike
+from probation.field.samples import bridged
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -55,14 +55,9 @@ def smoothed_records(time: FloatArray, strain: Samples, used: BoolArray) -> Floa
     Short gaps are bridged straight, so that pixels of the same length share their shapes.
     """
     found: FloatArray = np.full(strain.shape, np.nan)
-    within = np.maximum.accumulate(used[:, ::-1], axis=1)[:, ::-1]
-    for pixels, samples in alike(within):
+    for pixels, samples, values in bridged(time, strain, used):
         if np.count_nonzero(samples) > ORDER:
-            bridged = strain[np.ix_(pixels, samples)].astype(np.float64)
-            there = used[np.ix_(pixels, samples)]
-            for at in np.flatnonzero(~there.all(axis=1)):
-                bridged[at] = np.interp(time[samples], time[samples][there[at]], bridged[at, there[at]])
-            found[np.ix_(pixels, samples)] = smoothed(time[samples], bridged)
+            found[np.ix_(pixels, samples)] = smoothed(time[samples], values)
     found[~used] = np.nan
     return found
 
