@@ -114,5 +114,7 @@ def with_more_noise(
                 part = scatter(time[samples], own)
                 noise[np.ix_(pixels, samples)] = part
                 level[pixels] = np.sqrt(np.mean(part**2, axis=1))  # the stress comes last
-        noisier.append((values + noise * chance.standard_normal(values.shape)).astype(values.dtype))
+        more = values.copy()
+        more += noise * chance.standard_normal(values.shape)
+        noisier.append(more)
     return noisier[0], noisier[1], level
