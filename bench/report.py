@@ -20,9 +20,7 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
         *_equal_error(found),
         *_plain(found, "overhead", "Calls from Python"),
         *_plain(found, "sensitivities", "Sensitivities"),
-        *_plain(
-            found, "feedbacks", "Feedbacks, beside one solve without (even: of the ramp in even steps)"
-        ),
+        *_plain(found, "feedbacks", "Feedbacks, beside one solve without (even: of the ramp in even steps)"),
         *_plain(found, "batch", "Batches (processor time of all threads)"),
         *_identification(found),
         *_plain(found, "field", "Identification of a strain field, one record per pixel"),

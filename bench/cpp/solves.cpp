@@ -55,8 +55,8 @@ int main(int count, char** arguments) {
     law.companion = std::make_shared<Weissenberg>(0.00464, 0.0367);
     strain = 0.005 * (time + 200.0 / 3.0 * (1.0 - (0.01 * time).cos()));
   }
-  if (kind == "stress") change.feedbacks = {std::make_shared<StressActivation>(8.0)};
-  if (kind == "heat") change.feedbacks = {std::make_shared<SelfHeating>(0.3, 0.01, 0.05, 0.005)};
+  if (kind == "stress") change.feedbacks = {std::make_shared<StressActivation>(20.0)};
+  if (kind == "heat") change.feedbacks = {std::make_shared<SelfHeating>(1.0, 0.02, 0.03, 0.01)};
 
   const History history(time, strain);
   ArrayXd stress(history.size());

@@ -80,6 +80,7 @@ void CoefficientTable::enter(CoefficientCell& cell) {
   const auto count = static_cast<int64_t>(blocks_.size());
   const int64_t turns = floor_of_quotient(cell.index, count), phase = cell.index - turns * count;
   const auto block = static_cast<std::size_t>(phase);
+  cell.block = phase;
   cell.centre = std::exp(static_cast<double>(cell.index) * width_);
   cell.inverse_centre = 1.0 / cell.centre;
 
@@ -105,12 +106,9 @@ void CoefficientTable::enter(CoefficientCell& cell) {
   kernels::best().weigh_rows(modes_.view(), cell.rows, cell.by_forcing, cell.by_curvature);
 }
 
-void CoefficientTable::forget_others_of(int64_t phase, int64_t index) {
-  const auto count = static_cast<int64_t>(blocks_.size());
+void CoefficientTable::forget_others_of(int64_t block, int64_t index) {
   for (CoefficientCell& other : cells_)
-    if (other.index != index && other.index != CoefficientCell::none &&
-        other.index - floor_of_quotient(other.index, count) * count == phase)
-      other.index = CoefficientCell::none;
+    if (other.block == block && other.index != index) other.index = CoefficientCell::none;
 }
 
 void CoefficientTable::fill(std::size_t block, int64_t first, double scale) {

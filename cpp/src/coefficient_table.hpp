@@ -16,6 +16,7 @@ struct CoefficientCell {
   static constexpr std::int64_t none = INT64_MIN;
 
   std::int64_t index = none;
+  std::int64_t block = none;  ///< which block of rows it looks into
   double centre = 0.0, inverse_centre = 0.0;
   kernels::CoefficientRows rows{};
   int slaved = 0;  ///< as in kernels::NearStep
@@ -43,7 +44,7 @@ class CoefficientTable {
   };
   void find_spacing();
   void enter(CoefficientCell& cell);
-  void forget_others_of(std::int64_t phase, std::int64_t index);
+  void forget_others_of(std::int64_t block, std::int64_t index);
   void fill(std::size_t block, std::int64_t first, double scale);
 
   bool exponential_, curved_ = false, spaced_ = false;

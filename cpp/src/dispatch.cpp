@@ -33,8 +33,8 @@ const Kernels& choose() {
     if (std::string((*build)->name) == named) return **build;
     names += (names.empty() ? "" : ", ") + std::string((*build)->name);
   }
-  throw InputError("PROBATION_KERNELS is '" + std::string(named) + "'; this processor and this build can run " +
-                   names + ": name one of them or unset it");
+  throw InputError("PROBATION_KERNELS is '" + std::string(named) +
+                   "'; this processor and this build can run " + names + ": name one of them or unset it");
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ struct ModalGroup {
 
   void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
     const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
-    if (inverse_ratio.size() != padded || (inverse_ratio.head(modes) != ratio.inverse()).any()) table.forget();
+    if (inverse_ratio.size() != padded || (inverse_ratio.head(modes) != ratio.inverse()).any())
+      table.forget();
     inverse_ratio.setOnes(padded);
     weight.setZero(padded);
     state.setZero(padded);

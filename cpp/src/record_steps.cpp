@@ -14,7 +14,7 @@ Differentiator differentiator_of(Scheme scheme) {
 
 std::size_t length(bool constant, Index n) { return constant ? 1 : static_cast<std::size_t>(n); }
 
-/// out[m] = left[m] - right[m] for m in from..to, and the like: loops that vectorise.
+/// out[m] = value(m) for m in from..to: loops that vectorise.
 template <class Value>
 void fill(std::vector<double>& out, Index from, Index to, Value value) {
   double* const to_fill = out.data();

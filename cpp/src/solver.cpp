@@ -53,12 +53,12 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
                      std::to_string(history_.size()) + " are needed");
   const std::lock_guard<std::mutex> lock(work_->busy);
-  const FlushSubnormals flushing;
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
     return;
   }
+  const FlushSubnormals flushing;
   Workspace& w = *work_;
   w.prepare(law, change, history_, options_);
   const kernels::Kernels& kernel = kernels::best();

@@ -77,7 +77,9 @@ def as_rows(values: ArrayLike, name: str) -> Rows:
         Naming the argument, what was found and what was expected.
     """
     try:
-        given = values.astype(np.float64).filled(np.nan) if np.ma.is_masked(values) else np.asarray(values)
+        if isinstance(values, np.ma.MaskedArray):
+            values = np.ma.filled(values.astype(np.float64), np.nan)
+        given = np.asarray(values)
         if given.dtype.kind not in "biufO":
             raise InputError(f"{name} holds {given.dtype}; real numbers are needed")
         kept = given.dtype if given.dtype in (np.float32, np.float64) else np.float64

@@ -143,7 +143,9 @@ def test_single_precision_is_read_as_it_is():
     found = identify_many(LAW, TIME.astype(np.float32), STRAIN, stress)
     expected = identify_many(LAW, TIME, STRAIN, stress.astype(np.float64))
     assert_allclose(found.parameters, expected.parameters, rtol=1e-12)  # these times have no more digits
-    assert_allclose(found.parameters, identify_many(LAW, TIME, STRAIN, np.asfortranarray(stress)).parameters, rtol=1e-12)
+    assert_allclose(
+        found.parameters, identify_many(LAW, TIME, STRAIN, np.asfortranarray(stress)).parameters, rtol=1e-12
+    )
 
 
 def test_one_bad_pixel_stops_nothing():

@@ -53,8 +53,8 @@ class Solver {
   std::unique_ptr<Workspace> work_;
 };
 
-/// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline", or "portable" (plain C++). The best that this
-/// processor can run, unless PROBATION_KERNELS in the environment names one; it is read once.
+/// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline", or "portable" (plain C++). The best that
+/// this processor can run, unless PROBATION_KERNELS in the environment names one; it is read once.
 /// @throws InputError  if it names none of those that can run here
 const char* kernel_build();
 

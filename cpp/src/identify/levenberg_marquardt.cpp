@@ -22,6 +22,7 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
   p = fit.project(std::clamp(log_time, space.log_time.lower, space.log_time.upper), space.modulus,
                   space.hardening);
   double damping = 0.0, last_size = 0.0;
+  std::array<bool, 3> last_free{};
   for (;;) {
     fit.differentiate(p);
     ++search.iterations;
@@ -32,6 +33,8 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
       free[static_cast<std::size_t>(i)] = !space.held[static_cast<std::size_t>(i)] &&
                                           !(here[i] <= bounds[i].lower && p.gradient[i] > 0.0) &&
                                           !(here[i] >= bounds[i].upper && p.gradient[i] < 0.0);
+    if (free != last_free) last_size = 0.0;
+    last_free = free;
     p.modulus_free = free[0];
     p.hardening_free = free[2];
     search.inverse = invert(p.normal, free);

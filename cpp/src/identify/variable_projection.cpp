@@ -7,8 +7,8 @@ namespace probation {
 
 Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_time, double accuracy) {
   constexpr int most_iterations = 60;
-  constexpr double longest_step = 0.5;  // of ln time
-  constexpr double least_secant = 0.1;  // of the Gauss-Newton slope: below, the secant is not trusted
+  constexpr double longest_step = 0.5;                         // of ln time
+  constexpr double least_secant = 0.1, largest_secant = 10.0;  // of the Gauss-Newton slope: what is trusted
   const bool time_free = !space.held[1];
   Search search;
   Bounds bracket = space.log_time;  // the derivative of the cost is negative at its lower end, else positive
@@ -33,14 +33,15 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
     (gradient < 0.0 ? lower_known : upper_known) = true;
 
     double slope = gauss_newton;
+    bool smooth = false;  // no parameter met its bound between the last two points, say
     if (search.iterations > 1 && theta != last_theta) {
       const double secant = (gradient - last_gradient) / (theta - last_theta);
-      if (secant > least_secant * gauss_newton) slope = secant;
+      if (secant > least_secant * gauss_newton && secant < largest_secant * gauss_newton) slope = secant;
+      smooth = std::abs(secant - gauss_newton) < 0.1 * gauss_newton;
     }
     const double step = std::clamp(-gradient / slope, -longest_step, longest_step);
     // What a secant step leaves is about the product of this step and the one before.
-    const bool small =
-        std::abs(step) <= accuracy || (search.iterations > 1 && std::abs(step * last_step) <= accuracy);
+    const bool small = std::abs(step) <= accuracy || (smooth && std::abs(step * last_step) <= accuracy);
     double next = theta + step;
     const bool beyond = next <= bracket.lower || next >= bracket.upper;
     const double end = gradient < 0.0 ? space.log_time.upper : space.log_time.lower;

@@ -8,7 +8,7 @@ namespace probation::kernels::PROBATION_ISA {
 namespace {
 
 // Vectors of four modes whose states fit the registers: one state a mode, or two.
-constexpr int largest_block = 8, largest_two_step_block = 6;
+constexpr int largest_block = 8, largest_two_step_block = 5;
 
 /// y+ = previous * y + before * y- + forcing * U, or a one-step rule.
 template <bool two_step, int K>

@@ -131,9 +131,11 @@ def diagnose(
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
     shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
-    if verdict == "explained" and leaves_too_much(shrink):
+    while verdict == "explained" and leaves_too_much(shrink):
         weighed, chosen = _with_unknown(weighed, judged)
-        verdict = "unexplained"
+        if UNKNOWN in weighed[0].effects:
+            verdict = "unexplained"
+        shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
