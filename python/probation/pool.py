@@ -88,7 +88,7 @@ def run_all(
     own = executor or ProcessPoolExecutor(
         min(count, len(arguments) or 1), multiprocessing.get_context("spawn"), initializer=_end_with_parent
     )
-    left = iter(arguments.items())
+    left, order = iter(arguments.items()), {key: number for number, key in enumerate(arguments)}
     waiting: dict[Future[Result], Key] = {}
     most = len(arguments) if executor is not None else _WAITING * count
     try:
@@ -97,9 +97,12 @@ def run_all(
                 waiting[own.submit(job, *item[1])] = item[0]
             if not waiting:
                 return
-            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                key = waiting.pop(future)
-                finish(key, _result(future, (key, *waiting.values())))
+            ended = wait(waiting, return_when=FIRST_COMPLETED).done
+            for future in sorted(ended, key=lambda each: order[waiting[each]]):  # the one that ran before those behind
+                finish(waiting[future], _result(future, waiting[future]))
+                del waiting[future]
+    except BrokenExecutor as failure:
+        raise WorkersLostError(tuple(waiting.values())) from failure
     finally:
         for future in waiting:
             future.cancel()
@@ -107,16 +110,14 @@ def run_all(
             own.shutdown(wait=True, cancel_futures=True)
 
 
-def _result(future: Future[Result], keys: tuple[Hashable, ...]) -> Result:
-    """What a job gave; its own key is the first of the keys, the others are under way."""
+def _result(future: Future[Result], key: Hashable) -> Result:
+    """What a job gave."""
     try:
         return future.result()
-    except BrokenExecutor as failure:
-        raise WorkersLostError(keys) from failure
     except Exception as failure:
         if type(failure).__name__ != "KilledWorker":  # dask's, known only where dask is
             raise
-        raise WorkersLostError(keys[:1]) from failure
+        raise WorkersLostError((key,)) from failure
 
 
 def _end_with_parent() -> None:
