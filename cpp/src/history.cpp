@@ -32,9 +32,9 @@ void require_length(Index found, Index expected, const char* argument) {
 }
 
 /// By how much a step may differ from the first of an even stretch. Times read from a file or made by
-/// linspace are even to rounding only: relative to the largest time.
-double evenness(double step, const Eigen::ArrayXd& time) {
-  return 1e-10 * step + 4e-16 * std::max(std::abs(time[0]), std::abs(time[time.size() - 1]));
+/// linspace are even to rounding only: relative to the times around it, for what comes later must not count.
+double evenness(double step, double time, double other_time) {
+  return 1e-10 * step + 4e-16 * std::max(std::abs(time), std::abs(other_time));
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ bool History::check() {
   if (direction_.size() > 0) require_length(direction_.size() + 1, n, "direction (plus one)");
   const kernels::SamplePasses& passes = kernels::sample_passes();
   const kernels::StepTraits steps =
-      passes.inspect_steps(time_.data(), n, evenness(time_[1] - time_[0], time_));
+      passes.inspect_steps(time_.data(), n, evenness(time_[1] - time_[0], time_[0], time_[n - 1]));
   haward_thackray_strain_.resize(n);
   const bool stretched = passes.haward_thackray(true_strain_.data(), n, haward_thackray_strain_.data());
 
@@ -103,9 +103,12 @@ void History::find_stretches(bool even) {
       const auto jump = std::upper_bound(jumps_.begin(), jumps_.end(), m);
       return jump == jumps_.end() ? steps() : std::min(*jump, steps());
     }
-    const double step = time_[m + 1] - time_[m], allowed = evenness(step, time_);
+    const double step = time_[m + 1] - time_[m];
+    const auto goes_on = [&](Index end) {
+      return std::abs((time_[end + 1] - time_[end]) - step) <= evenness(step, time_[m], time_[end + 1]);
+    };
     Index end = m + 1;
-    while (end < steps() && !fresh(end) && std::abs((time_[end + 1] - time_[end]) - step) <= allowed) ++end;
+    while (end < steps() && !fresh(end) && goes_on(end)) ++end;
     return end;
   };
   for (Index m = 0; m < steps();) {

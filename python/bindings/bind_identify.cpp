@@ -37,8 +37,9 @@ void bind_identify(py::module_& m) {
                             rows(true_strain), rows(true_stress),           {},
                             noise.has_value()};
         if (noise) records.noise = rows(*noise);
+        const std::function<void()> pause = signals_of_this_thread();
         const py::gil_scoped_release release;
-        identify_many(law, records, options, {threads, raise_signals},
+        identify_many(law, records, options, {threads, pause},
                       {parameters, standard_error, rms_residual, status, iterations});
       },
       "law"_a, "time"_a, "true_strain"_a, "true_stress"_a, "noise"_a, "options"_a, "threads"_a,

@@ -1,6 +1,8 @@
 #pragma once
 // Rows of samples where NumPy holds them, and the interpreter during a long batch.
 
+#include <functional>
+
 #include "bindings.hpp"
 #include "probation/sample_rows.hpp"
 
@@ -15,4 +17,12 @@ inline probation::SampleRows rows(const py::array& samples) {
 inline void raise_signals() {
   const py::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// What a batch does now and then: signals come to the main thread alone, and no other may ask for the lock
+/// while the interpreter ends. To be called with the lock held.
+inline std::function<void()> signals_of_this_thread() {
+  const auto main =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return PyThread_get_thread_ident() == main ? std::function<void()>(raise_signals) : std::function<void()>();
 }

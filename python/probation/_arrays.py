@@ -122,6 +122,20 @@ def as_whole_number(value: object, name: str) -> int:
     return int(value)
 
 
+def as_threads(value: object) -> int:
+    """A number of threads, 0 for all cores.
+
+    Raises
+    ------
+    InputError
+        If it is not a whole number of at least 0.
+    """
+    count = as_whole_number(value, "threads")
+    if count < 0:
+        raise InputError(f"threads is {count}; at least 0 is needed, which means all cores")
+    return count
+
+
 def one_of(value: str, name: str, choices: Sequence[str]) -> str:
     """`value` if it is among the `choices`.
 

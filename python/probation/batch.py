@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_output, as_rows, as_samples, one_of
+from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, one_of
 from probation.change import Change, engine_change
 from probation.errors import InputError
 from probation.history import Jumps
@@ -74,7 +74,9 @@ def stresses(
     """
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(history)))
-    _core.batch_stress(law.engine, sets, history, engine_change(change), _options(scheme, start), threads, found)
+    _core.batch_stress(
+        _engine(law), sets, history, engine_change(change), _options(scheme, start), as_threads(threads), found
+    )
     return found
 
 
@@ -124,7 +126,7 @@ def field_stresses(
         one_of(jumps, "jumps", ("auto",))
     found = as_output(out, strains.shape)
     options = _options(scheme, start)
-    _core.field_stress(law.engine, sets, times, strains, jumps is not None, options, threads, found)
+    _core.field_stress(_engine(law), sets, times, strains, jumps is not None, options, as_threads(threads), found)
     return found
 
 
@@ -154,7 +156,7 @@ def sums_of_squares(
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(records)))
     engine_records = [record._engine() for record in records]
-    _core.batch_sum_of_squares(law.engine, sets, engine_records, _options(scheme, start), threads, found)
+    _core.batch_sum_of_squares(_engine(law), sets, engine_records, _options(scheme, start), as_threads(threads), found)
     return found
 
 
@@ -187,7 +189,7 @@ def many_normal_equations(
     found = as_output(out, (len(sets), len(records), 13))
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
-    _core.batch_normal_equations(law.engine, sets, engine_records, _options(scheme, start), threads, rows)
+    _core.batch_normal_equations(_engine(law), sets, engine_records, _options(scheme, start), as_threads(threads), rows)
     return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
 
@@ -204,11 +206,17 @@ def normal_equations(
     """
     solver = make_solver(record.history, scheme, start)
     stress = as_samples(record.true_stress, "true_stress", len(record.history))
-    return _core.normal_equations(solver, law.engine, record.change._engine(), stress)
+    return _core.normal_equations(solver, _engine(law), record.change._engine(), stress)
+
+
+def _engine(law: Law) -> _core.Law:
+    if not isinstance(law, Law):
+        raise InputError(f"law is {law!r}; expected a Law")
+    return law.engine
 
 
 def _as_parameters(parameters: ArrayLike) -> FloatArray:
-    sets = np.ascontiguousarray(parameters, dtype=np.float64)
+    sets = as_rows(parameters, "parameters").astype(np.float64, copy=False)
     if sets.ndim != 2 or sets.shape[1] != 3:
         raise InputError(f"parameters has the shape {sets.shape}; expected (sets, 3)")
     if not np.isfinite(sets).all():

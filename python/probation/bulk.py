@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, Rows, as_rows, as_whole_number, one_of
+from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
 from probation.errors import InputError
 from probation.history import Jumps
 from probation.law import Law, Scheme, Start
@@ -131,6 +131,8 @@ def identify_many(
     InputError
         For arguments that do not fit together; never for what a record holds.
     """
+    if not isinstance(law, Law):
+        raise InputError(f"law is {law!r}; expected a Law")
     arrays = {
         "time": as_rows(time, "time"),
         "true_strain": as_rows(true_strain, "true_strain"),
@@ -153,7 +155,7 @@ def identify_many(
         arrays["true_stress"],
         weights,
         _options(law, scheme, method, held, bounds or {}, start, jumps),
-        as_whole_number(threads, "threads"),
+        as_threads(threads),
         answer.parameters,
         answer.standard_error,
         answer.rms_residual,
@@ -173,14 +175,20 @@ def _options(
     jumps: Jumps | None,
 ) -> _core.IdentifyOptions:
     names = law.parameter_names
+    if isinstance(held, str) or not isinstance(held, Collection):
+        raise InputError(f"held is {held!r}; expected names of parameters, such as ('tau_max',)")
     for name in held:
         one_of(name, "held", names)
+    if not isinstance(bounds, Mapping):
+        raise InputError(f"bounds is {bounds!r}; expected lower and upper by name, such as {{'tau_max': (1.0, 10.0)}}")
     lower, upper = np.zeros(3), np.full(3, np.inf)
-    for name, (low, high) in bounds.items():
+    for name, ends in bounds.items():
         index = names.index(one_of(name, "bounds", names))
-        lower[index], upper[index] = low, high
-    if jumps is not None:
-        one_of(jumps, "jumps", ("auto",))
+        if isinstance(ends, str) or not isinstance(ends, Sequence | np.ndarray) or len(ends) != 2:
+            raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
+        lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
+    if jumps is not None and not (isinstance(jumps, str) and jumps == "auto"):
+        raise InputError(f"jumps is {jumps!r}; expected 'auto' or None")
     return _core.IdentifyOptions(
         getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
         getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
@@ -193,7 +201,10 @@ def _options(
 
 
 def _as_noise(noise: ArrayLike, records: int, n_times: int) -> Rows:
-    shape = np.shape(noise)
+    try:
+        shape = np.shape(noise)
+    except ValueError as error:
+        raise InputError(f"noise is not an array of numbers: {error}") from None
     if shape in ((n_times,), (records, n_times)):
         return as_rows(noise, "noise")
     try:
@@ -205,6 +216,8 @@ def _as_noise(noise: ArrayLike, records: int, n_times: int) -> Rows:
 
 
 def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
+    if not isinstance(out, BulkIdentification):
+        raise InputError(f"out is {out!r}; expected a BulkIdentification, such as BulkIdentification.empty({records})")
     wanted = BulkIdentification.empty(0)
     for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
         array, like = getattr(out, name), getattr(wanted, name)

@@ -244,3 +244,57 @@ def test_an_interrupt_ends_a_long_batch():
         os.kill(process.pid, signal.SIGINT)
         assert process.stdout.readline() == "interrupted\n"
     assert process.returncode == 0
+
+
+@pytest.mark.parametrize("scale", [1e200, 1e-160])
+def test_stresses_beyond_all_sizes_get_a_status(scale):
+    found = identify_many(LAW, TIME, STRAIN, LAW.stress(TIME, STRAIN, "sa3") * scale, threads=1)
+    assert bulk.STATUS_WORDS[int(found.status[0])] == "not finite"
+    assert np.isnan(found.parameters).all()
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e200])
+def test_only_ratios_of_the_noise_matter_at_any_scale(scale):
+    stress = LAW.stress(TIME, STRAIN, "sa3") + 0.1 * np.random.default_rng(1).standard_normal(len(TIME))
+    noise = 1.0 + 0.5 * np.sin(TIME)
+    expected = identify_many(LAW, TIME, STRAIN, stress, noise=noise, threads=1)
+    found = identify_many(LAW, TIME, STRAIN, stress, noise=noise * scale, threads=1)
+    assert found.status[0] == 0
+    assert_allclose(found.parameters, expected.parameters, rtol=1e-9)
+    assert_allclose(found.rms_residual, expected.rms_residual, rtol=1e-9)
+
+
+def test_a_relaxation_time_of_a_few_samples_is_found_where_the_thinned_record_hides_it():
+    time = np.linspace(0.0, 100.0, 401)
+    strain = np.interp(time, [0.0, 10.0, 100.0], [0.0, 0.1, 0.4])
+    law = Law(unrelaxed_modulus=3000.0, tau_max=0.35, hardening_modulus=2.0)
+    stress = law.stress(time, strain, "sa3")
+    noisy = stress + 0.025 * stress.max() * np.random.default_rng(0).standard_normal((1000, len(time)))
+    records = noisy[[0, 1, 2, 436]]
+    found = identify_many(law, time, strain, records)
+    nearby = identify_many(law, time, strain, records, bounds={"tau_max": (0.01, 10.0)})
+    assert (found.rms_residual <= nearby.rms_residual * (1.0 + 1e-9)).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ({"held": 3}, "held"),
+        ({"held": "tau_max"}, "held"),
+        ({"bounds": [(0, 1)]}, "bounds"),
+        ({"bounds": {"tau_max": 3}}, "tau_max"),
+        ({"bounds": {"tau_max": "12"}}, "tau_max"),
+        ({"bounds": {"tau_max": (1,)}}, "tau_max"),
+        ({"bounds": {"tau_max": ("a", "b")}}, "tau_max"),
+        ({"noise": [[1], [1, 2]]}, "noise"),
+        ({"jumps": np.array([1.0])}, "jumps"),
+        ({"threads": -1}, "threads"),
+        ({"threads": 1.5}, "threads"),
+        ({"out": 3}, "out"),
+    ],
+)
+def test_an_argument_of_another_kind_is_named(arguments, named):
+    with pytest.raises(probation.InputError, match=named):
+        identify_many(LAW, TIME, STRAIN, STRAIN, **arguments)
+    with pytest.raises(probation.InputError, match="law"):
+        identify_many(3, TIME, STRAIN, STRAIN)

@@ -294,3 +294,15 @@ def test_two_changes_at_once_are_those_of_either():
     assert both.load_bearing_area == 0.5
     assert both.hardening_factor is None
     assert both.feedbacks == (StressActivation(7.0),)
+
+
+@pytest.mark.parametrize("scheme", ["be2", "sa2", "sa3", "exact", "cvode"])
+def test_a_late_sample_does_not_change_what_was_before_it(scheme):
+    """The clock is finer near its start than at its end: uneven steps there are not rounding."""
+    chance = np.random.default_rng(0)
+    time = np.append(0.0, np.cumsum(1e-6 * (1.0 + 0.3 * chance.uniform(-1.0, 1.0, 60))))
+    strain = 0.3 * time / time[-1]
+    law = probation.Law(unrelaxed_modulus=3000.0, tau_max=6e-5, hardening_modulus=2.0)
+    alone = law.stress(time, strain, scheme, jumps=None)
+    later = law.stress(np.append(time, 1e9), np.append(strain, strain[-1]), scheme, jumps=None)
+    assert_allclose(later[: len(alone) - 1], alone[:-1], rtol=1e-7)

@@ -52,33 +52,39 @@ struct Identifier::Workspace {
   Search search(const SearchSpace& space, const ArrayXd& true_stress, const ArrayXd& noise) {
     constexpr Index coarse_steps = 100;
     full.take_data(true_stress, noise);
-    std::vector<double> starts{space.log_time.lower};
-    if (!options.held[1]) {
-      const Index stride = (full.solves.size() - 1) / coarse_steps;
-      if (stride > 1) {
-        thinned.solves.take_thinned(full.solves, stride);
-        thinned.take_data(true_stress, noise);
-      }
-      starts = coarse_search(stride > 1 ? thinned : full, space);
-    }
-    const auto from = [&](double start) {
-      return options.method == IdentifyMethod::variable_projection ? variable_projection(full, space, start)
-                                                                   : levenberg_marquardt(full, space, start);
+    if (options.held[1]) return best_from({space.log_time.lower}, space);
+    const Index stride = (full.solves.size() - 1) / coarse_steps;
+    if (stride <= 1) return best_from(coarse_search(full, space), space);
+    thinned.solves.take_thinned(full.solves, stride);
+    thinned.take_data(true_stress, noise);
+    Search best = best_from(coarse_search(thinned, space), space);
+    // Times below the thinned steps may have been missed.
+    const double at = best.point.log_time, near = 1e-6;
+    if (best.iterations > 0 && at > space.log_time.lower + near && at < space.log_time.upper - near)
+      return best;
+    Search other = best_from(coarse_search(full, space), space);
+    other.iterations += best.iterations;
+    return other;
+  }
+
+  /// From every start to the least cost; no iteration where there is no start.
+  Search best_from(const std::vector<double>& starts, const SearchSpace& space) {
+    Search best;
+    std::size_t best_start = 0;
+    const auto from = [&](std::size_t k) {
+      return options.method == IdentifyMethod::variable_projection
+                 ? variable_projection(full, space, starts[k])
+                 : levenberg_marquardt(full, space, starts[k]);
     };
-    Search best = from(starts[0]);
-    if (starts.size() == 1) return best;
-    int iterations = best.iterations;
-    std::size_t best_start = 0, last = 0;
-    for (std::size_t k = 1; k < starts.size(); ++k) {
-      Search other = from(starts[k]);
-      iterations += other.iterations;
-      last = k;
-      if (other.point.cost < best.point.cost) {
-        best = other;
-        best_start = k;
-      }
+    int iterations = 0;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      const Search one = from(k);
+      iterations += one.iterations;
+      if (k > 0 && !(one.point.cost < best.point.cost)) continue;
+      best = one;
+      best_start = k;
     }
-    if (best_start != last) best = from(starts[best_start]);  // whose residual is kept
+    if (best_start + 1 < starts.size()) best = from(best_start);  // whose residual is kept
     best.iterations = iterations;
     return best;
   }
@@ -106,8 +112,8 @@ Identifier& Identifier::operator=(Identifier&&) noexcept = default;
 
 Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strain, const ArrayXd& true_stress,
                                   const ArrayXd& noise) {
-  // A stretch beyond all numbers: its square overflows.
-  constexpr double largest_strain = 350.0;
+  // Beyond these, squares of squares overflow; a strain of 50 is no strain.
+  constexpr double largest_strain = 50.0, largest_stress = 1e70, least_stress = 1e-70;
   Workspace& w = *work_;
   const IdentifyOptions& options = w.options;
   const Law& law = w.law;
@@ -117,7 +123,9 @@ Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strai
   const bool finite = time.allFinite() && true_strain.allFinite() && true_stress.allFinite() &&
                       true_strain.abs().maxCoeff() < largest_strain && noise.allFinite() &&
                       (noise > 0.0).all();
-  if (!finite) return bad(IdentifyStatus::not_finite);
+  const double stress = finite ? true_stress.abs().maxCoeff() : not_a_number;
+  if (!finite || stress > largest_stress || (stress > 0.0 && stress < least_stress))
+    return bad(IdentifyStatus::not_finite);
   if (!(time.tail(n - 1) > time.head(n - 1)).all()) return bad(IdentifyStatus::times_do_not_increase);
 
   SearchSpace space{options.held, {}, {}, {}};
@@ -136,6 +144,7 @@ Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strai
   if (options.held[1]) space.log_time = {std::log(fixed[1]), std::log(fixed[1])};
 
   const Search search = w.search(space, true_stress, noise);
+  if (search.iterations == 0) return bad(IdentifyStatus::not_determined);
   w.full.move(search.step);
   const Eigen::Array3d ends[2] = {
       {space.modulus.lower, std::exp(space.log_time.lower), space.hardening.lower},

@@ -12,10 +12,12 @@ void RecordFit::take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayX
   const Index n = solves.size();
   data_.resize(n);
   weight_.resize(noise.size() > 0 ? n : 0);
+  // Only ratios matter; a power of two leaves the digits alone.
+  const double scale = noise.size() > 0 ? std::exp2(std::floor(std::log2(noise.minCoeff()))) : 1.0;
   for (Index i = 0; i < n; ++i) {
     const Index instant = instants[static_cast<std::size_t>(i)];
     data_[i] = true_stress[instant];
-    if (weight_.size() > 0) weight_[i] = 1.0 / noise[instant];
+    if (weight_.size() > 0) weight_[i] = scale / noise[instant];
   }
   if (weight_.size() > 0) data_ *= weight_;
 }

@@ -23,7 +23,7 @@ enum class IdentifyStatus : std::int8_t {
   at_a_bound = 1,  ///< a parameter stopped at a bound, or tau_max (alpha) at the end of what is searched
   did_not_converge = 2,
   not_determined = 3,  ///< the record says nothing about a parameter: its error is infinite
-  not_finite = 4,      ///< a sample is not a finite number, or a noise not a positive one
+  not_finite = 4,      ///< a sample is no finite number, or beyond all sizes, or a noise is not positive
   times_do_not_increase = 5,
   too_few_samples = 6,  ///< no more samples than parameters
   impossible_rate = 7,  ///< the companion relation gives no time at a rate of the record
