@@ -65,9 +65,10 @@ void CoefficientTable::find_spacing() {
 
 const CoefficientCell* CoefficientTable::near(double scale) {
   if (last_ && std::abs(last_->distance(scale)) <= 0.5 * width_) return last_;
-  if (!(scale > 1.0 / usable && scale < usable)) return nullptr;
+  const bool of_use = scale > 1.0 / usable && scale < usable;
+  if (!of_use) return nullptr;
   const auto index = static_cast<int64_t>(std::floor(std::log(scale) / width_ + 0.5));
-  CoefficientCell& cell = cells_[static_cast<std::size_t>(index & (cells_kept - 1))];
+  CoefficientCell& cell = cells_[static_cast<std::size_t>(index) % static_cast<std::size_t>(cells_kept)];
   if (cell.index != index) {
     cell.index = index;
     enter(cell);

@@ -30,7 +30,7 @@ class OwnScaleTable {
     constexpr Eigen::Index most_modes = 512, line = 8;  // a line of the cache holds eight numbers
     if (padded > most_modes) return nullptr;
     if (!table_.rows) {
-      memory_.resize(kernels::ScaleTable::slots * kernels::ScaleTable::terms * padded + line);
+      memory_.resize(Eigen::Index{kernels::ScaleTable::slots} * kernels::ScaleTable::terms * padded + line);
       const auto beyond = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(double) % line;
       table_.rows = memory_.data() + (line - static_cast<Eigen::Index>(beyond));
       std::fill(std::begin(table_.cell), std::end(table_.cell), -1);

@@ -29,17 +29,17 @@ void bind_identify(py::module_& m) {
       "identify_many",
       [](const Law& law, const py::array& time, const py::array& true_strain, const py::array& true_stress,
          const std::optional<py::array>& noise, const IdentifyOptions& options, int threads,
-         Eigen::Ref<RowMajorMatrix> parameters, Eigen::Ref<RowMajorMatrix> standard_error,
-         Eigen::Ref<Eigen::ArrayXd> rms_residual,
-         Eigen::Ref<Eigen::Array<std::int8_t, Eigen::Dynamic, 1>> status,
-         Eigen::Ref<Eigen::ArrayXi> iterations) {
+         const Eigen::Ref<RowMajorMatrix>& parameters, const Eigen::Ref<RowMajorMatrix>& standard_error,
+         const Eigen::Ref<Eigen::ArrayXd>& rms_residual,
+         const Eigen::Ref<Eigen::Array<std::int8_t, Eigen::Dynamic, 1>>& status,
+         const Eigen::Ref<Eigen::ArrayXi>& iterations) {
         BulkRecords records{parameters.rows(), time.shape(time.ndim() - 1), rows(time),
                             rows(true_strain), rows(true_stress),           {},
                             noise.has_value()};
         if (noise) records.noise = rows(*noise);
-        const std::function<void()> pause = signals_of_this_thread();
+        const std::function<void()> signals = signals_of_this_thread();
         const py::gil_scoped_release release;
-        identify_many(law, records, options, {threads, pause},
+        identify_many(law, records, options, {threads, signals},
                       {parameters, standard_error, rms_residual, status, iterations});
       },
       "law"_a, "time"_a, "true_strain"_a, "true_stress"_a, "noise"_a, "options"_a, "threads"_a,

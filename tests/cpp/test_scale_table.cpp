@@ -41,7 +41,7 @@ TEST_CASE("a tabled sweep gives what the formulas give in every step") {
   for (const Kernels* kernel : all_builds())
     for (const bool curved : {true, false})
       for (const double decades : {0.0, 1.0, 6.0})
-        for (ModalGroup start : {group(50), group(6), scattered()}) {
+        for (const ModalGroup& start : {group(50), group(6), scattered()}) {
           CAPTURE(std::string(kernel->name));
           CAPTURE(decades);
           const Drive drive = varied(1003, decades, 0.3);

@@ -73,6 +73,7 @@ TEST_CASE("what the pause throws ends the batch") {
 TEST_CASE("batches may be called from several threads and from inside batches") {
   std::atomic<int> sum{0};
   std::vector<std::thread> callers;
+  callers.reserve(3);
   for (int k = 0; k < 3; ++k)
     callers.emplace_back([&] {
       in_parallel(4, {2, {}}, [&](int, Index) { in_parallel(10, {3, {}}, [&](int, Index) { ++sum; }); });

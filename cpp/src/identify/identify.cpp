@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "identify/search.hpp"
 #include "probation/errors.hpp"
@@ -27,10 +28,12 @@ void IdentifyOptions::validate() const {
     throw InputError("identification needs sensitivities: use the scheme be2, sa2 or sa3");
   if (held[0] && held[1] && held[2])
     throw InputError("every parameter is held; one is needed that is left to identify");
-  for (Index i = 0; i < 3; ++i)
-    if (!(lower[i] >= 0.0 && lower[i] < upper[i]))
+  for (Index i = 0; i < 3; ++i) {
+    const bool possible = lower[i] >= 0.0 && lower[i] < upper[i];
+    if (!possible)
       throw InputError("the bounds of parameter " + std::to_string(i) + " are " + std::to_string(lower[i]) +
                        " and " + std::to_string(upper[i]) + "; 0 <= lower < upper is needed");
+  }
 }
 
 struct Identifier::Workspace {
@@ -101,7 +104,7 @@ Identifier::Identifier(const Law& law, const IdentifyOptions& options)
        : law.companion ? tried.alpha
                        : tried.tau_max) = 1.0;
   tried.validate();
-  work_->law = tried;
+  work_->law = std::move(tried);
   work_->options = options;
   work_->full.solves.set_modes(law.spectrum);
   work_->thinned.solves.set_modes(law.spectrum);

@@ -29,10 +29,11 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
     const Eigen::Vector3d here = values(p);
     // A bound holds what would be pushed through it.
     std::array<bool, 3> free{};
-    for (int i = 0; i < 3; ++i)
-      free[static_cast<std::size_t>(i)] = !space.held[static_cast<std::size_t>(i)] &&
-                                          !(here[i] <= bounds[i].lower && p.gradient[i] > 0.0) &&
-                                          !(here[i] >= bounds[i].upper && p.gradient[i] < 0.0);
+    for (int i = 0; i < 3; ++i) {
+      const bool stopped = (here[i] <= bounds[i].lower && p.gradient[i] > 0.0) ||
+                           (here[i] >= bounds[i].upper && p.gradient[i] < 0.0);
+      free[static_cast<std::size_t>(i)] = !space.held[static_cast<std::size_t>(i)] && !stopped;
+    }
     if (free != last_free) last_size = 0.0;
     last_free = free;
     p.modulus_free = free[0];

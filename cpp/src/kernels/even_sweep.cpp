@@ -76,7 +76,7 @@ void curved_block(const Modes& modes, const Steps& steps, int at, double* stress
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k]);
+  for (int k = 0; k < K; ++k) store(modes.state + at + std::ptrdiff_t{k} * lanes, state[k]);
 }
 
 /// The exponential rule where V is half the change of U: z+ = e z + a U + b U-, a = phi + psi / 2, b = -psi
@@ -112,7 +112,8 @@ double parabolic_block(const Modes& modes, const Steps& steps, int at, double* s
     for (int k = 0; k < K; ++k) state[k] = of_state[k] * state[k] + of_forcing[k] * u;
     return total_of();
   });
-  for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k] + direct[k] * steps.forcing[last]);
+  for (int k = 0; k < K; ++k)
+    store(modes.state + at + std::ptrdiff_t{k} * lanes, state[k] + direct[k] * steps.forcing[last]);
   return sum(all_direct);
 }
 

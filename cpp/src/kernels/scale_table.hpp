@@ -18,27 +18,29 @@ namespace probation::kernels::PROBATION_ISA {
 
 /// A cell of scales and the place in it.
 struct ScalePlace {
-  static constexpr int cell_bits = 4;  // cells in an octave, as a power of two
+  static constexpr unsigned cell_bits = 4;  // cells in an octave, as a power of two
 
   std::int64_t cell;  ///< the leading bits of the scale; negative: out of range
   double offset;      ///< t
 
   PROBATION_INLINE explicit ScalePlace(double scale) {
-    std::int64_t bits;
+    std::uint64_t bits;
     std::memcpy(&bits, &scale, sizeof bits);
-    const std::int64_t exponent = bits >> 52;
-    cell = exponent < 64 || exponent > 1982 ? -1 : bits >> (52 - cell_bits);
-    const std::int64_t inverse_bits = (2046 + cell_bits + 1 - exponent) << 52;
+    const std::uint64_t exponent = bits >> 52U;  // of a negative scale beyond all
+    cell = exponent < 64 || exponent > 1982 ? -1 : static_cast<std::int64_t>(bits >> (52U - cell_bits));
+    const std::uint64_t inverse_bits = (2046 + cell_bits + 1 - exponent) << 52U;
     double inverse_half_width;
     std::memcpy(&inverse_half_width, &inverse_bits, sizeof inverse_half_width);
     offset = (scale - centre(cell)) * inverse_half_width;
   }
-  PROBATION_INLINE static double centre(std::int64_t cell) { return from_cell(cell, std::int64_t{1} << 51); }
+  PROBATION_INLINE static double centre(std::int64_t cell) {
+    return from_cell(cell, std::uint64_t{1} << 51U);
+  }
   PROBATION_INLINE static double half_width(std::int64_t cell) { return centre(cell) - from_cell(cell, 0); }
 
  private:
-  PROBATION_INLINE static double from_cell(std::int64_t cell, std::int64_t half) {
-    const std::int64_t bits = (cell << (52 - cell_bits)) | (half >> cell_bits);
+  PROBATION_INLINE static double from_cell(std::int64_t cell, std::uint64_t half) {
+    const std::uint64_t bits = (static_cast<std::uint64_t>(cell) << (52U - cell_bits)) | (half >> cell_bits);
     double scale;
     std::memcpy(&scale, &bits, sizeof scale);
     return scale;
@@ -94,7 +96,7 @@ inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
       for (int p = 0; p < terms; ++p) power[p] += chi * transform.power[p][i];
     }
     for (int p = 0; p < terms; ++p)
-      store(rows + static_cast<std::ptrdiff_t>(at) * terms + p * lanes, power[p]);
+      store(rows + static_cast<std::ptrdiff_t>(at) * terms + std::ptrdiff_t{p} * lanes, power[p]);
   }
 }
 
@@ -143,9 +145,9 @@ struct TabledSteps {
 
 /// chi of the four modes whose coefficients these are.
 PROBATION_INLINE Vector tabled_chi(const double* row, double offset) {
-  Vector chi = load(row + (ScaleTable::terms - 1) * lanes);
+  Vector chi = load(row + std::ptrdiff_t{ScaleTable::terms - 1} * lanes);
 #pragma GCC unroll 8
-  for (int i = ScaleTable::terms - 2; i >= 0; --i) chi = chi * offset + load(row + i * lanes);
+  for (int i = ScaleTable::terms - 2; i >= 0; --i) chi = chi * offset + load(row + std::ptrdiff_t{i} * lanes);
   return chi;
 }
 

@@ -12,14 +12,14 @@ void even_sweep(const Modes&, const Steps&, double* stress);
 void uneven_sweep(const Modes&, const Steps&, double* stress);
 
 /// Along any directions; states and slopes live in memory.
-void general_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection*,
-                           int directions, double* scratch);
+void general_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions,
+                           int count, double* scratch);
 
 /// Along one in which the time scale alone moves.
 void time_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&, double* scratch);
 
 /// The better one of the two.
-void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection*, int directions,
+void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions, int count,
                    double* scratch);
 
 }  // namespace probation::kernels::PROBATION_ISA

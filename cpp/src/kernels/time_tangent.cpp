@@ -38,7 +38,7 @@ struct TimeBlock {
   void put_back(const Modes& modes, const TangentDirection& d, int at) const {
     for (int k = 0; k < K; ++k) {
       const auto put = [&](double* to, Vector z) {
-        store(to + at + k * lanes, choose(weight[k] == 0.0, Vector{}, z / weight[k]));
+        store(to + at + std::ptrdiff_t{k} * lanes, choose(weight[k] == 0.0, Vector{}, z / weight[k]));
       };
       put(modes.state, state[k]);
       put(d.state, slope[k]);
@@ -116,7 +116,7 @@ void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tab
     StressAndSlope total{};
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const Vector chi = tabled_chi(row + k * lanes * ScaleTable::terms, offset);
+      const Vector chi = tabled_chi(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
       const Vector x = b.inverse_ratio[k] * scale, phi = 1.0 - x * chi, decayed = 1.0 - x * phi;
       Vector drive = phi * straight, moved = x * (chi - phi) * straight;
       if constexpr (curved) {

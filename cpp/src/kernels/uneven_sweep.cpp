@@ -74,7 +74,7 @@ void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tab
     // z+ = e z + p (phi U + psi V) = z + phi (p (U - V) - x z) + 2 p chi V
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const Vector chi = tabled_chi(row + k * lanes * ScaleTable::terms, offset);
+      const Vector chi = tabled_chi(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
       const Vector x = inverse_ratio[k] * scale, phi = 1.0 - x * chi;
       Vector next = state[k];
       if constexpr (curved) next += chi * (weight[k] * (2.0 * v));
@@ -84,7 +84,7 @@ void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tab
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) store(modes.state + at + k * lanes, state[k]);
+  for (int k = 0; k < K; ++k) store(modes.state + at + std::ptrdiff_t{k} * lanes, state[k]);
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress) {
