@@ -20,6 +20,9 @@ if(PROBATION_VECTOR_EXTENSIONS)
 elseif(MSVC)
   set(PROBATION_KERNEL_FLAGS "")
 endif()
+if(PROBATION_SANITIZE)
+  list(APPEND PROBATION_KERNEL_FLAGS -O1)  # checks in unrolled loops keep the optimizer busy for minutes
+endif()
 
 function(probation_add_kernels engine)
   file(GLOB kernel_sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*.cpp")
