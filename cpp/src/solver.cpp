@@ -17,6 +17,7 @@ namespace probation {
 using Eigen::Index;
 
 struct Solver::Workspace {
+  RecordRates rates;
   RecordInputs<double> inputs, extra_in, slope_inputs;
   RecordSteps<double> steps, extra_steps, slope_steps;
   RecordInputs<Dual> dual_inputs, dual_extra;
@@ -30,7 +31,7 @@ struct Solver::Workspace {
                const SolverOptions& options) {
     law.validate();
     change.validate(history.size(), law.spectrum.modes());
-    form_inputs(law, change, history, options.scheme, inputs);
+    form_inputs(law, change, history, options.scheme, rates, inputs);
     main.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
     if (change.initial_modal_stress.size() > 0)
       main.state.head(law.spectrum.modes()) =

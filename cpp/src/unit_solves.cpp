@@ -26,7 +26,8 @@ void UnitSolves::take(const Law& law, const History& history, Scheme scheme, Sta
   unit.unrelaxed_modulus = 1.0;
   unit.hardening_modulus = 0.0;
   curved_ = scheme == Scheme::sa3;
-  form_inputs(unit, {}, history, scheme, inputs_);
+  RecordRates rates;
+  form_inputs(unit, {}, history, scheme, rates, inputs_);
   form_steps(scheme, start, history, inputs_, steps_);
   keep(steps_, stiff_);
   unit_scale_ = Eigen::Map<const Eigen::ArrayXd>(steps_.scale.data(), history.steps());

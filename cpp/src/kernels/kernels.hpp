@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/form_steps.hpp"
 #include "probation/schemes/step_rule.hpp"
 
 namespace probation::kernels {
@@ -132,6 +133,7 @@ struct Kernels {
   double (*drift)(const Modes&, const Steps&, const StepDirection&, const double* rows);
   /// On top of it, d ln scale, dU and dV.
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
+  StepPasses form;
 };
 
 /// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.

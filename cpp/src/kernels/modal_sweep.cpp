@@ -63,6 +63,7 @@ const Kernels table{PROBATION_TEXT(PROBATION_ISA),
                     advance,
                     linearise,
                     drift,
-                    move};
+                    move,
+                    {form_two_step, form_straight, form_parabolic}};
 
 }  // namespace probation::kernels::PROBATION_ISA

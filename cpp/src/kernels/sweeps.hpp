@@ -1,5 +1,5 @@
 #pragma once
-// The sweeps of one build; modal_sweep.cpp chooses among them.
+// The sweeps of one build, and the steps they take; modal_sweep.cpp chooses among them.
 
 #include "kernels.hpp"
 
@@ -21,5 +21,10 @@ void time_tangent_sweep(const Modes&, const Steps&, double* stress, const Tangen
 /// The better one of the two.
 void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions, int count,
                    double* scratch);
+
+/// See StepPasses.
+bool form_two_step(const StepSamples&, const FormedSteps&);
+bool form_straight(const StepSamples&, const FormedSteps&);
+bool form_parabolic(const StepSamples&, const FormedSteps&);
 
 }  // namespace probation::kernels::PROBATION_ISA
