@@ -12,7 +12,7 @@ namespace probation::kernels {
 /// What uneven steps of the exponential rule keep from step to step and from sweep to sweep; see
 /// scale_table.hpp. The memory is the caller's.
 struct ScaleTable {
-  static constexpr int slots = 64, terms = 8;
+  static constexpr int slots = 128, terms = 7;
   std::int64_t cell[slots];  ///< which scales a slot serves; negative: none
   double* rows;              ///< slots * terms * padded entries
 };

@@ -4,11 +4,12 @@
 //
 //   chi(x) = (1 - phi(x)) / x,    phi = 1 - x chi,    e^-x = 1 - x phi,    psi = 2 chi - phi,
 //
-// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 16 in each octave; within
-// a cell the chi of each mode is a polynomial of degree 7 in t, the place in the cell from -1 to 1, through
-// Chebyshev's points: chi is entire, its n-th term is below (1 / 32)^n, and the interpolation's error some
-// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). No mode needs to be spaced like its neighbours for
-// that. Cells are formed where steps fall into them, and kept.
+// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 32 in each octave; within
+// a cell the chi of each mode is a polynomial of degree 6 in t, the place in the cell from -1 to 1, through
+// Chebyshev's points: chi is entire, its n-th term is below (1 / 64)^n, and the interpolation's error some
+// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). Where x is small, terms fall faster still, and slow
+// modes need fewer of them. No mode needs to be spaced like its neighbours for that. Cells are formed where
+// steps fall into them, and kept.
 
 #include <cstring>
 
@@ -18,7 +19,7 @@ namespace probation::kernels::PROBATION_ISA {
 
 /// A cell of scales and the place in it.
 struct ScalePlace {
-  static constexpr unsigned cell_bits = 4;  // cells in an octave, as a power of two
+  static constexpr unsigned cell_bits = 5;  // cells in an octave, as a power of two
 
   std::int64_t cell;  ///< the leading bits of the scale; negative: out of range
   double offset;      ///< t
@@ -53,11 +54,10 @@ struct PowersFromPoints {
   double point[terms]{}, power[terms][terms]{};
 
   constexpr PowersFromPoints() {
-    static_assert(terms == 8);
-    // cos((2 i + 1) pi / 16)
-    constexpr double positive[4] = {0.98078528040323044913, 0.83146961230254523708, 0.55557023301960222474,
-                                    0.19509032201612826785};
-    for (int i = 0; i < 4; ++i) {
+    static_assert(terms == 7);
+    // cos((2 i + 1) pi / 14)
+    constexpr double positive[3] = {0.97492791218182360702, 0.78183148246802980871, 0.43388373911755812048};
+    for (int i = 0; i < 3; ++i) {
       point[i] = positive[i];
       point[terms - 1 - i] = -positive[i];
     }
@@ -81,7 +81,7 @@ struct PowersFromPoints {
   }
 };
 
-/// The rows of a cell, for all modes: the eight coefficients of four modes lie together.
+/// The rows of a cell, for all modes: the coefficients of four modes lie together.
 inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
   static constexpr PowersFromPoints transform;
   constexpr int terms = ScaleTable::terms;
@@ -104,8 +104,8 @@ inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
 struct TabledSteps {
   static constexpr int most = 256;
 
-  int count = 0;  ///< none: the table is not worth while here
-  double lowest = 0.0;
+  int count = 0;                       ///< none: the table is not worth while here
+  double lowest = 0.0, highest = 0.0;  ///< scale
   double offset[most];
   const double* rows[most];
 
@@ -116,7 +116,7 @@ struct TabledSteps {
     std::int64_t wanted[ScaleTable::slots];
     for (std::int64_t& cell : wanted) cell = -1;
     int missing = 0;
-    lowest = scale[0];
+    lowest = highest = scale[0];
     for (; count < available && count < most; ++count) {
       const ScalePlace place(scale[count]);
       if (place.cell < 0) break;
@@ -129,6 +129,7 @@ struct TabledSteps {
       offset[count] = place.offset;
       rows[count] = kept.rows + slot * stride;
       lowest = scale[count] < lowest ? scale[count] : lowest;
+      highest = scale[count] > highest ? scale[count] : highest;
     }
     if (missing * ScaleTable::terms > count) {
       count = 0;
@@ -143,12 +144,17 @@ struct TabledSteps {
   }
 };
 
-/// chi of the four modes whose coefficients these are.
+/// chi of the four modes whose coefficients these are, by the first `terms` of them.
+template <int terms = ScaleTable::terms>
 PROBATION_INLINE Vector tabled_chi(const double* row, double offset) {
-  Vector chi = load(row + std::ptrdiff_t{ScaleTable::terms - 1} * lanes);
+  Vector chi = load(row + std::ptrdiff_t{terms - 1} * lanes);
 #pragma GCC unroll 8
-  for (int i = ScaleTable::terms - 2; i >= 0; --i) chi = chi * offset + load(row + std::ptrdiff_t{i} * lanes);
+  for (int i = terms - 2; i >= 0; --i) chi = chi * offset + load(row + std::ptrdiff_t{i} * lanes);
   return chi;
 }
+
+/// How many terms keep the digits of chi for modes up to x; term n is
+/// below 2 (x / 64)^n / (n + 2)! of it.
+PROBATION_INLINE int terms_of_chi(double x) { return x < 0.3 ? 5 : x < 1.0 ? 6 : ScaleTable::terms; }
 
 }  // namespace probation::kernels::PROBATION_ISA

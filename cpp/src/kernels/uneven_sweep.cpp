@@ -56,35 +56,44 @@ void formed_exponential_sweep(const Modes& modes, const Steps& steps, double* st
     formed_sweep<ExponentialStep, false, false>(modes, steps, stress);
 }
 
-/// K vectors of modes whose coefficients come from a table; `before` is left alone.
-template <bool curved, int K>
+/// K vectors of modes whose coefficients come from a table, by their first `terms`; `before` is left alone.
+/// The states are those of unit weight, which the forcing drives all alike.
+template <bool curved, int terms, int K>
 void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress) {
   Vector state[K], inverse_ratio[K], weight[K];
   for (int k = 0; k < K; ++k) {
     const std::ptrdiff_t j = at + k * lanes;
-    state[k] = load(modes.state + j);
     inverse_ratio[k] = load(modes.inverse_ratio + j);
     weight[k] = load(modes.weight + j);
+    state[k] = per_weight(load(modes.state + j), weight[k]);
   }
   add_sums(steps.count, stress, [&](int n) {
     const double* row = tabled.rows[n] + static_cast<std::ptrdiff_t>(at) * ScaleTable::terms;
     const double offset = tabled.offset[n], scale = steps.scale[n];
     const double v = curved ? steps.curvature[n] : 0.0, straight = steps.forcing[n] - v;
     Vector total{};
-    // z+ = e z + p (phi U + psi V) = z + phi (p (U - V) - x z) + 2 p chi V
+    // y+ = e y + phi U + psi V = y + phi (U - V - x y) + 2 chi V
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const Vector chi = tabled_chi(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
+      const Vector chi = tabled_chi<terms>(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
       const Vector x = inverse_ratio[k] * scale, phi = 1.0 - x * chi;
       Vector next = state[k];
-      if constexpr (curved) next += chi * (weight[k] * (2.0 * v));
-      next += phi * (weight[k] * straight - x * state[k]);
+      if constexpr (curved) next += chi * (2.0 * v);
+      next += phi * (straight - x * state[k]);
       state[k] = next;
-      total += next;
+      total += weight[k] * next;
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) store(modes.state + at + std::ptrdiff_t{k} * lanes, state[k]);
+  for (int k = 0; k < K; ++k) store(modes.state + at + std::ptrdiff_t{k} * lanes, weight[k] * state[k]);
+}
+
+template <bool curved, int K>
+void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress) {
+  const int terms = terms_of_chi(largest(modes.inverse_ratio, at, at + K * lanes) * tabled.highest);
+  if (terms <= 5) return tabled_block<curved, 5, K>(modes, steps, tabled, at, stress);
+  if (terms == 6) return tabled_block<curved, 6, K>(modes, steps, tabled, at, stress);
+  tabled_block<curved, ScaleTable::terms, K>(modes, steps, tabled, at, stress);
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress) {
@@ -103,7 +112,8 @@ void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tab
 void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   const int last = steps.count - 1;
   int n = 0;
-  while (modes.table && n < last) {
+  const bool of_use = modes.table && states_follow_weights(modes);
+  while (of_use && n < last) {
     const TabledSteps tabled(modes, steps.scale + n, last - n);
     const int count = tabled.count > 0               ? tabled.count
                       : last - n < TabledSteps::most ? last - n
