@@ -38,7 +38,6 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   }
 }
 
-/// In even steps SA3's curvature is half the change of its forcing.
 inline kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& steps, Eigen::Index first,
                                    Eigen::Index count, bool uniform) {
   const auto i = static_cast<std::size_t>(first);
@@ -48,8 +47,7 @@ inline kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& ste
           &steps.scale[i],
           &steps.ratio[i],
           &steps.forcing[i],
-          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr,
-          uniform};
+          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr};
 }
 
 inline kernels::Modes modes_for(const kernels::Steps& steps, ModalGroup& group) {

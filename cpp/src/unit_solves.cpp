@@ -87,7 +87,6 @@ void UnitSolves::sweep(const Forcing& forcing, double* stress) {
   }
 }
 
-/// In even steps SA3's curvature is half the change of its forcing.
 kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) const {
   const auto m = static_cast<std::size_t>(run.first);
   return {rule_[m],
@@ -96,8 +95,7 @@ kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) cons
           &scale_[run.first],
           &ratio_[m],
           &forcing.forcing[run.first],
-          curved_ ? &forcing.curvature[run.first] : nullptr,
-          curved_ && run.uniform};
+          curved_ ? &forcing.curvature[run.first] : nullptr};
 }
 
 /// An even run needs the scale of its first step alone.

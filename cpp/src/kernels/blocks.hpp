@@ -13,12 +13,24 @@ struct Size {
   static constexpr int value = K;
 };
 
-/// Calls body(Size<K>, at) for blocks of K vectors of the modes from..to, then for ever smaller ones of what
-/// is left.
-template <int K, class Body>
+/// Calls body(Size<K>, from) for the one K <= largest that is `vectors`.
+template <int largest, class Body>
+PROBATION_INLINE void in_block(int vectors, int from, Body body) {
+  if constexpr (largest > 1)
+    if (vectors < largest) return in_block<largest - 1>(vectors, from, body);
+  body(Size<largest>{}, from);
+}
+
+/// Calls body(Size<K>, at) for the modes from..to in as few blocks of at most `largest` vectors as there can
+/// be, all of nearly the same size.
+template <int largest, class Body>
 PROBATION_INLINE void in_blocks(int from, int to, Body body) {
-  for (; to - from >= K * lanes; from += K * lanes) body(Size<K>{}, from);
-  if constexpr (K > 1) in_blocks<K - 1>(from, to, body);
+  const int vectors = (to - from) / lanes;
+  for (int blocks = (vectors + largest - 1) / largest; blocks > 0; --blocks) {
+    const int K = ((to - from) / lanes + blocks - 1) / blocks;
+    in_block<largest>(K, from, body);
+    from += K * lanes;
+  }
 }
 
 PROBATION_INLINE StepCoefficients<Vector> weighted(StepCoefficients<Vector> c, Vector weight) {
@@ -78,8 +90,7 @@ PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
           steps.scale + fixed,
           steps.ratio + fixed,
           steps.forcing + first,
-          steps.curvature ? steps.curvature + first : nullptr,
-          steps.parabolic};
+          steps.curvature ? steps.curvature + first : nullptr};
 }
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -35,8 +35,7 @@ struct Steps {
   const double* scale;      ///< h / tau_max, or the step of reduced time
   const double* ratio;      ///< h / h0
   const double* forcing;    ///< U
-  const double* curvature;  ///< V; null: zero
-  bool parabolic = false;   ///< V is half the change of U from the step before, but for the first step
+  const double* curvature;  ///< V; null: zero. In uniform steps half the change of U, but for the first step
 };
 
 /// One direction of a tangent, in step with Steps; null pointers are zero.

@@ -5,7 +5,7 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-/// Even steps. A one-step rule leaves `before` as it was.
+/// Even steps, two at least; `before` is left one instant behind the state.
 void even_sweep(const Modes&, const Steps&, double* stress);
 
 /// Steps of any length; `before` is left one instant behind the state.
