@@ -46,21 +46,6 @@ PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrd
                   load(modes.weight + at));
 }
 
-/// Weights below count as none.
-constexpr double least_weight = 1e-250;
-
-/// Whether modes without weight have no state, so that all states can be had from those of unit weight.
-PROBATION_INLINE bool states_follow_weights(const Modes& modes) {
-  for (int j = 0; j < modes.padded; ++j)
-    if (!(modes.weight[j] >= least_weight) && modes.state[j] != 0.0) return false;
-  return true;
-}
-
-/// The states of unit weight; see states_follow_weights().
-PROBATION_INLINE Vector per_weight(Vector state, Vector weight) {
-  return choose(weight < least_weight, Vector{}, state / weight);
-}
-
 /// The largest of values[from..to).
 PROBATION_INLINE double largest(const double* values, int from, int to) {
   double found = values[from];
