@@ -10,7 +10,7 @@ from campaigns import linear_problem as problem
 from probation import gap
 from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.probabilities import AGAIN, Weighed, answer_set, log_prior, weigh
+from probation.diagnosis.probabilities import AGAIN, LEFT_OVER, Weighed, answer_set, given_a_gap, log_prior, weigh
 from probation.gap import Cause
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
@@ -54,6 +54,24 @@ def test_probabilities_sum_to_one_and_come_in_order():
     assert sum(chances) == pytest.approx(1.0, abs=1e-12)
     assert chances == sorted(chances, reverse=True)
     assert {(), ("unknown",)} <= {each.effects for each in weighed}
+
+
+def test_where_a_gap_is_seen_what_no_effect_loses_goes_to_all_others_as_they_stand():
+    base = hypothesis()
+    parts = {(): 0.9, ("a",): 0.05, ("unknown",): 0.03, ("b",): 0.02}
+    found = given_a_gap([Weighed(effects, chance, base) for effects, chance in parts.items()])
+    chances = {each.effects: each.probability for each in found}
+    assert found[0].effects == ("a",)
+    assert chances[()] == pytest.approx(1.0 - LEFT_OVER)
+    assert chances[("a",)] == pytest.approx(0.5 * LEFT_OVER)
+    assert chances[("unknown",)] / chances[("b",)] == pytest.approx(1.5)
+    assert sum(chances.values()) == pytest.approx(1.0)
+
+
+def test_explanations_that_lead_already_stay_as_they_are_where_a_gap_is_seen():
+    base = hypothesis()
+    before = [Weighed(("a",), 0.95, base), Weighed((), 0.05, base)]
+    assert given_a_gap(before) == before
 
 
 def test_prior_probabilities_of_all_sets_sum_to_one():

@@ -16,6 +16,7 @@ from probation.diagnosis.next import next_test_of
 from probation.diagnosis.probabilities import (
     TEMPERED,
     answer_set,
+    given_a_gap,
     weigh,
     with_none_leading,
     with_unknown,
@@ -115,7 +116,7 @@ def diagnose(
     told(0.35)
     if gap.rejected:
         base, found = _searched(base, considered, workers, lambda part: told(0.35 + 0.45 * part))
-        weighed = weigh(found, len(considered), TEMPERED)
+        weighed = given_a_gap(weigh(found, len(considered), TEMPERED))
     else:
         found = linear_hypotheses(base, base.columns)
         weighed = with_none_leading(weigh(found, len(considered)))
@@ -132,10 +133,12 @@ def diagnose(
     told(0.85)
     shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
     while verdict == "explained" and leaves_too_much(shrink):
+        told_of = weighed[0].hypothesis
         weighed, chosen = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:
             verdict = "unexplained"
-        shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+        if weighed[0].hypothesis is not told_of:
+            shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()

@@ -30,7 +30,8 @@ AGAIN = 0.03
 """Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
 
 LEFT_OVER = 0.9
-"""Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
+"""Part of an explanation's probability that goes to others where a gap is left after it: to an unknown effect beside
+it, and if it is that no effect is needed, to whatever else there is."""
 
 ABOUT_AS_PROBABLE = 12.0
 """Log evidence within which forms of one effect are told apart by how well they fit as they are."""
@@ -120,6 +121,23 @@ def with_none_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     others = [each for each in weighed if each.effects]
     lifted = max(none.probability, *(each.probability for each in others)) if others else none.probability
     return _normalised([replace(none, probability=lifted), *others])
+
+
+def given_a_gap(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Where a gap is seen, "no effect is needed" keeps little; what it loses goes to all others as they stand.
+
+    A gap that no explanation gains much from may be anything: not first of all something outside the catalogue.
+    """
+    none = next(each for each in weighed if not each.effects)
+    rest = 1.0 - none.probability
+    if none.probability <= 1.0 - LEFT_OVER or rest <= 0.0:
+        return list(weighed)
+    return _normalised(
+        [
+            replace(each, probability=1.0 - LEFT_OVER if each is none else LEFT_OVER * each.probability / rest)
+            for each in weighed
+        ]
+    )
 
 
 def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
