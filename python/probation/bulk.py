@@ -13,7 +13,7 @@ from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
 from probation.errors import InputError
 from probation.history import Jumps
-from probation.law import Law, Scheme, Start
+from probation.law import Law, Scheme, Start, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
@@ -190,8 +190,7 @@ def _options(
     if jumps is not None and not (isinstance(jumps, str) and jumps == "auto"):
         raise InputError(f"jumps is {jumps!r}; expected 'auto' or None")
     return _core.IdentifyOptions(
-        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+        *engine_scheme(scheme, start, SCHEMES),
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
         [name in held for name in names],
         lower,

@@ -384,7 +384,11 @@ def make_solver(
 
 
 def solver_options(
-    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+    scheme: Scheme,
+    start: Start,
+    relative_tolerance: float = 1e-10,
+    absolute_tolerance: float = 1e-10,
+    max_steps: int = 200_000,
 ) -> _core.SolverOptions:
     """How a solver solves, as the engine takes it; what was asked for before is there already."""
     try:
@@ -398,12 +402,21 @@ def _kept_options(*arguments: Any) -> _core.SolverOptions:
     return _core.SolverOptions(*_checked(*arguments))
 
 
+def engine_scheme(
+    scheme: Scheme, start: Start, schemes: Sequence[Scheme] = SCHEMES
+) -> tuple[_core.Scheme, _core.Start]:
+    """A scheme, one of `schemes`, and bE2's first step, as the engine takes them."""
+    return (
+        getattr(_core.Scheme, one_of(scheme, "scheme", schemes)),
+        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+    )
+
+
 def _checked(
     scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
 ) -> tuple[_core.Scheme, _core.Start, float, float, int]:
     return (
-        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+        *engine_scheme(scheme, start),
         as_number(relative_tolerance, "relative_tolerance"),
         as_number(absolute_tolerance, "absolute_tolerance"),
         as_whole_number(max_steps, "max_steps"),
