@@ -12,7 +12,7 @@ from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_thr
 from probation.change import Change, engine_change
 from probation.errors import InputError
 from probation.history import Jumps
-from probation.law import Law, Scheme, Start, make_solver, solver_options
+from probation.law import Law, Scheme, Start, engine_law, make_solver, solver_options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,7 +75,7 @@ def stresses(
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(history)))
     _core.batch_stress(
-        _engine(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
     )
     return found
 
@@ -126,7 +126,7 @@ def field_stresses(
         one_of(jumps, "jumps", ("auto",))
     found = as_output(out, strains.shape)
     options = solver_options(scheme, start)
-    _core.field_stress(_engine(law), sets, times, strains, jumps is not None, options, as_threads(threads), found)
+    _core.field_stress(engine_law(law), sets, times, strains, jumps is not None, options, as_threads(threads), found)
     return found
 
 
@@ -157,7 +157,7 @@ def sums_of_squares(
     found = as_output(out, (len(sets), len(records)))
     engine_records = [record._engine() for record in records]
     _core.batch_sum_of_squares(
-        _engine(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
     )
     return found
 
@@ -192,7 +192,7 @@ def many_normal_equations(
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
     _core.batch_normal_equations(
-        _engine(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), rows
+        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), rows
     )
     return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
@@ -210,13 +210,7 @@ def normal_equations(
     """
     solver = make_solver(record.history, scheme, start)
     stress = as_samples(record.true_stress, "true_stress", len(record.history))
-    return _core.normal_equations(solver, _engine(law), record.change._engine(), stress)
-
-
-def _engine(law: Law) -> _core.Law:
-    if not isinstance(law, Law):
-        raise InputError(f"law is {law!r}; expected a Law")
-    return law.engine
+    return _core.normal_equations(solver, engine_law(law), record.change._engine(), stress)
 
 
 def _as_parameters(parameters: ArrayLike) -> FloatArray:

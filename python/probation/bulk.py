@@ -13,7 +13,7 @@ from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
 from probation.errors import InputError
 from probation.history import Jumps
-from probation.law import Law, Scheme, Start, engine_scheme
+from probation.law import Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
@@ -131,8 +131,7 @@ def identify_many(
     InputError
         For arguments that do not fit together; never for what a record holds.
     """
-    if not isinstance(law, Law):
-        raise InputError(f"law is {law!r}; expected a Law")
+    engine = engine_law(law)
     arrays = {
         "time": as_rows(time, "time"),
         "true_strain": as_rows(true_strain, "true_strain"),
@@ -149,7 +148,7 @@ def identify_many(
         weights = _as_noise(noise, records, n_times)
     answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
     _core.identify_many(
-        law.engine,
+        engine,
         arrays["time"],
         arrays["true_strain"],
         arrays["true_stress"],

@@ -371,6 +371,13 @@ class Law:
         return solver.strain_sensitivity(self.engine, engine_change(change))
 
 
+def engine_law(law: Law) -> _core.Law:
+    """The engine's law behind what an argument named `law` was given; an `InputError` if that is none."""
+    if not isinstance(law, Law):
+        raise InputError(f"law is {law!r}; expected a Law")
+    return law.engine
+
+
 def make_solver(
     history: _core.History,
     scheme: Scheme = "be2",
