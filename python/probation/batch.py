@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, one_of
+from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads
 from probation.change import Change, engine_change
 from probation.errors import InputError
-from probation.history import Jumps
+from probation.history import Jumps, looks_for_jumps
 from probation.law import Law, Scheme, Start, engine_law, make_solver, solver_options
 
 if TYPE_CHECKING:
@@ -121,12 +121,11 @@ def field_stresses(
     strains = as_rows(true_strain, "true_strain")
     if strains.ndim != 2 or strains.shape[1] != len(times):
         raise InputError(f"true_strain has the shape {strains.shape}; expected (pixels, {len(times)}), as in time")
+    engine = engine_law(law)
     sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
-    if jumps is not None:
-        one_of(jumps, "jumps", ("auto",))
     found = as_output(out, strains.shape)
     options = solver_options(scheme, start)
-    _core.field_stress(engine_law(law), sets, times, strains, jumps is not None, options, as_threads(threads), found)
+    _core.field_stress(engine, sets, times, strains, looks_for_jumps(jumps), options, as_threads(threads), found)
     return found
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
 from probation.errors import InputError
-from probation.history import Jumps
+from probation.history import Jumps, looks_for_jumps
 from probation.law import Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
@@ -186,15 +186,13 @@ def _options(
         if isinstance(ends, str) or not isinstance(ends, Sequence | np.ndarray) or len(ends) != 2:
             raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
-    if jumps is not None and not (isinstance(jumps, str) and jumps == "auto"):
-        raise InputError(f"jumps is {jumps!r}; expected 'auto' or None")
     return _core.IdentifyOptions(
         *engine_scheme(scheme, start, SCHEMES),
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
         [name in held for name in names],
         lower,
         upper,
-        jumps is not None,
+        looks_for_jumps(jumps),
     )
 
 
