@@ -7,7 +7,7 @@ import os
 import sys
 import time
 
-from probation.commands.cluster import cluster
+from probation.commands.cluster import add_cluster, cluster
 from probation.commands.delivery import add_delivery, deliver, named_numbers, said, tell
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -63,8 +63,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
     identify.add_argument("--afresh", action="store_true", help="remove the maps that are there and begin anew")
     for step in (example, identify):
-        step.add_argument("--processes", type=int, help="at a time (all processors)")
-        step.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
+        add_cluster(step)
     maps = steps.add_parser("map", help="tell and draw what was identified")
     maps.add_argument("maps", metavar="MAPS.zarr", help="as identify wrote it")
     maps.add_argument("--truth", metavar="TRUTH.zarr", help="what is true, as example writes it")
