@@ -13,13 +13,10 @@ from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
 from probation.errors import InputError
 from probation.history import Jumps, looks_for_jumps
-from probation.law import Law, Scheme, Start, engine_law, engine_scheme
+from probation.law import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
-
-SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
-"""The schemes that have sensitivities."""
 
 STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
 """What the entries of `BulkIdentification.status` mean, by number."""
@@ -187,7 +184,7 @@ def _options(
             raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
     return _core.IdentifyOptions(
-        *engine_scheme(scheme, start, SCHEMES),
+        *engine_scheme(scheme, start, DIFFERENTIABLE),
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
         [name in held for name in names],
         lower,

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
+DIFFERENTIABLE: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+"""The schemes that have sensitivities."""
 
 Start = Literal["exponential", "backward_euler"]
 """bE2's first step: "exponential" (default) or the paper's "backward_euler".

@@ -10,6 +10,7 @@ import time
 from probation.commands.cluster import add_cluster, cluster
 from probation.commands.delivery import add_delivery, deliver, named_numbers, said, tell
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
 NAME = "field"
@@ -46,16 +47,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="variable of a role (time, true_strain, engineering_strain, stretch, true_stress, engineering_stress, "
         "force, initial_area) where it is not named for it; repeatable",
     )
-    identify.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="(be2)")
+    add_scheme(identify)
     identify.add_argument(
         "--method", choices=("variable-projection", "levenberg-marquardt"), default="variable-projection", help="search"
     )
     identify.add_argument(
         "--companion", metavar="FORM:NUMBERS", help="tau_max from the strain rate, as in probation simulate"
     )
-    identify.add_argument(
-        "--hold", metavar="NAME=VALUE", action="append", default=[], help="hold a parameter; repeatable"
-    )
+    add_hold(identify)
     identify.add_argument(
         "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
     )

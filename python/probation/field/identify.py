@@ -13,7 +13,7 @@ from probation._arrays import one_of
 from probation._core import __version__
 from probation.answers import plain
 from probation.blind.origin import commit
-from probation.bulk import METHODS, SCHEMES, Method
+from probation.bulk import METHODS, Method
 from probation.errors import InputError
 from probation.field.block import FieldTask, identify_block
 from probation.field.fingerprint import COVERS, fingerprint
@@ -22,7 +22,7 @@ from probation.field.pixels import Way
 from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, map_kinds, read_run
 from probation.identify.parameter import inside_name, outside_name
-from probation.law import Law
+from probation.law import DIFFERENTIABLE, Law
 from probation.law_answer import law_answer
 from probation.pool import WorkersLostError, run_all
 
@@ -121,7 +121,7 @@ def identify_field(
     BlockLostError
         If processes die of a block, naming it.
     """
-    one_of(scheme, "scheme", SCHEMES)
+    one_of(scheme, "scheme", DIFFERENTIABLE)
     one_of(method, "method", METHODS)
     if pixels < 1 or threads < 0:
         raise InputError(f"found pixels = {pixels}, threads = {threads}; expected at least 1 and 0")
