@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
+from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, one_of
 from probation.errors import InputError
 from probation.history import Jumps, looks_for_jumps
 from probation.law import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
@@ -213,9 +213,6 @@ def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
         raise InputError(f"out is {out!r}; expected a BulkIdentification, such as BulkIdentification.empty({records})")
     wanted = BulkIdentification.empty(0)
     for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
-        array, like = getattr(out, name), getattr(wanted, name)
-        shape = (records, *like.shape[1:])
-        fits = isinstance(array, np.ndarray) and array.shape == shape and array.dtype == like.dtype
-        if not (fits and array.flags.c_contiguous and array.flags.writeable):
-            raise InputError(f"out.{name} must be a writeable, contiguous {like.dtype} array of shape {shape}")
+        like = getattr(wanted, name)
+        check_output(getattr(out, name), f"out.{name}", (records, *like.shape[1:]), like.dtype)
     return out
