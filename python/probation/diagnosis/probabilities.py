@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import comb, log
+from math import comb, exp, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
@@ -35,6 +35,13 @@ it, and if it is that no effect is needed, to whatever else there is."""
 
 ABOUT_AS_PROBABLE = 12.0
 """Log evidence within which forms of one effect are told apart by how well they fit as they are."""
+
+UNSEEN = 0.1
+"""Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom costs little
+and gains nothing. So what was probable beforehand of two effects stays so, shared out to those that were not tried."""
+
+NOTED = 0.05
+"""Probability from which on a single effect is told with others that may act beside it, unseen."""
 
 COVERED = 0.95
 """Probability that an answer set holds."""
@@ -101,6 +108,32 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
         for effects, score in scores.items()
     ]
     return sorted(found, key=lambda each: -each.probability)
+
+
+def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighed]:
+    """Beside the probable single effects each pair with another that was not tried, since it would gain nothing.
+
+    It stands for the single effect's own hypothesis: nothing is known of the other.
+
+    Parameters
+    ----------
+    weighed : sequence of Weighed
+    names : sequence of str
+        Of the catalogue's effects.
+    """
+    tried = {each.effects for each in weighed}
+    singles = [each for each in weighed if len(each.effects) == 1 and each.effects[0] in names]
+    found = list(weighed)
+    for single in singles:
+        if single.probability < NOTED:
+            continue
+        for name in names:
+            pair = tuple(sorted({*single.effects, name}))
+            if len(pair) == 2 and pair not in tried:
+                odds = UNSEEN * exp(log_prior(pair, len(names)) - log_prior(single.effects, len(names)))
+                found.append(Weighed(pair, odds * single.probability, single.hypothesis))
+                tried.add(pair)
+    return _normalised(found)
 
 
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
