@@ -21,17 +21,35 @@ void fill(std::vector<double>& out, Index from, Index to, Value value) {
   for (Index m = from; m < to; ++m) to_fill[m] = value(m);
 }
 
-/// Steps from..to where nothing restarts, given the forcing's integral f; tau_max constant.
-void form_even_steps(Scheme scheme, double h, double fluidity, const double* f, Index from, Index to,
-                     RecordSteps<double>& out) {
-  fill(out.ratio, from, to, [](Index) { return 1.0; });
-  fill(out.scale, from, to, [scale = h * fluidity](Index) { return scale; });
+/// The forcing of even steps from..to, which a scheme sees as differences of true strain and relaxed stress.
+template <class Rise>
+void form_even_forcing(Scheme scheme, double modulus, const double* strain, Rise relaxed_rise, Index from,
+                       Index to, std::vector<double>& forcing) {
+  const auto rise = [modulus, strain, relaxed_rise](Index m) {
+    return modulus * (strain[m + 1] - strain[m]) - relaxed_rise(m);
+  };
   if (scheme == Scheme::be2)
-    return fill(out.forcing, from, to,
-                [f](Index m) { return 1.5 * (f[m + 1] - f[m]) - 0.5 * (f[m] - f[m - 1]); });
-  fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
-  if (scheme == Scheme::sa3)
-    fill(out.curvature, from, to, [f](Index m) { return 0.5 * (f[m + 1] - 2.0 * f[m] + f[m - 1]); });
+    fill(forcing, from, to, [rise](Index m) { return 1.5 * rise(m) - 0.5 * rise(m - 1); });
+  else
+    fill(forcing, from, to, rise);
+}
+
+/// Steps from..to where nothing restarts; tau_max constant. Their scale stands at both ends.
+void form_even_steps(Scheme scheme, const History& history, const RecordInputs<double>& in, Index from,
+                     Index to, RecordSteps<double>& out) {
+  const double modulus = in.unrelaxed_modulus[0];
+  const double* strain = history.true_strain().data();
+  const double* relaxed = in.relaxed_stress.data();
+  if (in.relaxed_stress.size() > 1)
+    form_even_forcing(
+        scheme, modulus, strain, [relaxed](Index m) { return relaxed[m + 1] - relaxed[m]; }, from, to,
+        out.forcing);
+  else
+    form_even_forcing(scheme, modulus, strain, [](Index) { return 0.0; }, from, to, out.forcing);
+  const auto first = static_cast<std::size_t>(from), last = static_cast<std::size_t>(to - 1);
+  out.ratio[first] = 1.0;
+  out.scale[first] = out.scale[last] = history.step()[from] * in.fluidity_end[0];
+  if (scheme == Scheme::sa3) out.curvature[first] = 0.5 * (out.forcing[first] - out.forcing[first - 1]);
 }
 
 /// The same for steps of any length under any tau_max, from >= 1; the curvature comes later.
@@ -77,12 +95,17 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   const Index n = history.size(), steps = history.steps();
   const bool steady = in.fluidity_end.size() == 1;
   out.resize(static_cast<std::size_t>(steps));
-  Eigen::ArrayXd integral = in.unrelaxed_modulus[0] * history.true_strain();
-  if (in.relaxed_stress.size() > 1) integral -= Eigen::Map<const Eigen::ArrayXd>(in.relaxed_stress.data(), n);
-  const double* f = integral.data();
+  std::vector<double> integral;
+  const auto forcing_integral = [&] {
+    if (!integral.empty()) return integral.data();
+    integral.resize(static_cast<std::size_t>(n));
+    fill(integral, 0, n, [&](Index i) {
+      return in.unrelaxed_modulus[0] * history.true_strain()[i] - at(in.relaxed_stress, i);
+    });
+    return integral.data();
+  };
   const double* h = history.step().data();
   std::fill(out.rule.begin(), out.rule.end(), scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-  if (scheme != Scheme::sa3) std::fill(out.curvature.begin(), out.curvature.end(), 0.0);
 
   const auto restarts = [&](Index m) {
     return history.fresh(m) ||
@@ -101,12 +124,12 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   for (Index m = 1; m < steps;) {
     Index end = m + history.uniform_run(m);
     if (steady && end - m >= shortest_even && !history.fresh(m) && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
-      form_even_steps(scheme, h[m], in.fluidity_end[0], f, m, end, out);
+      form_even_steps(scheme, history, in, m, end, out);
     } else {
       // The first of even steps differs from the one before: it is not even itself.
       end = m + 1;
       while (end < steps && (!steady || history.uniform_run(end) < shortest_even)) ++end;
-      form_uneven_steps(scheme, h, in, f, m, end, out);
+      form_uneven_steps(scheme, h, in, forcing_integral(), m, end, out);
       if (!steady && !(Eigen::Map<const Eigen::ArrayXd>(out.scale.data() + m, end - m) > 0.0).all())
         return false;
       for (Index k = m; k < end; ++k)

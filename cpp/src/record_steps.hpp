@@ -23,7 +23,8 @@ struct RecordInputs {
   std::vector<Real> end_rate;                      // empty: the scheme's own difference of the strain
 };
 
-/// Steps ready for a kernel, one entry each per step.
+/// Steps ready for a kernel, one entry each per step. Of what is the same in all of a run of even steps, and
+/// of its curvature, the first entry alone is right.
 template <class Real>
 struct RecordSteps {
   std::vector<StepRule> rule;
@@ -104,8 +105,8 @@ StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>&
   return step_forcing(scheme, start, s, stiff_part(scheme, start, s));
 }
 
-/// form_steps where E_u is constant and the rate is the scheme's own: the forcing's integral F = E_u e -
-/// sigma^r is formed once, and its differences are all that a step needs. The same numbers as step_forcing to
+/// form_steps where E_u is constant and the rate is the scheme's own: differences of the forcing's integral F
+/// = E_u e - sigma^r are all that a step needs. The same numbers as step_forcing to
 /// rounding. False, with nothing formed, where SA3's parabola through the fluidity dips below zero.
 bool form_steps_at_once(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
                         RecordSteps<double>& out);
