@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NoReturn, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from probation.errors import InputError
 
@@ -159,7 +159,18 @@ def as_output(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     """
     if out is None:
         return np.empty(shape)
-    fits = isinstance(out, np.ndarray) and out.shape == shape and out.dtype == np.float64
-    if not (fits and out.flags.c_contiguous and out.flags.writeable):
-        raise InputError(f"out must be a writeable, contiguous float64 array of shape {shape}")
+    check_output(out, "out", shape)
     return out
+
+
+def check_output(out: object, name: str, shape: tuple[int, ...], dtype: DTypeLike = np.float64) -> None:
+    """Refuse what the engine cannot write to as it is.
+
+    Raises
+    ------
+    InputError
+        As `as_output` does.
+    """
+    fits = isinstance(out, np.ndarray) and (out.shape, out.dtype) == (shape, dtype) and out.flags.carray
+    if not fits:
+        raise InputError(f"{name} must be a writeable, contiguous {np.dtype(dtype)} array of shape {shape}")

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, one_of
+from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads
 from probation.change import Change, engine_change
 from probation.errors import InputError
-from probation.history import Jumps
-from probation.law import SCHEMES, Law, Scheme, Start, make_solver
+from probation.history import Jumps, looks_for_jumps
+from probation.law import Law, Scheme, Start, engine_law, make_solver, solver_options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,7 +75,7 @@ def stresses(
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(history)))
     _core.batch_stress(
-        _engine(law), sets, history, engine_change(change), _options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
     )
     return found
 
@@ -121,12 +121,11 @@ def field_stresses(
     strains = as_rows(true_strain, "true_strain")
     if strains.ndim != 2 or strains.shape[1] != len(times):
         raise InputError(f"true_strain has the shape {strains.shape}; expected (pixels, {len(times)}), as in time")
+    engine = engine_law(law)
     sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
-    if jumps is not None:
-        one_of(jumps, "jumps", ("auto",))
     found = as_output(out, strains.shape)
-    options = _options(scheme, start)
-    _core.field_stress(_engine(law), sets, times, strains, jumps is not None, options, as_threads(threads), found)
+    options = solver_options(scheme, start)
+    _core.field_stress(engine, sets, times, strains, looks_for_jumps(jumps), options, as_threads(threads), found)
     return found
 
 
@@ -156,7 +155,9 @@ def sums_of_squares(
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(records)))
     engine_records = [record._engine() for record in records]
-    _core.batch_sum_of_squares(_engine(law), sets, engine_records, _options(scheme, start), as_threads(threads), found)
+    _core.batch_sum_of_squares(
+        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
+    )
     return found
 
 
@@ -189,7 +190,9 @@ def many_normal_equations(
     found = as_output(out, (len(sets), len(records), 13))
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
-    _core.batch_normal_equations(_engine(law), sets, engine_records, _options(scheme, start), as_threads(threads), rows)
+    _core.batch_normal_equations(
+        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), rows
+    )
     return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
 
@@ -206,13 +209,7 @@ def normal_equations(
     """
     solver = make_solver(record.history, scheme, start)
     stress = as_samples(record.true_stress, "true_stress", len(record.history))
-    return _core.normal_equations(solver, _engine(law), record.change._engine(), stress)
-
-
-def _engine(law: Law) -> _core.Law:
-    if not isinstance(law, Law):
-        raise InputError(f"law is {law!r}; expected a Law")
-    return law.engine
+    return _core.normal_equations(solver, engine_law(law), record.change._engine(), stress)
 
 
 def _as_parameters(parameters: ArrayLike) -> FloatArray:
@@ -223,10 +220,3 @@ def _as_parameters(parameters: ArrayLike) -> FloatArray:
         row = int(np.flatnonzero(~np.isfinite(sets).all(axis=1))[0])
         raise InputError(f"parameters[{row}] has an entry that is not finite")
     return sets
-
-
-def _options(scheme: Scheme, start: Start) -> _core.SolverOptions:
-    return _core.SolverOptions(
-        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
-    )

@@ -10,16 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, one_of
+from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, one_of
 from probation.errors import InputError
-from probation.history import Jumps
-from probation.law import Law, Scheme, Start
+from probation.history import Jumps, looks_for_jumps
+from probation.law import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
-
-SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
-"""The schemes that have sensitivities."""
 
 STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
 """What the entries of `BulkIdentification.status` mean, by number."""
@@ -131,8 +128,7 @@ def identify_many(
     InputError
         For arguments that do not fit together; never for what a record holds.
     """
-    if not isinstance(law, Law):
-        raise InputError(f"law is {law!r}; expected a Law")
+    engine = engine_law(law)
     arrays = {
         "time": as_rows(time, "time"),
         "true_strain": as_rows(true_strain, "true_strain"),
@@ -149,7 +145,7 @@ def identify_many(
         weights = _as_noise(noise, records, n_times)
     answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
     _core.identify_many(
-        law.engine,
+        engine,
         arrays["time"],
         arrays["true_strain"],
         arrays["true_stress"],
@@ -187,16 +183,13 @@ def _options(
         if isinstance(ends, str) or not isinstance(ends, Sequence | np.ndarray) or len(ends) != 2:
             raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
-    if jumps is not None and not (isinstance(jumps, str) and jumps == "auto"):
-        raise InputError(f"jumps is {jumps!r}; expected 'auto' or None")
     return _core.IdentifyOptions(
-        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+        *engine_scheme(scheme, start, DIFFERENTIABLE),
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
         [name in held for name in names],
         lower,
         upper,
-        jumps is not None,
+        looks_for_jumps(jumps),
     )
 
 
@@ -220,9 +213,6 @@ def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
         raise InputError(f"out is {out!r}; expected a BulkIdentification, such as BulkIdentification.empty({records})")
     wanted = BulkIdentification.empty(0)
     for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
-        array, like = getattr(out, name), getattr(wanted, name)
-        shape = (records, *like.shape[1:])
-        fits = isinstance(array, np.ndarray) and array.shape == shape and array.dtype == like.dtype
-        if not (fits and array.flags.c_contiguous and array.flags.writeable):
-            raise InputError(f"out.{name} must be a writeable, contiguous {like.dtype} array of shape {shape}")
+        like = getattr(wanted, name)
+        check_output(getattr(out, name), f"out.{name}", (records, *like.shape[1:]), like.dtype)
     return out

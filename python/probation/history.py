@@ -78,6 +78,19 @@ def _signs(direction: ArrayLike, steps: int) -> NDArray[np.int32]:
     return signs
 
 
+def looks_for_jumps(jumps: Jumps | None) -> bool:
+    """Whether each of many histories is searched for jumps, which have no instants in common.
+
+    Raises
+    ------
+    InputError
+        If `jumps` is neither "auto" nor None, times among the rest.
+    """
+    if jumps is None or (isinstance(jumps, str) and jumps == "auto"):
+        return jumps is not None
+    raise InputError(f"jumps is {jumps!r}; expected 'auto' or None: each of many histories has its own")
+
+
 def jump_indices(jumps: ArrayLike | Jumps | None, time: FloatArray, samples: FloatArray) -> list[int]:
     """Indices of the instants at which the rate of the samples jumps; `jumps` as in `make_history`."""
     if jumps is None:

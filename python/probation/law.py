@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
+DIFFERENTIABLE: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+"""The schemes that have sensitivities."""
 
 Start = Literal["exponential", "backward_euler"]
 """bE2's first step: "exponential" (default) or the paper's "backward_euler".
@@ -371,6 +373,13 @@ class Law:
         return solver.strain_sensitivity(self.engine, engine_change(change))
 
 
+def engine_law(law: Law) -> _core.Law:
+    """The engine's law behind what an argument named `law` was given; an `InputError` if that is none."""
+    if not isinstance(law, Law):
+        raise InputError(f"law is {law!r}; expected a Law")
+    return law.engine
+
+
 def make_solver(
     history: _core.History,
     scheme: Scheme = "be2",
@@ -384,7 +393,11 @@ def make_solver(
 
 
 def solver_options(
-    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+    scheme: Scheme,
+    start: Start,
+    relative_tolerance: float = 1e-10,
+    absolute_tolerance: float = 1e-10,
+    max_steps: int = 200_000,
 ) -> _core.SolverOptions:
     """How a solver solves, as the engine takes it; what was asked for before is there already."""
     try:
@@ -398,12 +411,21 @@ def _kept_options(*arguments: Any) -> _core.SolverOptions:
     return _core.SolverOptions(*_checked(*arguments))
 
 
+def engine_scheme(
+    scheme: Scheme, start: Start, schemes: Sequence[Scheme] = SCHEMES
+) -> tuple[_core.Scheme, _core.Start]:
+    """A scheme, one of `schemes`, and bE2's first step, as the engine takes them."""
+    return (
+        getattr(_core.Scheme, one_of(scheme, "scheme", schemes)),
+        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+    )
+
+
 def _checked(
     scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
 ) -> tuple[_core.Scheme, _core.Start, float, float, int]:
     return (
-        getattr(_core.Scheme, one_of(scheme, "scheme", SCHEMES)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+        *engine_scheme(scheme, start),
         as_number(relative_tolerance, "relative_tolerance"),
         as_number(absolute_tolerance, "absolute_tolerance"),
         as_whole_number(max_steps, "max_steps"),

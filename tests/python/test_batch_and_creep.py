@@ -44,6 +44,22 @@ def test_normal_equations_are_those_of_the_sensitivities():
     assert squares == pytest.approx(((stress - data) ** 2).sum(), rel=1e-12)
 
 
+@pytest.mark.parametrize("jumps", ["auto", None])
+def test_the_stress_of_a_pixel_is_that_of_its_strain_alone(jumps):
+    strains = np.array([STRAIN, np.minimum(STRAIN, 0.3)])
+    found = batch.field_stresses(LAW, TIME, strains, SETS[1:], "sa3", jumps=jumps)
+    alone = [LAW.with_parameters(p).stress(TIME, e, "sa3", jumps=jumps) for p, e in zip(SETS[1:], strains, strict=True)]
+    assert_allclose(found, alone, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "jumps", "named"), [(LAW, np.array([1.0]), "jumps"), (LAW, "some", "jumps"), (None, "auto", "law is None")]
+)
+def test_a_field_refuses_what_is_no_law_and_jumps_of_one_record(law, jumps, named):
+    with pytest.raises(probation.InputError, match=named):
+        batch.field_stresses(law, TIME, np.array([STRAIN]), jumps=jumps)
+
+
 def test_a_bad_set_of_parameters_is_named():
     history = make_history(TIME, STRAIN)
     with pytest.raises(probation.InputError, match="tau_max"):

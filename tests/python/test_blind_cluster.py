@@ -19,15 +19,6 @@ COUNT = 12
 
 
 @pytest.fixture(scope="module")
-def cluster():
-    """Two processes of one thread each, on a port of their own choice; no dashboard."""
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs="ERROR"
-    ) as started:
-        yield started
-
-
-@pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     return laboratory.make(5, 0).write(tmp_path_factory.mktemp("made") / "develop-0000")
 

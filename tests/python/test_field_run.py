@@ -163,15 +163,6 @@ def test_a_held_parameter_and_a_companion_relation(example, tmp_path):
         identify_field(example[0], tmp_path / "more.zarr", law, hold={"tau_max_s": 5.0})
 
 
-@pytest.fixture(scope="module")
-def cluster():
-    """Two processes of one thread each, on a port of their own choice; no dashboard."""
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs="CRITICAL"
-    ) as started:
-        yield started
-
-
 def test_the_command_on_a_cluster_then_in_words_pictures_and_json(cluster, example, whole, tmp_path, capsys):
     out = tmp_path / "maps.zarr"
     identify = ["field", "identify", str(example[0]), "--out", str(out), "--pixels", str(PIXELS)]

@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import cast
 
-from probation.commands.cluster import cluster
+from probation.commands.cluster import add_cluster, cluster
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -53,8 +53,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     solve.add_argument("--answers", metavar="DIR", help="folder for the answers (answers/ in DIR)")
     solve.add_argument("--again", action="store_true", help="answer anew what has an answer")
     for step in (make, solve):
-        step.add_argument("--processes", type=int, help="at a time (all processors)")
-        step.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
+        add_cluster(step)
     score = steps.add_parser("score", help="open the truths and score the answers")
     score.add_argument("folder", metavar="DIR", help="as solve left it")
     score.add_argument("--truths", metavar="DIR", help="folder of the truths (truths/ in DIR)")

@@ -8,6 +8,7 @@ import math
 from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_hold, add_scheme
 
 NAME = "certify"
 
@@ -36,14 +37,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=0.05,
         help="systematic error that is let pass, as a fraction of a record's largest stress (0.05)",
     )
-    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="time integration (be2)")
-    parser.add_argument(
-        "--hold",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="hold a parameter: unrelaxed_modulus_MPa, tau_max_s, alpha, hardening_modulus_MPa",
-    )
+    add_scheme(parser)
+    add_hold(parser)
     add_delivery(parser)
     return parser
 

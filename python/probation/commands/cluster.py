@@ -1,4 +1,4 @@
-"""``--scheduler``: the workers of a dask cluster instead of processes of one's own."""
+"""``--processes`` and ``--scheduler``: processes of one's own, or the workers of a dask cluster."""
 
 from __future__ import annotations
 
@@ -9,8 +9,15 @@ from typing import TYPE_CHECKING
 from probation.errors import InputError
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Iterator
     from concurrent.futures import Executor
+
+
+def add_cluster(parser: argparse.ArgumentParser) -> None:
+    """Add ``--processes`` and ``--scheduler``."""
+    parser.add_argument("--processes", type=int, help="at a time (all processors)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from probation.commands.campaign_options import add_control, campaign_at, is_data_file
 from probation.commands.delivery import add_delivery, deliver_files, deliver_report, said, tell
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="by-record",
         help="G in the direct route: each record its own (default), or one for all",
     )
-    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="sa3", help="time integration (sa3)")
+    add_scheme(parser, "sa3")
     add_control(parser)
     add_delivery(parser)
     group = parser.add_argument_group("use")

@@ -17,6 +17,7 @@ from probation.commands.campaign_options import (
 )
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, said
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -79,14 +80,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=_names,
         help="consider only these effects (all); names as --list-effects tells them",
     )
-    parser.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="sa3", help="time integration (sa3)")
-    parser.add_argument(
-        "--hold",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="hold a parameter: unrelaxed_modulus_MPa, tau_max_s, alpha, hardening_modulus_MPa",
-    )
+    add_scheme(parser, "sa3")
+    add_hold(parser)
     parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
     parser.add_argument("--threads", metavar="N", type=_count, help="at most so many at once (one per core)")
     add_delivery(parser)

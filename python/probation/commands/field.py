@@ -7,9 +7,10 @@ import os
 import sys
 import time
 
-from probation.commands.cluster import cluster
+from probation.commands.cluster import add_cluster, cluster
 from probation.commands.delivery import add_delivery, deliver, named_numbers, said, tell
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
 NAME = "field"
@@ -46,16 +47,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="variable of a role (time, true_strain, engineering_strain, stretch, true_stress, engineering_stress, "
         "force, initial_area) where it is not named for it; repeatable",
     )
-    identify.add_argument("--scheme", choices=("be2", "sa2", "sa3"), default="be2", help="(be2)")
+    add_scheme(identify)
     identify.add_argument(
         "--method", choices=("variable-projection", "levenberg-marquardt"), default="variable-projection", help="search"
     )
     identify.add_argument(
         "--companion", metavar="FORM:NUMBERS", help="tau_max from the strain rate, as in probation simulate"
     )
-    identify.add_argument(
-        "--hold", metavar="NAME=VALUE", action="append", default=[], help="hold a parameter; repeatable"
-    )
+    add_hold(identify)
     identify.add_argument(
         "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
     )
@@ -63,8 +62,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
     identify.add_argument("--afresh", action="store_true", help="remove the maps that are there and begin anew")
     for step in (example, identify):
-        step.add_argument("--processes", type=int, help="at a time (all processors)")
-        step.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler, whose workers see the same folders")
+        add_cluster(step)
     maps = steps.add_parser("map", help="tell and draw what was identified")
     maps.add_argument("maps", metavar="MAPS.zarr", help="as identify wrote it")
     maps.add_argument("--truth", metavar="TRUTH.zarr", help="what is true, as example writes it")

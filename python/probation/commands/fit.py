@@ -8,6 +8,7 @@ from typing import Literal
 from probation.commands.campaign_options import add_campaign, add_control, campaign_from
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
+from probation.commands.scheme_options import add_hold, add_scheme, add_start
 from probation.excitation import METHODS as EXCITATIONS
 
 NAME = "fit"
@@ -15,7 +16,6 @@ NAME = "fit"
 _METHODS = ("least-squares", "variable-projection", "simplex")
 _WEIGHTINGS = ("auto", "plain", "strain-noise", "strain-noise-frozen")
 _INTERVALS = ("standard-error", "profile")
-_SCHEMES = ("be2", "sa2", "sa3")  # those that have sensitivities
 
 _DESCRIPTION = """\
 Identify the law on the records of a campaign: E_u, tau_max (or alpha, with a companion relation) and G, what is
@@ -34,13 +34,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
     add_campaign(parser)
     add_control(parser)
-    parser.add_argument("--scheme", choices=_SCHEMES, default="be2", help="time integration (be2)")
-    parser.add_argument(
-        "--start",
-        choices=("exponential", "backward_euler"),
-        default="exponential",
-        help="be2's first step; the paper's is backward_euler",
-    )
+    add_scheme(parser)
+    add_start(parser)
     parser.add_argument(
         "--substeps",
         metavar="N",
@@ -49,14 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="steps of the scheme from sample to sample; auto takes as many as make its own error negligible",
     )
     parser.add_argument("--method", choices=_METHODS, default="least-squares", help="of identification (least-squares)")
-    parser.add_argument(
-        "--hold",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="hold a parameter instead of identifying it: unrelaxed_modulus_MPa, tau_max_s, alpha, "
-        "hardening_modulus_MPa; wins over the campaign's law.fixed",
-    )
+    add_hold(parser, "; wins over the campaign's law.fixed")
     parser.add_argument(
         "--excitation",
         choices=EXCITATIONS,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from probation._files import write_whole
 from probation.commands.delivery import add_delivery, deliver_files, said, tell, warn
 from probation.commands.law_options import add_law_options, law_from_options
+from probation.commands.scheme_options import add_scheme, add_start
 from probation.errors import InputError
 from probation.law import SCHEMES
 
@@ -42,13 +43,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--list-histories", action="store_true", help="list their names, parameters, units, defaults")
     add_law_options(parser)
     group = parser.add_argument_group("scheme")
-    group.add_argument("--scheme", choices=SCHEMES, default="be2", help="time integration (be2)")
-    group.add_argument(
-        "--start",
-        choices=("exponential", "backward_euler"),
-        default="exponential",
-        help="be2's first step; the paper's is backward_euler",
-    )
+    add_scheme(group, choices=SCHEMES)
+    add_start(group)
     group.add_argument(
         "--tolerance",
         metavar="NUMBER",

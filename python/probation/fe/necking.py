@@ -14,6 +14,7 @@ import numpy as np
 from probation.companion import Weissenberg
 from probation.errors import InputError
 from probation.fe.bar import Bar, BarModel, Centre, Snapshot
+from probation.fe.neck_figures import neck_figures
 from probation.fe.point import MaterialPoint
 from probation.law import Law
 
@@ -72,18 +73,7 @@ class Necking:
         """The numbers that tell a neck: the force maximum, the plateau, the largest rate over the smallest before."""
         stress, rate = self.nominal_stress, self.centre_rate
         top, fastest = int(np.argmax(stress)), int(np.argmax(rate))
-        slowest = float(rate[: fastest + 1].min())
-        return {
-            "largest_nominal_stress_MPa": float(stress[top]),
-            "nominal_strain_at_largest_stress": float(self.nominal_strain[top]),
-            "lowest_nominal_stress_after_MPa": float(stress[top:].min()),
-            "slowest_centre_rate_per_s": slowest,
-            "fastest_centre_rate_per_s": float(rate[fastest]),
-            "centre_rate_ratio": float(rate[fastest]) / slowest,
-            "centre_strain_at_fastest_rate": float(self.centre_strain[fastest]),
-            "centre_strain_at_end": float(self.centre_strain[-1]),
-            "increments": len(self.time),
-        }
+        return neck_figures(self.nominal_strain, stress, self.centre_strain, rate, top, fastest)
 
 
 def neck(

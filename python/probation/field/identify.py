@@ -13,7 +13,7 @@ from probation._arrays import one_of
 from probation._core import __version__
 from probation.answers import plain
 from probation.blind.origin import commit
-from probation.bulk import METHODS, SCHEMES, Method
+from probation.bulk import METHODS, Method
 from probation.errors import InputError
 from probation.field.block import FieldTask, identify_block
 from probation.field.fingerprint import COVERS, fingerprint
@@ -21,8 +21,8 @@ from probation.field.grid import block_grid
 from probation.field.pixels import Way
 from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, map_kinds, read_run
-from probation.identify.parameter import inside_name, outside_name
-from probation.law import Law
+from probation.identify.parameter import by_inside_name, outside_name
+from probation.law import DIFFERENTIABLE, Law
 from probation.law_answer import law_answer
 from probation.pool import WorkersLostError, run_all
 
@@ -121,7 +121,7 @@ def identify_field(
     BlockLostError
         If processes die of a block, naming it.
     """
-    one_of(scheme, "scheme", SCHEMES)
+    one_of(scheme, "scheme", DIFFERENTIABLE)
     one_of(method, "method", METHODS)
     if pixels < 1 or threads < 0:
         raise InputError(f"found pixels = {pixels}, threads = {threads}; expected at least 1 and 0")
@@ -189,17 +189,11 @@ def _run_blocks(
 def _law_with(law: Law | None, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
     """The law with what is held, and the names of that."""
     law = law or Law(unrelaxed_modulus=1000.0, tau_max=1.0, hardening_modulus=1.0)
-    values = dict(zip(law.parameter_names, law.parameters.tolist(), strict=True))
-    for outside, value in hold.items():
-        inside = inside_name(outside)
-        if inside not in values:
-            expected = ", ".join(outside_name(name) for name in values)
-            raise InputError(f"hold: {outside!r} is not a parameter of this law; expected one of {expected}")
-        values[inside] = float(value)
-    held = tuple(name for name in law.parameter_names if outside_name(name) in hold)
-    if len(held) == len(values):
+    held = {name: float(value) for name, value in by_inside_name(hold, law.parameter_names, "hold").items()}
+    if len(held) == len(law.parameter_names):
         raise InputError("hold: found every parameter held, expected one left to identify")
-    return law.with_parameters(list(values.values())), held
+    values = [held.get(name, getattr(law, name)) for name in law.parameter_names]
+    return law.with_parameters(values), tuple(name for name in law.parameter_names if name in held)
 
 
 def _run(

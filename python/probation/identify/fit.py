@@ -11,7 +11,7 @@ from probation.companion import from_settings
 from probation.errors import InputError
 from probation.excitation import excite
 from probation.identify.describe import describe
-from probation.identify.parameter import inside_name, outside_name
+from probation.identify.parameter import by_inside_name, outside_name
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
@@ -172,12 +172,7 @@ def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[
     names = ("unrelaxed_modulus", "tau_max" if companion is None else "alpha", "hardening_modulus")
     values = {name: START[name] for name in names}
     fixed = {**settings.fixed, **hold}
-    for outside, value in fixed.items():
-        inside = inside_name(outside)
-        if inside not in names:
-            expected = ", ".join(outside_name(name) for name in names)
-            raise InputError(f"hold: {outside!r} is not a parameter of this law; expected one of {expected}")
-        values[inside] = float(value)
+    values.update((name, float(value)) for name, value in by_inside_name(fixed, names, "hold").items())
     law = Law(
         unrelaxed_modulus=values["unrelaxed_modulus"],
         hardening_modulus=values["hardening_modulus"],
@@ -193,13 +188,9 @@ def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[
 
 def _limits(law: Law, bounds: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     limits = dict.fromkeys(law.parameter_names, (0.0, np.inf))
-    for outside, ends in bounds.items():
-        inside = inside_name(outside)
-        if inside not in limits:
-            expected = ", ".join(outside_name(name) for name in limits)
-            raise InputError(f"bounds: {outside!r} is not a parameter of this law; expected one of {expected}")
+    for name, ends in by_inside_name(bounds, law.parameter_names, "bounds").items():
         low, high = float(ends[0]), float(ends[1])
         if not 0.0 <= low < high:
-            raise InputError(f"bounds of {outside} are ({low}, {high}); expected 0 <= lower < upper")
-        limits[inside] = (low, high)
+            raise InputError(f"bounds of {outside_name(name)} are ({low}, {high}); expected 0 <= lower < upper")
+        limits[name] = (low, high)
     return limits

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from probation.answers import PARAMETER_KEYS
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+Value = TypeVar("Value")
 
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
 
@@ -22,9 +28,21 @@ def outside_name(name: str) -> str:
     return PARAMETER_KEYS[name]
 
 
-def inside_name(name: str) -> str | None:
-    """The name within the program of "tau_max_s"; None if there is no such parameter."""
-    return next((inside for inside, outside in PARAMETER_KEYS.items() if outside == name), None)
+def by_inside_name(given: Mapping[str, Value], names: Sequence[str], argument: str) -> dict[str, Value]:
+    """What is given by outside names, by their inside ones.
+
+    Raises
+    ------
+    InputError
+        For a name that is not among the law's parameters `names`; it names the `argument`.
+    """
+    inside = {outside_name(name): name for name in names}
+    for name in given:
+        if name not in inside:
+            raise InputError(
+                f"{argument}: {name!r} is not a parameter of this law; expected one of {', '.join(inside)}"
+            )
+    return {inside[name]: value for name, value in given.items()}
 
 
 @dataclass(frozen=True)

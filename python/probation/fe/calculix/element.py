@@ -85,9 +85,8 @@ def stretch_element(ccx: Path, law: Law, folder: Path, bulk_modulus: float = 1e6
     """
     increments = (*LOADING, *UNLOADING)
     strain = np.cumsum([rise for rise, _ in increments])
-    held = [(int(node), axis + 1) for axis in range(3) for node in np.flatnonzero(CORNERS[:, axis] == 0.0) + 1]
     pulled = np.flatnonzero(CORNERS[:, 0] == 1.0) + 1
-    blocks = [deck.node_set("PULLED", pulled), deck.fixed(held)]
+    blocks = [deck.node_set("PULLED", pulled), deck.fixed(_resting(0, 1, 2))]
     moved: dict[Degree, FloatArray] = {("PULLED", 1): np.expm1(strain)}
     reaction = _run(ccx, folder, law, bulk_modulus, blocks, increments, moved)[:, pulled - 1, 0].sum(axis=1)
     found = reaction * np.exp(strain)
@@ -133,7 +132,6 @@ def turn_element(ccx: Path, law: Law, folder: Path, bulk_modulus: float = 2e4) -
     bar = pull_bar(MaterialPoint.from_law(law, bulk_modulus), increments, bulk_modulus)
     stretch = np.exp([strain, 0.5 * (bar.log_volume - strain)])
     turned_by = np.concatenate([np.zeros(len(STRETCH)), np.linspace(0.0, np.pi / 2, len(TURN) + 1)[1:]])
-    held = [(int(node), 3) for node in np.flatnonzero(CORNERS[:, 2] == 0.0) + 1]
     forces = []
     for name, angle in (("turned", turned_by), ("straight", np.zeros_like(turned_by))):
         rotation = _rotation(angle)
@@ -142,7 +140,7 @@ def turn_element(ccx: Path, law: Law, folder: Path, bulk_modulus: float = 2e4) -
             place = np.einsum("iab,bi->ia", rotation[:, :2, :2], stretch * corner[:2, None])
             for axis in range(2):
                 moved[node, axis + 1] = place[:, axis] - corner[axis]
-        found = _run(ccx, folder / name, law, bulk_modulus, [deck.fixed(held)], increments, moved)
+        found = _run(ccx, folder / name, law, bulk_modulus, [deck.fixed(_resting(2))], increments, moved)
         forces.append(np.einsum("iba,inb->ina", rotation, found))
     end = forces[0][:, CORNERS[:, 0] == 1.0].sum(axis=1)
     side = forces[0][:, CORNERS[:, 1] == 1.0].sum(axis=1)[:, 1]
@@ -156,6 +154,11 @@ def turn_element(ccx: Path, law: Law, folder: Path, bulk_modulus: float = 2e4) -
         Comparison(name, float(np.abs(difference).max() / np.abs(scale).max()), 1e-6)
         for name, difference, scale in differences
     )
+
+
+def _resting(*axes: int) -> list[tuple[int, int]]:
+    """Nodes on the coordinate plane across each of these axes and the direction, 1 to 3, that they do not move in."""
+    return [(int(node), axis + 1) for axis in axes for node in np.flatnonzero(CORNERS[:, axis] == 0.0) + 1]
 
 
 def _rotation(angle: FloatArray) -> FloatArray:

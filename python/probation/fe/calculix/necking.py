@@ -10,6 +10,7 @@ import numpy as np
 from probation.fe.calculix import deck
 from probation.fe.calculix.program import run
 from probation.fe.constants import MaterialConstants
+from probation.fe.neck_figures import neck_figures
 from probation.fe.point import MaterialPoint
 
 if TYPE_CHECKING:
@@ -64,20 +65,9 @@ class NeckingRun:
 
     def figures(self) -> dict[str, float]:
         """The numbers that tell a neck: the force maximum, the plateau, the largest rate over the smallest before."""
-        slowest = float(self.centre_rate[: self.fastest + 1].min())
-        return {
-            "largest_nominal_stress_MPa": float(self.nominal_stress[self.top]),
-            "nominal_strain_at_largest_stress": float(self.nominal_strain[self.top]),
-            "lowest_nominal_stress_after_MPa": float(self.nominal_stress[self.top :].min()),
-            "nominal_stress_at_end_MPa": float(self.nominal_stress[-1]),
-            "slowest_centre_rate_per_s": slowest,
-            "fastest_centre_rate_per_s": float(self.centre_rate[self.fastest]),
-            "centre_rate_ratio": float(self.centre_rate[self.fastest]) / slowest,
-            "centre_strain_at_fastest_rate": float(self.centre_strain[self.fastest]),
-            "centre_strain_at_end": float(self.centre_strain[-1]),
-            "nominal_strain_at_end": float(self.nominal_strain[-1]),
-            "increments": len(self.time),
-        }
+        return neck_figures(
+            self.nominal_strain, self.nominal_stress, self.centre_strain, self.centre_rate, self.top, self.fastest
+        )
 
 
 def neck_deck(law: Law, dumbbell: Dumbbell, bulk_modulus: float, rate_filter: float = 0.0) -> str:
