@@ -19,10 +19,9 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   const auto uniform_from = [&](Eigen::Index m) {
     if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
       return Eigen::Index{0};
-    const Eigen::Index end = m + history.uniform_run(m);
-    Eigen::Index last = m + 1;
-    while (last < end && rule_of(last) == rule_of(m)) ++last;
-    return last - m;
+    // The first of even steps may restart or follow another length; those after it go by one rule.
+    const Eigen::Index run = history.uniform_run(m);
+    return run == 1 || rule_of(m + 1) == rule_of(m) ? run : 1;
   };
   for (Eigen::Index m = 0; m < steps;) {
     const Eigen::Index uniform = uniform_from(m);

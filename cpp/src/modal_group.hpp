@@ -50,13 +50,15 @@ struct ModalGroup {
 
   void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
     const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
-    if (inverse_ratio.size() != padded || (inverse_ratio.head(modes) != ratio.inverse()).any())
+    if (ratio_.size() != modes || (ratio_ != ratio).any()) {
+      ratio_ = ratio;
+      inverse_ratio.setOnes(padded);
+      inverse_ratio.head(modes) = ratio.inverse();
       table.forget();
-    inverse_ratio.setOnes(padded);
+    }
     weight.setZero(padded);
     state.setZero(padded);
     before.setZero(padded);
-    inverse_ratio.head(modes) = ratio.inverse();
     weight.head(modes) = weights;
   }
   Eigen::Index padded() const { return weight.size(); }
@@ -106,6 +108,8 @@ struct ModalGroup {
   }
 
  private:
+  Eigen::ArrayXd ratio_;  ///< tau_j / tau_max, not padded
+
   [[noreturn]] static void throw_weightless(Eigen::Index j) {
     throw InputError("initial_modal_stress[" + std::to_string(j) +
                      "] is not relaxed in a mode of weight 0; no tangent there");

@@ -28,17 +28,35 @@ bool rate_drives(Scheme scheme, const RecordInputs<double>& in) {
   return scheme == Scheme::be2 && !in.end_rate.empty();
 }
 
-/// Steps from..to where nothing restarts, given the forcing's integral f; tau_max constant.
-void form_even_steps(Scheme scheme, double h, double fluidity, const double* f, Index from, Index to,
-                     RecordSteps<double>& out) {
-  fill(out.ratio, from, to, [](Index) { return 1.0; });
-  fill(out.scale, from, to, [scale = h * fluidity](Index) { return scale; });
+/// The forcing of even steps from..to, which a scheme sees as differences of true strain and relaxed stress.
+template <class Rise>
+void form_even_forcing(Scheme scheme, double modulus, const double* strain, Rise relaxed_rise, Index from,
+                       Index to, std::vector<double>& forcing) {
+  const auto rise = [modulus, strain, relaxed_rise](Index m) {
+    return modulus * (strain[m + 1] - strain[m]) - relaxed_rise(m);
+  };
   if (scheme == Scheme::be2)
-    return fill(out.forcing, from, to,
-                [f](Index m) { return 1.5 * (f[m + 1] - f[m]) - 0.5 * (f[m] - f[m - 1]); });
-  fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
-  if (scheme == Scheme::sa3)
-    fill(out.curvature, from, to, [f](Index m) { return 0.5 * (f[m + 1] - 2.0 * f[m] + f[m - 1]); });
+    fill(forcing, from, to, [rise](Index m) { return 1.5 * rise(m) - 0.5 * rise(m - 1); });
+  else
+    fill(forcing, from, to, rise);
+}
+
+/// Steps from..to where nothing restarts; tau_max constant. Their scale stands at both ends.
+void form_even_steps(Scheme scheme, const History& history, const RecordInputs<double>& in, Index from,
+                     Index to, RecordSteps<double>& out) {
+  const double modulus = in.unrelaxed_modulus[0];
+  const double* strain = history.true_strain().data();
+  const double* relaxed = in.relaxed_stress.data();
+  if (in.relaxed_stress.size() > 1)
+    form_even_forcing(
+        scheme, modulus, strain, [relaxed](Index m) { return relaxed[m + 1] - relaxed[m]; }, from, to,
+        out.forcing);
+  else
+    form_even_forcing(scheme, modulus, strain, [](Index) { return 0.0; }, from, to, out.forcing);
+  const auto first = static_cast<std::size_t>(from), last = static_cast<std::size_t>(to - 1);
+  out.ratio[first] = 1.0;
+  out.scale[first] = out.scale[last] = history.step()[from] * in.fluidity_end[0];
+  if (scheme == Scheme::sa3) out.curvature[first] = 0.5 * (out.forcing[first] - out.forcing[first - 1]);
 }
 
 /// The same for steps from..to of any length under any tau_max, from >= 1; whether every scale is positive.
@@ -80,16 +98,17 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   const Index n = history.size(), steps = history.steps();
   const bool steady = in.fluidity_end.size() == 1;
   out.resize(static_cast<std::size_t>(steps));
-  Eigen::ArrayXd integral;
-  if (rate_drives(scheme, in))
-    integral.setZero(n);
-  else
-    integral = in.unrelaxed_modulus[0] * history.true_strain();
-  if (in.relaxed_stress.size() > 1) integral -= Eigen::Map<const Eigen::ArrayXd>(in.relaxed_stress.data(), n);
-  const double* f = integral.data();
+  std::vector<double> integral;
+  const auto forcing_integral = [&] {
+    if (!integral.empty()) return integral.data();
+    integral.resize(static_cast<std::size_t>(n));
+    const double modulus = rate_drives(scheme, in) ? 0.0 : in.unrelaxed_modulus[0];
+    fill(integral, 0, n,
+         [&](Index i) { return modulus * history.true_strain()[i] - at(in.relaxed_stress, i); });
+    return integral.data();
+  };
   const double* h = history.step().data();
   std::fill(out.rule.begin(), out.rule.end(), scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-  if (scheme != Scheme::sa3) std::fill(out.curvature.begin(), out.curvature.end(), 0.0);
 
   const auto restart = [&](Index m) {
     const auto i = static_cast<std::size_t>(m);
@@ -104,13 +123,13 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   for (Index m = 1; m < steps;) {
     Index end = m + history.uniform_run(m);
     if (steady && end - m >= shortest_even && !history.fresh(m) && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
-      form_even_steps(scheme, h[m], in.fluidity_end[0], f, m, end, out);
+      form_even_steps(scheme, history, in, m, end, out);
     } else {
       // The first of even steps differs from the one before: it is not even itself.
       end = m + 1;
       while (steady && end < steps && history.uniform_run(end) < shortest_even) ++end;
       if (!steady) end = steps;
-      if (!form_uneven_steps(scheme, h, in, f, m, end, out) && !steady) return false;
+      if (!form_uneven_steps(scheme, h, in, forcing_integral(), m, end, out) && !steady) return false;
       const History::Indices& jumps = history.jumps();
       for (auto jump = std::lower_bound(jumps.begin(), jumps.end(), m); jump != jumps.end() && *jump < end;
            ++jump) {

@@ -24,7 +24,8 @@ struct RecordInputs {
   std::vector<Real> end_rate;                      // of bE2; empty: its own difference of the strain
 };
 
-/// Steps ready for a kernel, one entry each per step.
+/// Steps ready for a kernel, one entry each per step. Of what is the same in all of a run of even steps, and
+/// of its curvature, the first entry alone is right.
 template <class Real>
 struct RecordSteps {
   std::vector<StepRule> rule;
@@ -105,10 +106,9 @@ StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>&
   return step_forcing(scheme, start, s, stiff_part(scheme, start, s));
 }
 
-/// form_steps where E_u is constant: the forcing's integral F = E_u e - sigma^r is formed once, and its
-/// differences are all that a step needs (where rates are given bE2 takes E_u e' instead of E_u e). The same
-/// numbers as step_forcing to rounding. False, with nothing formed, where SA3's parabola through the fluidity
-/// dips below zero.
+/// form_steps where E_u is constant: differences of the forcing's integral F = E_u e - sigma^r are all that a
+/// step needs (where rates are given bE2 takes E_u e' instead of E_u e). The same numbers as step_forcing to
+/// rounding. False, with nothing formed, where SA3's parabola through the fluidity dips below zero.
 bool form_steps_at_once(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
                         RecordSteps<double>& out);
 

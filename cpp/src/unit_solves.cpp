@@ -33,7 +33,10 @@ void UnitSolves::take(const Law& law, const History& history, Scheme scheme, Sta
   unit_scale_ = Eigen::Map<const Eigen::ArrayXd>(steps_.scale.data(), history.steps());
   runs_.clear();
   for_each_run(history, steps_.rule, inputs_.fluidity_end.size() == 1,
-               [this](Index first, Index count, bool uniform) { runs_.push_back({first, count, uniform}); });
+               [this](Index first, Index count, bool uniform) {
+                 runs_.push_back({first, count, uniform});
+                 if (uniform) unit_scale_.segment(first, count).setConstant(unit_scale_[first]);
+               });
   // The same steps with the other forcing.
   inputs_.unrelaxed_modulus[0] = 0.0;
   inputs_.relaxed_stress.assign(history.haward_thackray_strain().data(),
@@ -118,8 +121,14 @@ void UnitSolves::solve(double time) {
 /// The forcing of E_u u + G v.
 void UnitSolves::combine(double unrelaxed_modulus, double hardening_modulus) {
   both_.forcing = unrelaxed_modulus * stiff_.forcing + hardening_modulus * relaxed_.forcing;
-  if (curved_)
-    both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
+  if (!curved_) return;
+  both_.curvature.resize(both_.forcing.size());
+  for (const Run& run : runs_) {
+    const Index count = run.uniform ? 1 : run.count;
+    both_.curvature.segment(run.first, count) =
+        unrelaxed_modulus * stiff_.curvature.segment(run.first, count) +
+        hardening_modulus * relaxed_.curvature.segment(run.first, count);
+  }
 }
 
 void UnitSolves::stress(double unrelaxed_modulus, double time, double hardening_modulus,

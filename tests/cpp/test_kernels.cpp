@@ -83,6 +83,53 @@ TEST_CASE("a mode of no weight that is stressed at the start relaxes alone") {
   }
 }
 
+TEST_CASE("tangents of uniform steps may be taken one by one, too, from any state and slope") {
+  for (const Kernels* kernel : all_builds())
+    for (const StepRule rule : all_rules)
+      for (const int count : {2, 7, 63, 130})
+        for (const double scale : {1e-3, 0.125, 20.0}) {
+          CAPTURE(std::string(kernel->name));
+          CAPTURE(count);
+          CAPTURE(scale);
+          Drive drive(count, true);
+          drive.scale.setConstant(scale);
+          const ArrayXd log_scale = ArrayXd::Constant(count, -0.7);
+          struct Swept {
+            ModalGroup modes = group(50);
+            ArrayXd stress, slope, d_state = 2.0 * modes.state, d_before = 3.0 * modes.before;
+          };
+          const auto take = [&](Swept& swept, const Steps& steps, int first) {
+            ArrayXd scratch(9 * swept.modes.padded());
+            const TangentDirection along{nullptr,
+                                         nullptr,
+                                         log_scale.data() + first,
+                                         nullptr,
+                                         nullptr,
+                                         swept.d_state.data(),
+                                         swept.d_before.data(),
+                                         swept.slope.data() + first};
+            kernel->tangent(swept.modes.view(), steps, swept.stress.data() + first, &along, 1,
+                            scratch.data());
+          };
+          Swept at_once, one_by_one;
+          for (Swept* swept : {&at_once, &one_by_one}) swept->stress = swept->slope = ArrayXd::Zero(count);
+          take(at_once, drive.steps(rule, true), 0);
+          for (int n = 0; n < count; ++n) {
+            Steps one = drive.steps(rule, false);
+            one.count = 1;
+            one.forcing += n;
+            if (one.curvature) one.curvature += n;
+            take(one_by_one, one, n);
+          }
+          check_close(at_once.stress, one_by_one.stress, 1e-12);
+          check_close(at_once.slope, one_by_one.slope, 1e-12);
+          check_close(at_once.modes.state.head(50), one_by_one.modes.state.head(50), 1e-12);
+          check_close(at_once.modes.before.head(50), one_by_one.modes.before.head(50), 1e-12);
+          check_close(at_once.d_state.head(50), one_by_one.d_state.head(50), 1e-12);
+          check_close(at_once.d_before.head(50), one_by_one.d_before.head(50), 1e-12);
+        }
+}
+
 TEST_CASE("a sweep adds to the stress that is there, and modes of weight zero add nothing") {
   const Drive drive(9, true);
   ModalGroup modes = group(5);  // padded to eight

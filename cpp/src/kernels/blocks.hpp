@@ -66,6 +66,31 @@ PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
   for (; n < count; ++n) stress[n] += sum(advance(n));
 }
 
+struct StressAndSlope {
+  Vector stress, slope;
+};
+
+/// The same for both, added to stress[n] and slope[n].
+template <class Advance>
+PROBATION_INLINE void add_both_sums(int count, double* stress, double* slope, Advance advance) {
+  int n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    Vector pairs[2];  // of two steps: both stresses, both slopes
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      const StressAndSlope a = advance(n + 2 * i), b = advance(n + 2 * i + 1);
+      pairs[i] = sums(a.stress, b.stress, a.slope, b.slope);
+    }
+    store(stress + n, load(stress + n) + first_halves(pairs[0], pairs[1]));
+    store(slope + n, load(slope + n) + last_halves(pairs[0], pairs[1]));
+  }
+  for (; n < count; ++n) {
+    const StressAndSlope one = advance(n);
+    stress[n] += sum(one.stress);
+    slope[n] += sum(one.slope);
+  }
+}
+
 /// `count` of the steps, from `first` on.
 PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
   const int fixed = steps.uniform ? 0 : first;
@@ -76,6 +101,12 @@ PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
           steps.ratio + fixed,
           steps.forcing + first,
           steps.curvature ? steps.curvature + first : nullptr};
+}
+
+/// V of step n.
+PROBATION_INLINE double curvature_at(const Steps& steps, int n) {
+  if (!steps.curvature) return 0.0;
+  return steps.uniform && n > 0 ? 0.5 * (steps.forcing[n] - steps.forcing[n - 1]) : steps.curvature[n];
 }
 
 }  // namespace probation::kernels::PROBATION_ISA

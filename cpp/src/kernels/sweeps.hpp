@@ -15,10 +15,14 @@ void uneven_sweep(const Modes&, const Steps&, double* stress);
 void general_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions,
                            int count, double* scratch);
 
-/// Along one in which the time scale alone moves.
+/// Along one in which the time scale alone moves, by one factor for all steps, which are even and two at
+/// least.
+void even_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&);
+
+/// Along one in which the time scale alone moves; uneven steps.
 void time_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&, double* scratch);
 
-/// The better one of the two.
+/// The best one of them.
 void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions, int count,
                    double* scratch);
 
