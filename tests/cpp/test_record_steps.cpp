@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "kernel_runs.hpp"
 #include "probation/companion/power_law.hpp"
 #include "probation/companion/weissenberg.hpp"
 
@@ -50,14 +51,22 @@ void check_steps(const Law& law, const History& history, Scheme scheme) {
   form_inputs(law, {}, history, scheme, rates, in);
   RecordSteps<double> formed;
   form_steps(scheme, Start::exponential, history, in, formed);
+  // Of a run of even steps a kernel reads the first scale, ratio and curvature alone.
+  std::vector<bool> read(static_cast<std::size_t>(history.steps()), true);
+  for_each_run(history, formed.rule, in.fluidity_end.size() == 1,
+               [&](Index first, Index count, bool uniform) {
+                 for (Index m = first + 1; uniform && m < first + count; ++m)
+                   read[static_cast<std::size_t>(m)] = false;
+               });
   StepForcing<double> one{};
   for (Index m = 0; m < history.steps(); ++m) {
     const auto i = static_cast<std::size_t>(m);
     one = step_forcing(scheme, Start::exponential, step_data(history, in, m, one.scale, one.forcing));
     CHECK(formed.rule[i] == one.rule);
-    if (one.rule == StepRule::bdf2) CHECK(formed.ratio[i] == history.ratio(m));
-    CHECK(formed.scale[i] == doctest::Approx(one.scale).epsilon(1e-13));
     CHECK(std::abs(formed.forcing[i] - one.forcing) < 1e-10);
+    if (!read[i]) continue;
+    if (one.rule == StepRule::bdf2) CHECK(formed.ratio[i] == doctest::Approx(history.ratio(m)).epsilon(1e-9));
+    CHECK(formed.scale[i] == doctest::Approx(one.scale).epsilon(1e-13));
     if (scheme == Scheme::sa3) CHECK(std::abs(formed.curvature[i] - one.curvature) < 1e-10);
   }
 }
