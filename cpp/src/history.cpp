@@ -40,24 +40,39 @@ double evenness(double step, double time, double other_time) {
 }  // namespace
 
 History::History(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
-                 const Eigen::ArrayXi& direction)
-    : time_(time),
-      true_strain_(true_strain),
-      strain_rate_(strain_rate),
-      jumps_(std::move(jumps)),
-      direction_(direction) {
+                 const Eigen::ArrayXi& direction) {
+  assign(time, true_strain, strain_rate, std::move(jumps), direction);
+}
+
+History::History(FindJumps find, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+                 const Eigen::ArrayXi& direction) {
+  assign(find, time, true_strain, strain_rate, direction);
+}
+
+void History::assign(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+                     Indices jumps, const Eigen::ArrayXi& direction) {
+  take(time, true_strain, strain_rate, direction);
   const bool even = check();
+  jumps_ = std::move(jumps);
   mark_fresh();
   find_stretches(even);
 }
 
-History::History(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
-                 const Eigen::ArrayXi& direction)
-    : time_(time), true_strain_(true_strain), strain_rate_(strain_rate), direction_(direction) {
+void History::assign(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+                     const Eigen::ArrayXi& direction) {
+  take(time, true_strain, strain_rate, direction);
   const bool even = check();
   jumps_ = find_rate_jumps(time_, true_strain_);
   mark_fresh();
   find_stretches(even);
+}
+
+void History::take(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+                   const Eigen::ArrayXi& direction) {
+  time_ = time;
+  true_strain_ = true_strain;
+  strain_rate_ = strain_rate;
+  direction_ = direction;
 }
 
 bool History::check() {

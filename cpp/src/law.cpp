@@ -38,6 +38,11 @@ void require_entries(const Eigen::ArrayXd& values, Eigen::Index expected, const 
 }  // namespace
 
 void Law::validate() const {
+  validate_parameters();
+  spectrum.validate();
+}
+
+void Law::validate_parameters() const {
   require(unrelaxed_modulus, unrelaxed_modulus >= 0.0, "unrelaxed_modulus",
           "a modulus in MPa, not negative, is needed");
   require(hardening_modulus, hardening_modulus >= 0.0, "hardening_modulus",
@@ -46,7 +51,6 @@ void Law::validate() const {
     require(alpha, alpha > 0.0, "alpha", "a positive number is needed");
   else
     require(tau_max, tau_max > 0.0, "tau_max", "a positive time in s is needed");
-  spectrum.validate();
 }
 
 void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {

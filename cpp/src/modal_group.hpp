@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <string>
 
@@ -45,21 +46,28 @@ class OwnScaleTable {
 
 /// Arrays padded to a multiple of four with modes of weight zero, which stay at zero.
 struct ModalGroup {
-  Eigen::ArrayXd inverse_ratio, weight, state, before;
+  Eigen::ArrayXd ratio, inverse_ratio, weight, state, before;
   OwnScaleTable table;
 
-  void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
-    const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
-    if (ratio_.size() != modes || (ratio_ != ratio).any()) {
-      ratio_ = ratio;
-      inverse_ratio.setOnes(padded);
-      inverse_ratio.head(modes) = ratio.inverse();
+  /// Takes the modes, at rest.
+  void set(const Eigen::ArrayXd& ratios, const Eigen::ArrayXd& weights) {
+    const Eigen::Index modes = ratios.size(), padded = (modes + 3) / 4 * 4;
+    if (!same(ratio, ratios)) {
       table.forget();
+      ratio = ratios;
+      inverse_ratio.setOnes(padded);
+      inverse_ratio.head(modes) = ratios.inverse();
     }
     weight.setZero(padded);
+    weight.head(modes) = weights;
     state.setZero(padded);
     before.setZero(padded);
-    weight.head(modes) = weights;
+  }
+  /// Whether it has these modes already.
+  bool holds(const Spectrum& spectrum) const {
+    const Eigen::Index modes = ratio.size();
+    return modes > 0 && modes == spectrum.modal_weight.size() && same(ratio, spectrum.relaxation_ratio) &&
+           same(weight.head(modes), spectrum.modal_weight);
   }
   Eigen::Index padded() const { return weight.size(); }
   bool empty() const { return weight.size() == 0; }
@@ -108,8 +116,12 @@ struct ModalGroup {
   }
 
  private:
-  Eigen::ArrayXd ratio_;  ///< tau_j / tau_max, not padded
-
+  /// To the last bit.
+  static bool same(const Eigen::Ref<const Eigen::ArrayXd>& one, const Eigen::ArrayXd& other) {
+    if (one.size() != other.size()) return false;
+    const auto bytes = static_cast<std::size_t>(one.size()) * sizeof(double);
+    return bytes == 0 || std::memcmp(one.data(), other.data(), bytes) == 0;
+  }
   [[noreturn]] static void throw_weightless(Eigen::Index j) {
     throw InputError("initial_modal_stress[" + std::to_string(j) +
                      "] is not relaxed in a mode of weight 0; no tangent there");

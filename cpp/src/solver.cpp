@@ -76,12 +76,14 @@ struct Solver::Workspace {
   ModalGroup main, extra;
   std::vector<TangentState> tangents;
   CoupledTables tables;
+  bool coupled = false;  // whether the tables are in use
   CvodeStatistics cvode;
   std::mutex busy;
 
   void prepare(const Law& law, const LawChange& change, const History& history,
                const SolverOptions& options) {
-    law.validate();
+    law.validate_parameters();
+    if (!main.holds(law.spectrum)) law.spectrum.validate();
     change.validate(history.size(), law.spectrum.modes());
     form_inputs(law, change, history, options.scheme, rates, inputs);
     main.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
@@ -95,11 +97,26 @@ struct Solver::Workspace {
   }
 };
 
+Solver::Solver() : work_(std::make_unique<Workspace>()) {}
 Solver::Solver(History history, SolverOptions options)
     : history_(std::move(history)), options_(options), work_(std::make_unique<Workspace>()) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
+
+void Solver::forget() {
+  work_->rates = {};
+  if (!work_->coupled) return;
+  work_->tables = {};
+  work_->coupled = false;
+}
+
+Solver& kept_solver() {
+  constexpr Index most_kept = 100'000;  // samples: about ten megabytes in all
+  thread_local Solver solver;
+  if (solver.history().size() > most_kept) solver = Solver();
+  return solver;
+}
 
 const History& Solver::history() const noexcept { return history_; }
 const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_->cvode; }
@@ -154,6 +171,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
   if (coupled) {
+    w.coupled = true;
     CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
         .solve(w.inputs, {}, stress, nullptr);
     return;

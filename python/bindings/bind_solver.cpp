@@ -1,7 +1,22 @@
+#include <optional>
+
 #include "bindings.hpp"
 #include "probation/solver.hpp"
 
 using namespace probation;
+
+namespace {
+
+/// The samples of an array where NumPy holds them; none if it is of a subclass, or Held does not take it.
+template <class Scalar>
+std::optional<Held<Scalar>> held(py::handle source) {
+  if (Py_TYPE(source.ptr()) != py::detail::npy_api::get().PyArray_Type_) return {};
+  py::detail::make_caster<Held<Scalar>> caster;
+  if (!caster.load(source, false)) return {};
+  return py::detail::cast_op<Held<Scalar>&>(caster);
+}
+
+}  // namespace
 
 void bind_solver(py::module_& m) {
   py::native_enum<Scheme>(m, "Scheme", "enum.Enum")
@@ -65,13 +80,34 @@ void bind_solver(py::module_& m) {
         const py::gil_scoped_release others_run;
         const auto instants = time.view(), strain = true_strain.view(), rate = strain_rate.view();
         const Eigen::ArrayXi signs = direction.view();
-        Solver(find_jumps ? History(FindJumps{}, instants, strain, rate, signs)
-                          : History(instants, strain, rate, std::move(jumps), signs),
-               options)
-            .stress(law, change, out.view());
+        Solver& solver = kept_solver();
+        if (find_jumps)
+          solver.take(options, FindJumps{}, instants, strain, rate, signs);
+        else
+          solver.take(options, instants, strain, rate, std::move(jumps), signs);
+        solver.stress(law, change, out.view());
       },
       "law"_a, "change"_a, "options"_a, "out"_a, "time"_a, "true_strain"_a, "strain_rate"_a, "jumps"_a,
       "direction"_a, "find_jumps"_a);
+  m.def(
+      "stress_where_held",
+      [](const Law& law, const LawChange& change, const SolverOptions& options, py::object out,
+         py::handle time, py::handle true_strain) -> py::object {
+        const auto instants = held<const double>(time), strain = held<const double>(true_strain);
+        if (!instants || !strain || instants->size != strain->size) return py::none();
+        if (out.is_none()) out = py::array_t<double>(instants->size);
+        const auto stress = held<double>(out);
+        if (!stress || stress->size != instants->size) return py::none();
+        {
+          const py::gil_scoped_release others_run;
+          Solver& solver = kept_solver();
+          solver.take(options, FindJumps{}, instants->view(), strain->view(), Eigen::ArrayXd(),
+                      Eigen::ArrayXi());
+          solver.stress(law, change, stress->view());
+        }
+        return out;
+      },
+      "law"_a, "change"_a, "options"_a, "out"_a, "time"_a, "true_strain"_a);
   m.def("kernel_build", &kernel_build);
   m.def("parameter_directions", &parameter_directions, "law"_a, "change"_a, "history"_a);
 }

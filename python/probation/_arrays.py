@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from probation.errors import InputError
 
@@ -163,7 +163,7 @@ def as_output(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     return out
 
 
-def check_output(out: object, name: str, shape: tuple[int, ...], dtype: DTypeLike = np.float64) -> None:
+def check_output(out: object, name: str, shape: tuple[int, ...], dtype: np.dtype[Any] = _FLOAT64) -> None:
     """Refuse what the engine cannot write to as it is.
 
     Raises
@@ -173,4 +173,4 @@ def check_output(out: object, name: str, shape: tuple[int, ...], dtype: DTypeLik
     """
     fits = isinstance(out, np.ndarray) and (out.shape, out.dtype) == (shape, dtype) and out.flags.carray
     if not fits:
-        raise InputError(f"{name} must be a writeable, contiguous {np.dtype(dtype)} array of shape {shape}")
+        raise InputError(f"{name} must be a writeable, contiguous {dtype} array of shape {shape}")

@@ -313,6 +313,9 @@ def stress(
     direction: _Signs,
     find_jumps: bool,
 ) -> None: ...
+def stress_where_held(
+    law: Law, change: LawChange, options: SolverOptions, out: _Array | None, time: object, true_strain: object
+) -> _Array | None: ...
 
 class BatchRecord:
     def __init__(self, history: History, true_stress: _Array, change: LawChange) -> None: ...

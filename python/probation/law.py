@@ -299,10 +299,14 @@ class Law:
             If CVODE or the iteration of a feedback fails; it has `time` and `residual_norm`.
         """
         options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        changed = engine_change(change)
+        if strain_rate is None and direction is None and isinstance(jumps, str) and jumps == "auto":
+            found = _core.stress_where_held(self.engine, changed, options, out, time, true_strain)
+            if found is not None:  # None: the arrays have to be made ready first, or refused
+                return found
         history = history_arguments(time, true_strain, strain_rate, jumps, direction)
-        shape = history[0].shape
-        stress = np.empty(shape) if out is None else as_output(out, shape)
-        _core.stress(self.engine, engine_change(change), options, stress, *history)
+        stress = as_output(out, history[0].shape)
+        _core.stress(self.engine, changed, options, stress, *history)
         return stress
 
     def sensitivity(

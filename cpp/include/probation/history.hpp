@@ -32,6 +32,8 @@ class History {
  public:
   using Indices = std::vector<Eigen::Index>;
 
+  /// Of no samples: to be assigned to.
+  History() = default;
   /// @param time         [s], finite, increasing; shape (n_times), at least 2
   /// @param true_strain  [-], finite; shape (n_times)
   /// @param strain_rate  [1/s], finite; shape (n_times), or empty
@@ -44,6 +46,13 @@ class History {
           Indices jumps = {}, const Eigen::ArrayXi& direction = Eigen::ArrayXi());
   History(FindJumps, const Samples& time, const Samples& true_strain,
           const Samples& strain_rate = Eigen::ArrayXd(), const Eigen::ArrayXi& direction = Eigen::ArrayXi());
+
+  /// Becomes another history in the memory of this one; arguments as above. If it throws, it is of no use
+  /// before it is assigned to again.
+  void assign(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
+              const Eigen::ArrayXi& direction);
+  void assign(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+              const Eigen::ArrayXi& direction);
 
   /// Instants at which the rate of a sampled history jumps: the secant changes there by over 10 %, thirty
   /// times more than it does around, and three times more than 95 % of the changes of the whole record (of 60
@@ -89,6 +98,9 @@ class History {
 
  private:
   StepRates take_given(const Samples& true_strain, const Samples& strain_rate) const;
+  /// Takes the samples.
+  void take(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
+            const Eigen::ArrayXi& direction);
   /// Makes e_HT, and throws for samples that cannot be; returns whether all steps are even.
   bool check();
   void mark_fresh();

@@ -23,6 +23,8 @@ struct Law {
 
   /// @throws InputError  naming the parameter that is not finite or not positive (moduli may be zero)
   void validate() const;
+  /// The same but for the spectrum.
+  void validate_parameters() const;
 };
 
 /// A Maxwell element beside the spectrum: its own modulus and a time that no rate shifts.

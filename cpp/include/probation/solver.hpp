@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "probation/history.hpp"
@@ -26,10 +27,19 @@ struct SolverOptions {
 /// share a solver (one waits), but each does better with its own.
 class Solver {
  public:
+  Solver();  ///< Of no history: take() one.
   Solver(History history, SolverOptions options);
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
+
+  /// Turns to another history, made of `samples` as History makes it, in the memory of the one before.
+  template <class... Samples>
+  void take(SolverOptions options, Samples&&... samples) {
+    forget();
+    options_ = options;
+    history_.assign(std::forward<Samples>(samples)...);
+  }
 
   const History& history() const noexcept;
 
@@ -48,10 +58,16 @@ class Solver {
 
  private:
   struct Workspace;
+  /// Tables that would change the last bits of the next answer.
+  void forget();
+
   History history_;
   SolverOptions options_;
   std::unique_ptr<Workspace> work_;
 };
+
+/// The solver that this thread keeps for histories that are solved once: take() one.
+Solver& kept_solver();
 
 /// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline", or "portable" (plain C++). The best that
 /// this processor can run, unless PROBATION_KERNELS in the environment names one; it is read once.
