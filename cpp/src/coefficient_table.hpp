@@ -1,6 +1,11 @@
 #pragma once
 // Step coefficients as functions of the scale: cells so narrow that in each a polynomial has all digits.
 // Filled where they are asked for, and kept from solve to solve.
+//
+// Beside kernels/scale_table.hpp, whose steps are known before the modes are swept. Here the stress at the
+// end of a step is to be a polynomial in a scale still unknown: for that, phi and psi are tabled themselves
+// (from chi, modes with a large x would cancel), with a row across all modes for each power, in cells that
+// reach from a guess to the solution, and for bE2's rule as well.
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -19,10 +19,9 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   const auto uniform_from = [&](Eigen::Index m) {
     if (!constant_scale || (rule_of(m) == StepRule::bdf2 && std::abs(history.ratio(m) - 1.0) > 1e-9))
       return Eigen::Index{0};
-    const Eigen::Index end = m + history.uniform_run(m);
-    Eigen::Index last = m + 1;
-    while (last < end && rule_of(last) == rule_of(m)) ++last;
-    return last - m;
+    // The first of even steps may restart or follow another length; those after it go by one rule.
+    const Eigen::Index run = history.uniform_run(m);
+    return run == 1 || rule_of(m + 1) == rule_of(m) ? run : 1;
   };
   for (Eigen::Index m = 0; m < steps;) {
     const Eigen::Index uniform = uniform_from(m);
@@ -38,7 +37,6 @@ void for_each_run(const History& history, const std::vector<StepRule>& rule, boo
   }
 }
 
-/// In even steps SA3's curvature is half the change of its forcing.
 inline kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& steps, Eigen::Index first,
                                    Eigen::Index count, bool uniform) {
   const auto i = static_cast<std::size_t>(first);
@@ -48,8 +46,7 @@ inline kernels::Steps kernel_steps(Scheme scheme, const RecordSteps<double>& ste
           &steps.scale[i],
           &steps.ratio[i],
           &steps.forcing[i],
-          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr,
-          uniform};
+          scheme == Scheme::sa3 ? &steps.curvature[i] : nullptr};
 }
 
 inline kernels::Modes modes_for(const kernels::Steps& steps, ModalGroup& group) {

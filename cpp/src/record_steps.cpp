@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/kernels.hpp"
+
 namespace probation {
 namespace {
 
@@ -21,52 +23,71 @@ void fill(std::vector<double>& out, Index from, Index to, Value value) {
   for (Index m = from; m < to; ++m) to_fill[m] = value(m);
 }
 
-/// Steps from..to where nothing restarts, given the forcing's integral f; tau_max constant.
-void form_even_steps(Scheme scheme, double h, double fluidity, const double* f, Index from, Index to,
-                     RecordSteps<double>& out) {
-  fill(out.ratio, from, to, [](Index) { return 1.0; });
-  fill(out.scale, from, to, [scale = h * fluidity](Index) { return scale; });
-  if (scheme == Scheme::be2)
-    return fill(out.forcing, from, to,
-                [f](Index m) { return 1.5 * (f[m + 1] - f[m]) - 0.5 * (f[m] - f[m - 1]); });
-  fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
-  if (scheme == Scheme::sa3)
-    fill(out.curvature, from, to, [f](Index m) { return 0.5 * (f[m + 1] - 2.0 * f[m] + f[m - 1]); });
+/// Whether the strain drives through given rates: bE2's end of a step.
+bool rate_drives(Scheme scheme, const RecordInputs<double>& in) {
+  return scheme == Scheme::be2 && !in.end_rate.empty();
 }
 
-/// The same for steps of any length under any tau_max, from >= 1; the curvature comes later.
-void form_uneven_steps(Scheme scheme, const double* h, const RecordInputs<double>& in, const double* f,
-                       Index from, Index to, RecordSteps<double>& out) {
-  fill(out.ratio, from, to, [h](Index m) { return h[m] / h[m - 1]; });
-  const double* ratio = out.ratio.data();
+/// The forcing of even steps from..to, which a scheme sees as differences of true strain and relaxed stress.
+template <class Rise>
+void form_even_forcing(Scheme scheme, double modulus, const double* strain, Rise relaxed_rise, Index from,
+                       Index to, std::vector<double>& forcing) {
+  const auto rise = [modulus, strain, relaxed_rise](Index m) {
+    return modulus * (strain[m + 1] - strain[m]) - relaxed_rise(m);
+  };
   if (scheme == Scheme::be2)
-    fill(out.forcing, from, to,
-         [f, ratio](Index m) { return Bdf2Difference(ratio[m])(f[m + 1], f[m], f[m - 1]); });
+    fill(forcing, from, to, [rise](Index m) { return 1.5 * rise(m) - 0.5 * rise(m - 1); });
   else
-    fill(out.forcing, from, to, [f](Index m) { return f[m + 1] - f[m]; });
-  const double* begin = in.fluidity_begin.data();
-  const double* end = in.fluidity_end.data();
-  if (in.fluidity_end.size() == 1)
-    fill(out.scale, from, to, [h, fluidity = end[0]](Index m) { return h[m] * fluidity; });
-  else if (scheme == Scheme::be2)
-    fill(out.scale, from, to, [h, end](Index m) { return h[m] * end[m]; });
-  else if (scheme == Scheme::sa2)
-    fill(out.scale, from, to, [h, begin, end](Index m) { return (0.5 * h[m]) * (begin[m] + end[m]); });
-  else  // parabolic_reduced_time
-    fill(out.scale, from, to, [h, begin, end](Index m) {
-      const double bend =
-          ((end[m] - begin[m]) / h[m] - (begin[m] - begin[m - 1]) / h[m - 1]) / (h[m] + h[m - 1]);
-      return h[m] * (0.5 * (begin[m] + end[m]) - (h[m] * h[m] / 6.0) * bend);
-    });
+    fill(forcing, from, to, rise);
 }
 
-/// sa3_step's curvature from the steps' own and the previous ones' scale and forcing.
-void form_curvature(Index from, Index to, RecordSteps<double>& out) {
-  const double* scale = out.scale.data();
-  const double* forcing = out.forcing.data();
-  fill(out.curvature, from, to, [scale, forcing](Index m) {
-    return scale[m] * (forcing[m] - forcing[m - 1] * scale[m] / scale[m - 1]) / (scale[m] + scale[m - 1]);
-  });
+/// Steps from..to where nothing restarts; tau_max constant. Their scale stands at both ends.
+void form_even_steps(Scheme scheme, const History& history, const RecordInputs<double>& in, Index from,
+                     Index to, RecordSteps<double>& out) {
+  const double modulus = in.unrelaxed_modulus[0];
+  const double* strain = history.true_strain().data();
+  const double* relaxed = in.relaxed_stress.data();
+  if (in.relaxed_stress.size() > 1)
+    form_even_forcing(
+        scheme, modulus, strain, [relaxed](Index m) { return relaxed[m + 1] - relaxed[m]; }, from, to,
+        out.forcing);
+  else
+    form_even_forcing(scheme, modulus, strain, [](Index) { return 0.0; }, from, to, out.forcing);
+  const auto first = static_cast<std::size_t>(from), last = static_cast<std::size_t>(to - 1);
+  out.ratio[first] = 1.0;
+  out.scale[first] = out.scale[last] = history.step()[from] * in.fluidity_end[0];
+  if (scheme == Scheme::sa3) out.curvature[first] = 0.5 * (out.forcing[first] - out.forcing[first - 1]);
+}
+
+/// The same for steps from..to of any length under any tau_max, from >= 1; whether every scale is positive.
+bool form_uneven_steps(Scheme scheme, const double* h, const RecordInputs<double>& in, const double* f,
+                       Index from, Index to, RecordSteps<double>& out) {
+  const kernels::StepPasses& form = kernels::best().form;
+  const bool steady = in.fluidity_end.size() == 1, rated = rate_drives(scheme, in);
+  const kernels::StepSamples samples{to - from,
+                                     h + from,
+                                     f + from,
+                                     steady ? nullptr : in.fluidity_begin.data() + from,
+                                     in.fluidity_end.data() + (steady ? 0 : from),
+                                     rated ? in.end_rate.data() + from : nullptr,
+                                     in.unrelaxed_modulus[0]};
+  const kernels::FormedSteps steps{out.ratio.data() + from, out.scale.data() + from,
+                                   out.forcing.data() + from, out.curvature.data() + from};
+  switch (scheme) {
+    case Scheme::sa2:
+      return form.straight(samples, steps);
+    case Scheme::sa3:
+      return form.parabolic(samples, steps);
+    default:
+      return form.two_step(samples, steps);
+  }
+}
+
+/// sa3_step's curvature, from the forcing and scale of a step and of the one before.
+void form_curvature(Index m, RecordSteps<double>& out) {
+  const auto i = static_cast<std::size_t>(m);
+  const double growth = out.scale[i] / out.scale[i - 1];
+  out.curvature[i] = growth / (1.0 + growth) * (out.forcing[i] - out.forcing[i - 1] * growth);
 }
 
 }  // namespace
@@ -77,17 +98,18 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   const Index n = history.size(), steps = history.steps();
   const bool steady = in.fluidity_end.size() == 1;
   out.resize(static_cast<std::size_t>(steps));
-  Eigen::ArrayXd integral = in.unrelaxed_modulus[0] * history.true_strain();
-  if (in.relaxed_stress.size() > 1) integral -= Eigen::Map<const Eigen::ArrayXd>(in.relaxed_stress.data(), n);
-  const double* f = integral.data();
+  std::vector<double> integral;
+  const auto forcing_integral = [&] {
+    if (!integral.empty()) return integral.data();
+    integral.resize(static_cast<std::size_t>(n));
+    const double modulus = rate_drives(scheme, in) ? 0.0 : in.unrelaxed_modulus[0];
+    fill(integral, 0, n,
+         [&](Index i) { return modulus * history.true_strain()[i] - at(in.relaxed_stress, i); });
+    return integral.data();
+  };
   const double* h = history.step().data();
   std::fill(out.rule.begin(), out.rule.end(), scheme == Scheme::be2 ? StepRule::bdf2 : StepRule::exponential);
-  if (scheme != Scheme::sa3) std::fill(out.curvature.begin(), out.curvature.end(), 0.0);
 
-  const auto restarts = [&](Index m) {
-    return history.fresh(m) ||
-           (scheme == Scheme::be2 && out.ratio[static_cast<std::size_t>(m)] >= bdf2_largest_step_ratio);
-  };
   const auto restart = [&](Index m) {
     const auto i = static_cast<std::size_t>(m);
     const StepForcing<double> step = step_forcing(scheme, start, step_data(history, in, m, 0.0, 0.0));
@@ -101,21 +123,22 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
   for (Index m = 1; m < steps;) {
     Index end = m + history.uniform_run(m);
     if (steady && end - m >= shortest_even && !history.fresh(m) && std::abs(history.ratio(m) - 1.0) <= 1e-9) {
-      form_even_steps(scheme, h[m], in.fluidity_end[0], f, m, end, out);
+      form_even_steps(scheme, history, in, m, end, out);
     } else {
       // The first of even steps differs from the one before: it is not even itself.
       end = m + 1;
-      while (end < steps && (!steady || history.uniform_run(end) < shortest_even)) ++end;
-      form_uneven_steps(scheme, h, in, f, m, end, out);
-      if (!steady && !(Eigen::Map<const Eigen::ArrayXd>(out.scale.data() + m, end - m) > 0.0).all())
-        return false;
-      for (Index k = m; k < end; ++k)
-        if (restarts(k)) restart(k);
-      if (scheme == Scheme::sa3) {
-        form_curvature(m, end, out);
-        for (Index k = m; k < end; ++k)
-          if (history.fresh(k)) out.curvature[static_cast<std::size_t>(k)] = 0.0;
+      while (steady && end < steps && history.uniform_run(end) < shortest_even) ++end;
+      if (!steady) end = steps;
+      if (!form_uneven_steps(scheme, h, in, forcing_integral(), m, end, out) && !steady) return false;
+      const History::Indices& jumps = history.jumps();
+      for (auto jump = std::lower_bound(jumps.begin(), jumps.end(), m); jump != jumps.end() && *jump < end;
+           ++jump) {
+        restart(*jump);
+        if (scheme == Scheme::sa3 && *jump + 1 < end) form_curvature(*jump + 1, out);
       }
+      const bool even = m - 1 + history.uniform_run(m - 1) >= end;
+      for (Index k = m; scheme == Scheme::be2 && !even && k < end; ++k)
+        if (out.ratio[static_cast<std::size_t>(k)] >= bdf2_largest_step_ratio) restart(k);
     }
     m = end;
   }
@@ -123,7 +146,7 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
 }
 
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
-                 RecordInputs<double>& out) {
+                 RecordRates& rates, RecordInputs<double>& out) {
   const Index n = history.size(), steps = history.steps();
   const Sampled time_factor(change.relaxation_time_factor, 1.0),
       modulus_factor(change.unrelaxed_modulus_factor, 1.0);
@@ -146,10 +169,11 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
   for (std::size_t i = 0; i < out.unrelaxed_modulus.size(); ++i)
     out.unrelaxed_modulus[i] = law.unrelaxed_modulus * modulus_factor[static_cast<Index>(i)];
 
-  StepRates rates;
-  if (law.companion || history.rate_given()) rates = history.rates(differentiator_of(scheme));
   out.end_rate.clear();
-  if (history.rate_given()) out.end_rate.assign(rates.end.data(), rates.end.data() + steps);
+  if (history.rate_given() && scheme == Scheme::be2) {
+    const Eigen::ArrayXd& end = rates.rates(history, scheme).end;
+    out.end_rate.assign(end.data(), end.data() + steps);
+  }
 
   const bool constant = !law.companion && time_factor.constant();
   out.fluidity_begin.resize(length(constant, steps));
@@ -162,27 +186,16 @@ void form_inputs(const Law& law, const LawChange& change, const History& history
     }
     return;
   }
-  // A step mostly begins at the rate at which the one before ended.
-  const CompanionRelation& relation = *law.companion;
-  Eigen::ArrayXd seen = rates.end;
-  history.see_companion_rates(seen, relation.rate_floor());
-  Eigen::ArrayXd time(steps);
-  relation.relaxation_times(seen.data(), time.data(), static_cast<std::size_t>(steps));
-  if (time_factor.constant())
-    fill(out.fluidity_end, 0, steps,
-         [all = law.alpha * time_factor[0], t = time.data()](Index m) { return 1.0 / (all * t[m]); });
-  else
-    fill(out.fluidity_end, 0, steps,
-         [&](Index m) { return 1.0 / (law.alpha * time[m] * time_factor[m + 1]); });
-  for (Index m = 0; m < steps; ++m) {
-    const auto i = static_cast<std::size_t>(m);
-    if (m > 0 && rates.begin[m] == rates.end[m - 1] && history.direction(m) == history.direction(m - 1)) {
-      out.fluidity_begin[i] = out.fluidity_end[i - 1];
-      continue;
-    }
-    const double rate = history.companion_rate(m, rates.begin[m], relation.rate_floor());
-    out.fluidity_begin[i] = 1.0 / (law.alpha * relation.relaxation_time(rate) * time_factor[m]);
+  const RecordRates::Fluidity& seen = rates.fluidity(history, scheme, law.companion);
+  if (time_factor.constant()) {
+    const double inverse = 1.0 / (law.alpha * time_factor[0]);
+    fill(out.fluidity_begin, 0, steps,
+         [begin = seen.begin.data(), inverse](Index m) { return begin[m] * inverse; });
+    fill(out.fluidity_end, 0, steps, [end = seen.end.data(), inverse](Index m) { return end[m] * inverse; });
+    return;
   }
+  fill(out.fluidity_begin, 0, steps, [&](Index m) { return seen.begin[m] / (law.alpha * time_factor[m]); });
+  fill(out.fluidity_end, 0, steps, [&](Index m) { return seen.end[m] / (law.alpha * time_factor[m + 1]); });
 }
 
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,

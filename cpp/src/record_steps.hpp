@@ -10,6 +10,7 @@
 #include "probation/schemes/be2.hpp"
 #include "probation/schemes/sa3.hpp"
 #include "probation/solver.hpp"
+#include "record_rates.hpp"
 #include "sampled.hpp"
 
 namespace probation {
@@ -20,10 +21,11 @@ template <class Real>
 struct RecordInputs {
   std::vector<Real> true_strain, unrelaxed_modulus, relaxed_stress;
   std::vector<Real> fluidity_begin, fluidity_end;  // 1 / tau_max at both ends of a step
-  std::vector<Real> end_rate;                      // empty: the scheme's own difference of the strain
+  std::vector<Real> end_rate;                      // of bE2; empty: its own difference of the strain
 };
 
-/// Steps ready for a kernel, one entry each per step.
+/// Steps ready for a kernel, one entry each per step. Of what is the same in all of a run of even steps, and
+/// of its curvature, the first entry alone is right.
 template <class Real>
 struct RecordSteps {
   std::vector<StepRule> rule;
@@ -104,8 +106,8 @@ StepForcing<Real> step_forcing(Scheme scheme, Start start, const StepData<Real>&
   return step_forcing(scheme, start, s, stiff_part(scheme, start, s));
 }
 
-/// form_steps where E_u is constant and the rate is the scheme's own: the forcing's integral F = E_u e -
-/// sigma^r is formed once, and its differences are all that a step needs. The same numbers as step_forcing to
+/// form_steps where E_u is constant: differences of the forcing's integral F = E_u e - sigma^r are all that a
+/// step needs (where rates are given bE2 takes E_u e' instead of E_u e). The same numbers as step_forcing to
 /// rounding. False, with nothing formed, where SA3's parabola through the fluidity dips below zero.
 bool form_steps_at_once(Scheme scheme, Start start, const History& history, const RecordInputs<double>& in,
                         RecordSteps<double>& out);
@@ -114,7 +116,8 @@ template <class Real>
 void form_steps(Scheme scheme, Start start, const History& history, const RecordInputs<Real>& in,
                 RecordSteps<Real>& out) {
   if constexpr (std::is_same_v<Real, double>) {
-    if (in.unrelaxed_modulus.size() == 1 && in.end_rate.empty() &&
+    const bool rates_of_even_steps = !in.end_rate.empty() && in.fluidity_end.size() == 1;
+    if (in.unrelaxed_modulus.size() == 1 && !rates_of_even_steps &&
         form_steps_at_once(scheme, start, history, in, out))
       return;
   }
@@ -132,9 +135,9 @@ void form_steps(Scheme scheme, Start start, const History& history, const Record
   }
 }
 
-/// The inputs that the law, changed by an effect, gives along a history.
+/// The inputs that the law, changed by an effect, gives along a history; `rates` are of its earlier solves.
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,
-                 RecordInputs<double>& out);
+                 RecordRates& rates, RecordInputs<double>& out);
 
 /// The same with their slopes along a direction.
 void form_inputs(const Law& law, const LawChange& change, const History& history, Scheme scheme,

@@ -16,96 +16,6 @@ namespace probation {
 
 using Eigen::Index;
 
-struct Solver::Workspace {
-  RecordInputs<double> inputs, extra_in, slope_inputs;
-  RecordSteps<double> steps, extra_steps, slope_steps;
-  RecordInputs<Dual> dual_inputs, dual_extra;
-  RecordSteps<Dual> dual_steps;
-  ModalGroup main, extra;
-  CoupledTables tables;
-  bool coupled = false;  // whether the tables are in use
-  CvodeStatistics cvode;
-  std::mutex busy;
-
-  void prepare(const Law& law, const LawChange& change, const History& history,
-               const SolverOptions& options) {
-    law.validate_parameters();
-    if (!main.holds(law.spectrum)) law.spectrum.validate();
-    change.validate(history.size(), law.spectrum.modes());
-    form_inputs(law, change, history, options.scheme, inputs);
-    main.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
-    if (change.initial_modal_stress.size() > 0)
-      main.state.head(law.spectrum.modes()) =
-          change.initial_modal_stress - law.spectrum.modal_weight * inputs.relaxed_stress[0];
-    extra.set(change.extra_modes.relaxation_time, change.extra_modes.modulus);
-  }
-};
-
-Solver::Solver() : work_(std::make_unique<Workspace>()) {}
-Solver::Solver(History history, SolverOptions options)
-    : history_(std::move(history)), options_(options), work_(std::make_unique<Workspace>()) {}
-Solver::~Solver() = default;
-Solver::Solver(Solver&&) noexcept = default;
-Solver& Solver::operator=(Solver&&) noexcept = default;
-
-void Solver::forget() {
-  if (!work_->coupled) return;
-  work_->tables = {};
-  work_->coupled = false;
-}
-
-Solver& kept_solver() {
-  constexpr Index most_kept = 100'000;  // samples: about ten megabytes in all
-  thread_local Solver solver;
-  if (solver.history().size() > most_kept) solver = Solver();
-  return solver;
-}
-
-const History& Solver::history() const noexcept { return history_; }
-const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_->cvode; }
-
-void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
-  if (stress.size() != history_.size())
-    throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
-                     std::to_string(history_.size()) + " are needed");
-  const std::lock_guard<std::mutex> lock(work_->busy);
-  if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
-  if (options_.scheme == Scheme::cvode) {
-    work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
-    return;
-  }
-  const FlushSubnormals flushing;
-  Workspace& w = *work_;
-  w.prepare(law, change, history_, options_);
-  const kernels::Kernels& kernel = kernels::best();
-  stress.setZero();
-  const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
-    form_steps(options_.scheme, options_.start, history_, inputs, steps);
-    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1,
-                 [&](Index first, Index count, bool uniform) {
-                   const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
-                   kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
-                 });
-  };
-  if (!w.extra.empty()) {
-    extra_inputs(w.inputs, w.extra_in);
-    sweep(w.extra, w.extra_in, w.extra_steps);
-  }
-  if (!change.feedbacks.empty()) {
-    w.coupled = true;
-    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
-        .solve(w.inputs, {}, stress, nullptr);
-    return;
-  }
-  stress[0] = w.main.state.sum();
-  sweep(w.main, w.inputs, w.steps);
-  const Sampled area(change.load_bearing_area, 1.0);
-  const double total_weight = law.spectrum.modal_weight.sum();
-  stress += total_weight * Eigen::Map<const Eigen::ArrayXd>(w.inputs.relaxed_stress.data(), stress.size());
-  if (change.load_bearing_area.size() > 0)
-    for (Index i = 0; i < history_.size(); ++i) stress[i] *= area[i];
-}
-
 namespace {
 
 /// One direction's states and outputs while a tangent is swept.
@@ -124,10 +34,11 @@ struct TangentState {
       log_scale[i] = steps.scale[i].slope / steps.scale[i].value;
     }
   }
-  /// A direction in which the steps are linear: their forcing for the inputs' own slopes.
-  void take_linear(const RecordSteps<double>& steps) {
-    forcing = steps.forcing;
-    curvature = steps.curvature;
+  /// A direction in which the steps are linear: their forcing for the inputs' own slopes, taken away from
+  /// them.
+  void take_linear(RecordSteps<double>& steps) {
+    std::swap(forcing, steps.forcing);
+    std::swap(curvature, steps.curvature);
     log_scale.clear();
   }
   /// Whether the direction is a solve of its own: nothing of it multiplies the state of the base solve.
@@ -154,6 +65,64 @@ struct TangentState {
   }
 };
 
+}  // namespace
+
+struct Solver::Workspace {
+  RecordRates rates;
+  RecordInputs<double> inputs, extra_in, slope_inputs;
+  RecordSteps<double> steps, extra_steps, slope_steps;
+  RecordInputs<Dual> dual_inputs, dual_extra;
+  RecordSteps<Dual> dual_steps;
+  ModalGroup main, extra;
+  std::vector<TangentState> tangents;
+  CoupledTables tables;
+  bool coupled = false;  // whether the tables are in use
+  CvodeStatistics cvode;
+  std::mutex busy;
+
+  void prepare(const Law& law, const LawChange& change, const History& history,
+               const SolverOptions& options) {
+    law.validate_parameters();
+    if (!main.holds(law.spectrum)) law.spectrum.validate();
+    change.validate(history.size(), law.spectrum.modes());
+    form_inputs(law, change, history, options.scheme, rates, inputs);
+    main.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
+    if (change.initial_modal_stress.size() > 0)
+      main.state.head(law.spectrum.modes()) =
+          change.initial_modal_stress - law.spectrum.modal_weight * inputs.relaxed_stress[0];
+    extra.set(change.extra_modes.relaxation_time, change.extra_modes.modulus);
+  }
+  Eigen::Map<const Eigen::ArrayXd> relaxed_stress() const {
+    return {inputs.relaxed_stress.data(), static_cast<Index>(inputs.relaxed_stress.size())};
+  }
+};
+
+Solver::Solver() : work_(std::make_unique<Workspace>()) {}
+Solver::Solver(History history, SolverOptions options)
+    : history_(std::move(history)), options_(options), work_(std::make_unique<Workspace>()) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+void Solver::forget() {
+  work_->rates = {};
+  if (!work_->coupled) return;
+  work_->tables = {};
+  work_->coupled = false;
+}
+
+Solver& kept_solver() {
+  constexpr Index most_kept = 100'000;  // samples: about ten megabytes in all
+  thread_local Solver solver;
+  if (solver.history().size() > most_kept) solver = Solver();
+  return solver;
+}
+
+const History& Solver::history() const noexcept { return history_; }
+const CvodeStatistics& Solver::cvode_statistics() const noexcept { return work_->cvode; }
+
+namespace {
+
 /// `samples` (n, 1 or none) as inputs of a record; none is zero.
 void assign(const Eigen::ArrayXd& samples, std::vector<double>& to) {
   if (samples.size() == 0)
@@ -162,7 +131,55 @@ void assign(const Eigen::ArrayXd& samples, std::vector<double>& to) {
     to.assign(samples.data(), samples.data() + samples.size());
 }
 
+/// Times `samples` (n, 1 or none).
+void multiply(Eigen::Ref<Eigen::ArrayXd> stress, const Eigen::ArrayXd& samples) {
+  if (samples.size() == 1) stress *= samples[0];
+  if (samples.size() > 1) stress *= samples;
+}
+
 }  // namespace
+
+void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
+  if (stress.size() != history_.size())
+    throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
+                     std::to_string(history_.size()) + " are needed");
+  const std::lock_guard<std::mutex> lock(work_->busy);
+  if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
+  if (options_.scheme == Scheme::cvode) {
+    work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
+    return;
+  }
+  const FlushSubnormals flushing;
+  Workspace& w = *work_;
+  w.prepare(law, change, history_, options_);
+  const kernels::Kernels& kernel = kernels::best();
+  const bool coupled = !change.feedbacks.empty();
+  if (coupled)
+    stress.setZero();
+  else
+    stress = law.spectrum.modal_weight.sum() * w.relaxed_stress();
+  const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
+    form_steps(options_.scheme, options_.start, history_, inputs, steps);
+    for_each_run(history_, steps.rule, inputs.fluidity_end.size() == 1,
+                 [&](Index first, Index count, bool uniform) {
+                   const kernels::Steps run = kernel_steps(options_.scheme, steps, first, count, uniform);
+                   kernel.sweep(modes_for(run, group), run, stress.data() + first + 1);
+                 });
+  };
+  if (!w.extra.empty()) {
+    extra_inputs(w.inputs, w.extra_in);
+    sweep(w.extra, w.extra_in, w.extra_steps);
+  }
+  if (coupled) {
+    w.coupled = true;
+    CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
+        .solve(w.inputs, {}, stress, nullptr);
+    return;
+  }
+  stress[0] += w.main.state.sum();
+  sweep(w.main, w.inputs, w.steps);
+  multiply(stress, change.load_bearing_area);
+}
 
 void Solver::tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
                      Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives) {
@@ -178,9 +195,15 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   for (const Direction& direction : directions)
     direction.validate(change, n, law.spectrum.modes(), history_.rate_given());
   const kernels::Kernels& kernel = kernels::best();
-  stress.setZero();
+  const double total_weight = law.spectrum.modal_weight.sum();
+  const bool feeds_back = !change.feedbacks.empty();
+  if (feeds_back)
+    stress.setZero();
+  else
+    stress = total_weight * w.relaxed_stress();
 
-  std::vector<TangentState> tangents(directions.size());
+  std::vector<TangentState>& tangents = w.tangents;
+  tangents.resize(directions.size());
   const auto sweep = [&](ModalGroup& group, const RecordInputs<double>& inputs, RecordSteps<double>& steps) {
     form_steps(options_.scheme, options_.start, history_, inputs, steps);
     const bool constant = inputs.fluidity_end.size() == 1;
@@ -232,7 +255,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     }
     sweep(w.extra, w.extra_in, w.extra_steps);
   }
-  if (!change.feedbacks.empty()) {
+  if (feeds_back) {
     for (std::size_t k = 0; k < directions.size(); ++k)
       derivatives.col(static_cast<Index>(k)) = tangents[k].stress.matrix();
     CoupledSolver(law, change, history_, options_.scheme, options_.start, w.main, w.tables)
@@ -241,21 +264,22 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   }
 
   const double relaxed_start = w.inputs.relaxed_stress[0];
-  stress[0] = w.main.state.sum();
+  stress[0] += w.main.state.sum();
   w.main.to_unit_weight(change.initial_modal_stress.size() > 0 ? -relaxed_start : 0.0);
-  std::vector<Eigen::ArrayXd> relaxed_slope(directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const Direction& direction = directions[k];
     TangentState& t = tangents[k];
-    relaxed_slope[k].setZero(n);
+    double relaxed_slope_start = 0.0;
     const bool strained = direction.true_strain.size() > 0 || direction.strain_rate.size() > 0;
     if (!strained && direction.log_relaxation_time.size() == 0) {
       w.slope_inputs = w.inputs;
       assign(direction.unrelaxed_modulus, w.slope_inputs.unrelaxed_modulus);
       assign(direction.relaxed_stress, w.slope_inputs.relaxed_stress);
-      for (Index i = 0; i < n; ++i) relaxed_slope[k][i] = at(w.slope_inputs.relaxed_stress, i);
       form_steps(options_.scheme, options_.start, history_, w.slope_inputs, w.slope_steps);
       t.take_linear(w.slope_steps);
+      if (direction.relaxed_stress.size() > 1) t.stress += total_weight * direction.relaxed_stress;
+      if (direction.relaxed_stress.size() == 1) t.stress += total_weight * direction.relaxed_stress[0];
+      relaxed_slope_start = w.slope_inputs.relaxed_stress[0];
     } else if (!strained && direction.log_relaxation_time.size() == 1 &&
                direction.unrelaxed_modulus.size() == 0 && direction.relaxed_stress.size() == 0) {
       t.take_time_shift(static_cast<std::size_t>(history_.steps()), direction.log_relaxation_time[0]);
@@ -264,29 +288,27 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
       form_steps(options_.scheme, options_.start, history_, w.dual_inputs, w.dual_steps);
       t.take(w.dual_steps);
       for (Index i = 0; i < n; ++i)
-        relaxed_slope[k][i] = w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+        t.stress[i] += total_weight * w.dual_inputs.relaxed_stress[static_cast<std::size_t>(i)].slope;
+      relaxed_slope_start = w.dual_inputs.relaxed_stress[0].slope;
     }
+    if (direction.modal_weight.size() > 0) t.stress += direction.modal_weight.sum() * w.relaxed_stress();
     t.before.setZero(w.main.padded());
     t.weight = w.main.pad(direction.modal_weight);
     t.log_inverse = -w.main.pad(direction.log_relaxation_ratio);
-    w.main.start_slope(change, direction, relaxed_start, relaxed_slope[k][0], t.state);
-    t.stress[0] = (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
+    w.main.start_slope(change, direction, relaxed_start, relaxed_slope_start, t.state);
+    t.stress[0] +=
+        (w.main.weight * t.state).sum() + (t.weight.size() ? (t.weight * w.main.state).sum() : 0.0);
   }
   sweep(w.main, w.inputs, w.steps);
 
-  const Sampled area(change.load_bearing_area, 1.0);
-  const double total_weight = law.spectrum.modal_weight.sum();
-  for (Index i = 0; i < n; ++i)
-    stress[i] = area[i] * (stress[i] + total_weight * w.inputs.relaxed_stress[static_cast<std::size_t>(i)]);
+  multiply(stress, change.load_bearing_area);
   for (std::size_t k = 0; k < directions.size(); ++k) {
-    const Sampled log_area(directions[k].log_load_bearing_area, 0.0);
-    const double d_weight = directions[k].modal_weight.sum();
-    for (Index i = 0; i < n; ++i) {
-      const double relaxed = w.inputs.relaxed_stress[static_cast<std::size_t>(i)];
-      derivatives(i, static_cast<Index>(k)) =
-          area[i] * (tangents[k].stress[i] + total_weight * relaxed_slope[k][i] + d_weight * relaxed) +
-          stress[i] * log_area[i];
-    }
+    TangentState& t = tangents[k];
+    multiply(t.stress, change.load_bearing_area);
+    const Eigen::ArrayXd& log_area = directions[k].log_load_bearing_area;
+    if (log_area.size() > 1) t.stress += stress * log_area;
+    if (log_area.size() == 1) t.stress += stress * log_area[0];
+    derivatives.col(static_cast<Index>(k)) = t.stress.matrix();
   }
 }
 

@@ -26,13 +26,17 @@ void UnitSolves::take(const Law& law, const History& history, Scheme scheme, Sta
   unit.unrelaxed_modulus = 1.0;
   unit.hardening_modulus = 0.0;
   curved_ = scheme == Scheme::sa3;
-  form_inputs(unit, {}, history, scheme, inputs_);
+  RecordRates rates;
+  form_inputs(unit, {}, history, scheme, rates, inputs_);
   form_steps(scheme, start, history, inputs_, steps_);
   keep(steps_, stiff_);
   unit_scale_ = Eigen::Map<const Eigen::ArrayXd>(steps_.scale.data(), history.steps());
   runs_.clear();
   for_each_run(history, steps_.rule, inputs_.fluidity_end.size() == 1,
-               [this](Index first, Index count, bool uniform) { runs_.push_back({first, count, uniform}); });
+               [this](Index first, Index count, bool uniform) {
+                 runs_.push_back({first, count, uniform});
+                 if (uniform) unit_scale_.segment(first, count).setConstant(unit_scale_[first]);
+               });
   // The same steps with the other forcing.
   inputs_.unrelaxed_modulus[0] = 0.0;
   inputs_.relaxed_stress.assign(history.haward_thackray_strain().data(),
@@ -86,7 +90,6 @@ void UnitSolves::sweep(const Forcing& forcing, double* stress) {
   }
 }
 
-/// In even steps SA3's curvature is half the change of its forcing.
 kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) const {
   const auto m = static_cast<std::size_t>(run.first);
   return {rule_[m],
@@ -95,8 +98,7 @@ kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) cons
           &scale_[run.first],
           &ratio_[m],
           &forcing.forcing[run.first],
-          curved_ ? &forcing.curvature[run.first] : nullptr,
-          curved_ && run.uniform};
+          curved_ ? &forcing.curvature[run.first] : nullptr};
 }
 
 /// An even run needs the scale of its first step alone.
@@ -119,8 +121,14 @@ void UnitSolves::solve(double time) {
 /// The forcing of E_u u + G v.
 void UnitSolves::combine(double unrelaxed_modulus, double hardening_modulus) {
   both_.forcing = unrelaxed_modulus * stiff_.forcing + hardening_modulus * relaxed_.forcing;
-  if (curved_)
-    both_.curvature = unrelaxed_modulus * stiff_.curvature + hardening_modulus * relaxed_.curvature;
+  if (!curved_) return;
+  both_.curvature.resize(both_.forcing.size());
+  for (const Run& run : runs_) {
+    const Index count = run.uniform ? 1 : run.count;
+    both_.curvature.segment(run.first, count) =
+        unrelaxed_modulus * stiff_.curvature.segment(run.first, count) +
+        hardening_modulus * relaxed_.curvature.segment(run.first, count);
+  }
 }
 
 void UnitSolves::stress(double unrelaxed_modulus, double time, double hardening_modulus,

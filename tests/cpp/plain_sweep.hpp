@@ -19,7 +19,8 @@ using Eigen::Index;
 
 constexpr StepRule all_rules[] = {StepRule::backward_euler, StepRule::bdf2, StepRule::exponential};
 
-/// Steps with a forcing and a curvature of no particular shape.
+/// Steps with a forcing and a curvature of no particular shape; in uniform ones the curvature is the
+/// forcing's.
 struct Drive {
   ArrayXd scale, ratio, forcing, curvature;
 
@@ -28,7 +29,7 @@ struct Drive {
       scale[n] = uniform ? 0.125 : 0.125 * (1.0 + 0.4 * std::sin(1.0 + n));
       ratio[n] = uniform || n == 0 ? 1.0 : scale[n] / scale[n - 1];
       forcing[n] = 30.0 + 10.0 * std::cos(0.3 * n);
-      curvature[n] = std::sin(0.7 * n);
+      curvature[n] = uniform && n > 0 ? 0.5 * (forcing[n] - forcing[n - 1]) : std::sin(0.7 * n + 0.5);
     }
   }
   Steps steps(StepRule rule, bool uniform) const {

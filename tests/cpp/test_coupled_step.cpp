@@ -2,39 +2,22 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Core>
 #include <cmath>
 #include <memory>
 
 #include "coefficient_table.hpp"
 #include "expansion.hpp"
-#include "kernels/kernels.hpp"
-#include "modal_group.hpp"
+#include "plain_sweep.hpp"
 #include "probation/feedback/power_activation.hpp"
 #include "probation/feedback/stress_activation.hpp"
 #include "probation/solver.hpp"
-#include "probation/spectrum.hpp"
 
 using namespace probation;
 using namespace probation::kernels;
-using Eigen::ArrayXd;
-using Eigen::Index;
 
 namespace {
 
-constexpr StepRule all_rules[] = {StepRule::backward_euler, StepRule::bdf2, StepRule::exponential};
 constexpr double ratio = 1.3;
-
-ModalGroup group(int modes) {
-  const Spectrum spectrum = Spectrum::log_spaced(modes, 5.0);
-  ModalGroup made;
-  made.set(spectrum.relaxation_ratio, spectrum.modal_weight);
-  for (Index j = 0; j < modes; ++j) {
-    made.state[j] = made.weight[j] * (1.0 + 0.1 * static_cast<double>(j));
-    made.before[j] = 0.9 * made.state[j];
-  }
-  return made;
-}
 
 StepForcing<double> step(StepRule rule) {
   return {rule, 0.125, 30.0, rule == StepRule::exponential ? 0.7 : 0.0};

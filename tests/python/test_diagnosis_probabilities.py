@@ -10,7 +10,17 @@ from campaigns import linear_problem as problem
 from probation import gap
 from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.probabilities import AGAIN, Weighed, answer_set, log_prior, weigh
+from probation.diagnosis.probabilities import (
+    AGAIN,
+    LEFT_OVER,
+    UNSEEN,
+    Weighed,
+    answer_set,
+    given_a_gap,
+    log_prior,
+    weigh,
+    with_unseen,
+)
 from probation.gap import Cause
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
@@ -54,6 +64,47 @@ def test_probabilities_sum_to_one_and_come_in_order():
     assert sum(chances) == pytest.approx(1.0, abs=1e-12)
     assert chances == sorted(chances, reverse=True)
     assert {(), ("unknown",)} <= {each.effects for each in weighed}
+
+
+def test_where_a_gap_is_seen_what_no_effect_loses_goes_to_all_others_as_they_stand():
+    base = hypothesis()
+    parts = {(): 0.9, ("a",): 0.05, ("unknown",): 0.03, ("b",): 0.02}
+    found = given_a_gap([Weighed(effects, chance, base) for effects, chance in parts.items()])
+    chances = {each.effects: each.probability for each in found}
+    assert found[0].effects == ("a",)
+    assert chances[()] == pytest.approx(1.0 - LEFT_OVER)
+    assert chances[("a",)] == pytest.approx(0.5 * LEFT_OVER)
+    assert chances[("unknown",)] / chances[("b",)] == pytest.approx(1.5)
+    assert sum(chances.values()) == pytest.approx(1.0)
+
+
+def test_explanations_that_lead_already_stay_as_they_are_where_a_gap_is_seen():
+    base = hypothesis()
+    before = [Weighed(("a",), 0.95, base), Weighed((), 0.05, base)]
+    assert given_a_gap(before) == before
+
+
+def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_beforehand():
+    """Six effects, prior 0.30 of one and 0.10 of two: 0.1/15 over 0.3/6 for each pair, times what its freedom costs."""
+    single = alone(NAMES[0])
+    found = with_unseen([Weighed((NAMES[0],), 0.9, single), Weighed(("unknown",), 0.1, hypothesis())], NAMES)
+    chances = {each.effects: each.probability for each in found}
+    assert sum(chances.values()) == pytest.approx(1.0)
+    for name in NAMES[1:]:
+        assert chances[(NAMES[0], name)] / chances[(NAMES[0],)] == pytest.approx(UNSEEN * (0.1 / 15) / (0.3 / 6))
+    assert chances[(NAMES[0],)] / chances[("unknown",)] == pytest.approx(9.0)
+    assert len(found) == 2 + 5
+
+
+def test_pairs_that_were_tried_and_singles_of_little_probability_gain_none_unseen():
+    base = hypothesis()
+    tried = [
+        Weighed((NAMES[0],), 0.6, base),
+        Weighed((NAMES[0], NAMES[1]), 0.39, base),
+        Weighed((NAMES[2],), 0.01, base),
+    ]
+    found = with_unseen(tried, NAMES[:3])
+    assert {each.effects for each in found} == {each.effects for each in tried} | {(NAMES[0], NAMES[2])}
 
 
 def test_prior_probabilities_of_all_sets_sum_to_one():

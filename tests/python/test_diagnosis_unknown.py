@@ -47,3 +47,11 @@ def test_one_record_alone_is_enough():
 @pytest.mark.parametrize("size", [1.0, 3.0])
 def test_the_more_there_is_the_more_is_earned(size):
     assert gain([band(2.0 * size)] * RECORDS) > gain([band(size)] * RECORDS) + 5.0
+
+
+def test_teeth_of_one_pitch_are_one_unknown_effect():
+    """As much energy in teeth of a twentieth of the strain as in noise of the records' own earns; in the noise not."""
+    teeth = 2.0 * ((20.0 * STRAIN) % 1.0 - 0.5)
+    assert gain([teeth] * RECORDS) > 100.0
+    rough = [np.random.default_rng(index).permutation(teeth) for index in range(RECORDS)]
+    assert gain(rough) < 5.0

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.fft import idct
 
 from campaigns import linear_problem as problem
-from probation.gap.drift import LEAST, estimate_drift, with_drift
+from probation.gap.drift import LEAST, estimate_drift, like_an_effect, with_drift
 from probation.gap.record_residual import RecordResidual
 from probation.gap.whitening import Whitened
 
@@ -123,3 +123,12 @@ def test_a_drift_that_is_let_be_does_not_count_as_measured_noise():
     assert_allclose(
         noise.scaled(2.0).simulate(np.random.default_rng(0))[0], 2.0 * noise.simulate(np.random.default_rng(0))[0]
     )
+
+
+def test_the_more_drifts_the_more_of_it_may_go_along_with_an_effect_up_to_a_bound():
+    """A form known to a fifth of its variance leaves a fifth of a drift along an effect's direction."""
+    assert like_an_effect(5.0) == pytest.approx(0.2 * 5.0)
+    found = [like_an_effect(drift) for drift in (0.0, 1.0, 3.0, 8.0, 100.0, 1e6)]
+    assert found == sorted(found)
+    assert found[0] > 0.0
+    assert found[-1] < 4.0

@@ -1,10 +1,14 @@
 """What is periodic in the strain is found, in one record or over all, and noise is not."""
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from campaigns import linear_problem as problem
+from probation.gap.arma import Arma
 from probation.gap.record_residual import RecordResidual
-from probation.gap.ripples import find_ripples
+from probation.gap.ripples import find_ripples, ripple_waves
 from probation.gap.whitening import Whitened
 
 COUNT = 500
@@ -38,6 +42,32 @@ def test_teeth_of_one_pitch_in_all_records_are_found_where_no_record_shows_them_
     assert best.p_value < 1e-3
     assert abs(best.period_strain - 0.07) < 0.003
     assert min(each.p_value for each in found if each.record) > 100.0 * best.p_value
+
+
+def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb():
+    """Noise of a red spectrum, as a fit to teeth of a tenth of the strain would say, leaves a spike for each tooth."""
+    records, noises = [], []
+    for index, rough in enumerate(noise(3, 3)):
+        time = np.linspace(0.0, 100.0, COUNT)
+        teeth = 5.0 * problem.SIGMA * ((time / 10.0) % 1.0 - 0.5)
+        name = f"r{index}"
+        strain = time / 100.0
+        records.append(RecordResidual(name, time, strain, np.full(COUNT, 0.01), rough + teeth, strain[:, None]))
+        noises.append(replace(problem.white(COUNT, name), arma=Arma(0.95, -0.5, 1.4 * problem.SIGMA)))
+    seen = Whitened.of(records, noises)
+    best = find_ripples(seen)[0]
+    assert best.record is None
+    assert best.p_value < 1e-10
+    assert best.period_strain == pytest.approx(0.1, rel=0.02)
+    waves = ripple_waves(seen)
+    assert np.sum(waves**2) == pytest.approx(1.0)
+    told = seen.whiten([(record.residual - rough)[:, None] for record, rough in zip(records, noise(3, 3), strict=True)])
+    rest = told[:, 0] - waves @ np.linalg.lstsq(waves, told[:, 0], rcond=None)[0]
+    assert np.sum(rest**2) < 0.2 * np.sum(told**2)
+
+
+def test_noise_offers_no_waves_of_a_ripple():
+    assert ripple_waves(whitened(noise(1))[0]).shape == (5 * COUNT, 0)
 
 
 def test_a_ripple_of_one_record_is_found_there():

@@ -13,12 +13,24 @@ struct Size {
   static constexpr int value = K;
 };
 
-/// Calls body(Size<K>, at) for blocks of K vectors of the modes from..to, then for ever smaller ones of what
-/// is left.
-template <int K, class Body>
+/// Calls body(Size<K>, from) for the one K <= largest that is `vectors`.
+template <int largest, class Body>
+PROBATION_INLINE void in_block(int vectors, int from, Body body) {
+  if constexpr (largest > 1)
+    if (vectors < largest) return in_block<largest - 1>(vectors, from, body);
+  body(Size<largest>{}, from);
+}
+
+/// Calls body(Size<K>, at) for the modes from..to in as few blocks of at most `largest` vectors as there can
+/// be, all of nearly the same size.
+template <int largest, class Body>
 PROBATION_INLINE void in_blocks(int from, int to, Body body) {
-  for (; to - from >= K * lanes; from += K * lanes) body(Size<K>{}, from);
-  if constexpr (K > 1) in_blocks<K - 1>(from, to, body);
+  const int vectors = (to - from) / lanes;
+  for (int blocks = (vectors + largest - 1) / largest; blocks > 0; --blocks) {
+    const int K = ((to - from) / lanes + blocks - 1) / blocks;
+    in_block<largest>(K, from, body);
+    from += K * lanes;
+  }
 }
 
 PROBATION_INLINE StepCoefficients<Vector> weighted(StepCoefficients<Vector> c, Vector weight) {
@@ -34,6 +46,13 @@ PROBATION_INLINE StepCoefficients<Vector> weighted(const Modes& modes, std::ptrd
                   load(modes.weight + at));
 }
 
+/// The largest of values[from..to).
+PROBATION_INLINE double largest(const double* values, int from, int to) {
+  double found = values[from];
+  for (int j = from + 1; j < to; ++j) found = values[j] > found ? values[j] : found;
+  return found;
+}
+
 /// Adds the sum of what advance(n) returns to stress[n], four steps at a time.
 template <class Advance>
 PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
@@ -47,6 +66,31 @@ PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
   for (; n < count; ++n) stress[n] += sum(advance(n));
 }
 
+struct StressAndSlope {
+  Vector stress, slope;
+};
+
+/// The same for both, added to stress[n] and slope[n].
+template <class Advance>
+PROBATION_INLINE void add_both_sums(int count, double* stress, double* slope, Advance advance) {
+  int n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    Vector pairs[2];  // of two steps: both stresses, both slopes
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      const StressAndSlope a = advance(n + 2 * i), b = advance(n + 2 * i + 1);
+      pairs[i] = sums(a.stress, b.stress, a.slope, b.slope);
+    }
+    store(stress + n, load(stress + n) + first_halves(pairs[0], pairs[1]));
+    store(slope + n, load(slope + n) + last_halves(pairs[0], pairs[1]));
+  }
+  for (; n < count; ++n) {
+    const StressAndSlope one = advance(n);
+    stress[n] += sum(one.stress);
+    slope[n] += sum(one.slope);
+  }
+}
+
 /// `count` of the steps, from `first` on.
 PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
   const int fixed = steps.uniform ? 0 : first;
@@ -56,8 +100,13 @@ PROBATION_INLINE Steps part_of(const Steps& steps, int first, int count) {
           steps.scale + fixed,
           steps.ratio + fixed,
           steps.forcing + first,
-          steps.curvature ? steps.curvature + first : nullptr,
-          steps.parabolic};
+          steps.curvature ? steps.curvature + first : nullptr};
+}
+
+/// V of step n.
+PROBATION_INLINE double curvature_at(const Steps& steps, int n) {
+  if (!steps.curvature) return 0.0;
+  return steps.uniform && n > 0 ? 0.5 * (steps.forcing[n] - steps.forcing[n - 1]) : steps.curvature[n];
 }
 
 }  // namespace probation::kernels::PROBATION_ISA

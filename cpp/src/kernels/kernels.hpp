@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/form_steps.hpp"
 #include "probation/schemes/step_rule.hpp"
 
 namespace probation::kernels {
@@ -11,7 +12,7 @@ namespace probation::kernels {
 /// What uneven steps of the exponential rule keep from step to step and from sweep to sweep; see
 /// scale_table.hpp. The memory is the caller's.
 struct ScaleTable {
-  static constexpr int slots = 64, terms = 8;
+  static constexpr int slots = 128, terms = 7;
   std::int64_t cell[slots];  ///< which scales a slot serves; negative: none
   double* rows;              ///< slots * terms * padded entries
 };
@@ -34,8 +35,7 @@ struct Steps {
   const double* scale;      ///< h / tau_max, or the step of reduced time
   const double* ratio;      ///< h / h0
   const double* forcing;    ///< U
-  const double* curvature;  ///< V; null: zero
-  bool parabolic = false;   ///< V is half the change of U from the step before, but for the first step
+  const double* curvature;  ///< V; null: zero. In uniform steps half the change of U, but for the first step
 };
 
 /// One direction of a tangent, in step with Steps; null pointers are zero.
@@ -132,6 +132,7 @@ struct Kernels {
   double (*drift)(const Modes&, const Steps&, const StepDirection&, const double* rows);
   /// On top of it, d ln scale, dU and dV.
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
+  StepPasses form;
 };
 
 /// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.

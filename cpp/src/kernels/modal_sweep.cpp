@@ -11,12 +11,10 @@ namespace probation::kernels::PROBATION_ISA {
 namespace {
 
 void sweep(const Modes& modes, const Steps& steps, double* stress) {
-  const int last = steps.count - 1;
-  if (!steps.uniform || last < 1) return uneven_sweep(modes, steps, stress);
-  if (steps.rule == StepRule::bdf2) return even_sweep(modes, steps, stress);
-  // The last step leaves `before` one instant behind the state, so that bE2 can go on from it.
-  even_sweep(modes, part_of(steps, 0, last), stress);
-  uneven_sweep(modes, part_of(steps, last, 1), stress + last);
+  if (steps.uniform && steps.count > 1)
+    even_sweep(modes, steps, stress);
+  else
+    uneven_sweep(modes, steps, stress);
 }
 
 template <class Step>
@@ -63,6 +61,7 @@ const Kernels table{PROBATION_TEXT(PROBATION_ISA),
                     advance,
                     linearise,
                     drift,
-                    move};
+                    move,
+                    {form_two_step, form_straight, form_parabolic}};
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -22,6 +22,8 @@ inline Vector load(const double* from) { return {{from[0], from[1], from[2], fro
 inline void store(double* to, Vector v) {
   for (int i = 0; i < 4; ++i) to[i] = v.lane[i];
 }
+inline Vector first_halves(Vector a, Vector b) { return {{a.lane[0], a.lane[1], b.lane[0], b.lane[1]}}; }
+inline Vector last_halves(Vector a, Vector b) { return {{a.lane[2], a.lane[3], b.lane[2], b.lane[3]}}; }
 inline double sum(Vector a) { return (a.lane[0] + a.lane[1]) + (a.lane[2] + a.lane[3]); }
 inline Vector sums(Vector a, Vector b, Vector c, Vector d) { return {{sum(a), sum(b), sum(c), sum(d)}}; }
 

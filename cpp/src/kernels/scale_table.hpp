@@ -4,11 +4,15 @@
 //
 //   chi(x) = (1 - phi(x)) / x,    phi = 1 - x chi,    e^-x = 1 - x phi,    psi = 2 chi - phi,
 //
-// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 16 in each octave; within
-// a cell the chi of each mode is a polynomial of degree 7 in t, the place in the cell from -1 to 1, through
-// Chebyshev's points: chi is entire, its n-th term is below (1 / 32)^n, and the interpolation's error some
-// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). No mode needs to be spaced like its neighbours for
-// that. Cells are formed where steps fall into them, and kept.
+// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 32 in each octave; within
+// a cell the chi of each mode is a polynomial of degree 6 in t, the place in the cell from -1 to 1, through
+// Chebyshev's points: chi is entire, its n-th term is below (1 / 64)^n, and the interpolation's error some
+// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). Where x is small, terms fall faster still, and slow
+// modes need fewer of them. No mode needs to be spaced like its neighbours for that. Cells are formed where
+// steps fall into them, and kept.
+//
+// Beside coefficient_table.hpp, for steps whose scale is unknown until their stress is: here one function
+// serves phi and psi, and the terms of four modes lie together, as a sweep with time innermost reads them.
 
 #include <cstring>
 
@@ -16,31 +20,33 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-/// A cell of scales and the place in it.
-struct ScalePlace {
-  static constexpr unsigned cell_bits = 4;  // cells in an octave, as a power of two
+/// A cell of scales, lower <= scale < upper: those whose numbers begin with the same bits.
+struct ScaleCell {
+  static constexpr unsigned cell_bits = 5;  // cells in an octave, as a power of two
 
-  std::int64_t cell;  ///< the leading bits of the scale; negative: out of range
-  double offset;      ///< t
+  std::int64_t index = -1;  ///< the leading bits; negative: out of range
+  double lower = 0.0, upper = 0.0, centre = 0.0, inverse_half_width = 0.0;
 
-  PROBATION_INLINE explicit ScalePlace(double scale) {
+  ScaleCell() = default;
+  PROBATION_INLINE explicit ScaleCell(std::int64_t its_index)
+      : index(its_index),
+        lower(from_index(its_index)),
+        upper(from_index(its_index + 1)),
+        centre(0.5 * (lower + upper)),
+        inverse_half_width(1.0 / (centre - lower)) {}
+  PROBATION_INLINE static std::int64_t index_of(double scale) {
     std::uint64_t bits;
     std::memcpy(&bits, &scale, sizeof bits);
     const std::uint64_t exponent = bits >> 52U;  // of a negative scale beyond all
-    cell = exponent < 64 || exponent > 1982 ? -1 : static_cast<std::int64_t>(bits >> (52U - cell_bits));
-    const std::uint64_t inverse_bits = (2046 + cell_bits + 1 - exponent) << 52U;
-    double inverse_half_width;
-    std::memcpy(&inverse_half_width, &inverse_bits, sizeof inverse_half_width);
-    offset = (scale - centre(cell)) * inverse_half_width;
+    return exponent < 64 || exponent > 1982 ? -1 : static_cast<std::int64_t>(bits >> (52U - cell_bits));
   }
-  PROBATION_INLINE static double centre(std::int64_t cell) {
-    return from_cell(cell, std::uint64_t{1} << 51U);
-  }
-  PROBATION_INLINE static double half_width(std::int64_t cell) { return centre(cell) - from_cell(cell, 0); }
+  PROBATION_INLINE bool holds(double scale) const { return lower <= scale && scale < upper; }
+  /// t
+  PROBATION_INLINE double offset(double scale) const { return (scale - centre) * inverse_half_width; }
 
  private:
-  PROBATION_INLINE static double from_cell(std::int64_t cell, std::uint64_t half) {
-    const std::uint64_t bits = (static_cast<std::uint64_t>(cell) << (52U - cell_bits)) | (half >> cell_bits);
+  PROBATION_INLINE static double from_index(std::int64_t index) {
+    const std::uint64_t bits = static_cast<std::uint64_t>(index) << (52U - cell_bits);
     double scale;
     std::memcpy(&scale, &bits, sizeof scale);
     return scale;
@@ -53,11 +59,10 @@ struct PowersFromPoints {
   double point[terms]{}, power[terms][terms]{};
 
   constexpr PowersFromPoints() {
-    static_assert(terms == 8);
-    // cos((2 i + 1) pi / 16)
-    constexpr double positive[4] = {0.98078528040323044913, 0.83146961230254523708, 0.55557023301960222474,
-                                    0.19509032201612826785};
-    for (int i = 0; i < 4; ++i) {
+    static_assert(terms == 7);
+    // cos((2 i + 1) pi / 14)
+    constexpr double positive[3] = {0.97492791218182360702, 0.78183148246802980871, 0.43388373911755812048};
+    for (int i = 0; i < 3; ++i) {
       point[i] = positive[i];
       point[terms - 1 - i] = -positive[i];
     }
@@ -81,17 +86,17 @@ struct PowersFromPoints {
   }
 };
 
-/// The rows of a cell, for all modes: the eight coefficients of four modes lie together.
-inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
+/// The rows of a cell, for all modes: the coefficients of four modes lie together.
+inline void form_cell(const Modes& modes, const ScaleCell& cell, double* rows) {
   static constexpr PowersFromPoints transform;
   constexpr int terms = ScaleTable::terms;
-  const double centre = ScalePlace::centre(cell), half_width = ScalePlace::half_width(cell);
+  const double half_width = cell.centre - cell.lower;
   for (int at = 0; at < modes.padded; at += lanes) {
     const Vector q = load(modes.inverse_ratio + at);
     Vector power[terms] = {};
     for (int i = 0; i < terms; ++i) {
       const auto c =
-          ExponentialStep::coefficients<Vector>(q * (centre + half_width * transform.point[i]), 1.0);
+          ExponentialStep::coefficients<Vector>(q * (cell.centre + half_width * transform.point[i]), 1.0);
       const Vector chi = 0.5 * (c.forcing + c.curvature);
       for (int p = 0; p < terms; ++p) power[p] += chi * transform.power[p][i];
     }
@@ -104,8 +109,8 @@ inline void form_cell(const Modes& modes, std::int64_t cell, double* rows) {
 struct TabledSteps {
   static constexpr int most = 256;
 
-  int count = 0;  ///< none: the table is not worth while here
-  double lowest = 0.0;
+  int count = 0;                       ///< none: the table is not worth while here
+  double lowest = 0.0, highest = 0.0;  ///< scale
   double offset[most];
   const double* rows[most];
 
@@ -116,19 +121,27 @@ struct TabledSteps {
     std::int64_t wanted[ScaleTable::slots];
     for (std::int64_t& cell : wanted) cell = -1;
     int missing = 0;
-    lowest = scale[0];
+    lowest = highest = scale[0];
+    ScaleCell cell;  // of the step before: mostly of this one, too
+    const double* rows_of_cell = nullptr;
     for (; count < available && count < most; ++count) {
-      const ScalePlace place(scale[count]);
-      if (place.cell < 0) break;
-      const int slot = static_cast<int>(place.cell % ScaleTable::slots);
-      if (wanted[slot] != place.cell) {
-        if (wanted[slot] >= 0) break;
-        wanted[slot] = place.cell;
-        if (kept.cell[slot] != place.cell) ++missing;
+      const double here = scale[count];
+      if (!cell.holds(here)) {
+        const std::int64_t index = ScaleCell::index_of(here);
+        if (index < 0) break;
+        const int slot = static_cast<int>(index % ScaleTable::slots);
+        if (wanted[slot] != index) {
+          if (wanted[slot] >= 0) break;
+          wanted[slot] = index;
+          if (kept.cell[slot] != index) ++missing;
+        }
+        cell = ScaleCell(index);
+        rows_of_cell = kept.rows + slot * stride;
       }
-      offset[count] = place.offset;
-      rows[count] = kept.rows + slot * stride;
-      lowest = scale[count] < lowest ? scale[count] : lowest;
+      offset[count] = cell.offset(here);
+      rows[count] = rows_of_cell;
+      lowest = here < lowest ? here : lowest;
+      highest = here > highest ? here : highest;
     }
     if (missing * ScaleTable::terms > count) {
       count = 0;
@@ -136,19 +149,23 @@ struct TabledSteps {
     }
     for (int slot = 0; missing > 0 && slot < ScaleTable::slots; ++slot) {
       if (wanted[slot] < 0 || kept.cell[slot] == wanted[slot]) continue;
-      form_cell(modes, wanted[slot], kept.rows + slot * stride);
+      form_cell(modes, ScaleCell(wanted[slot]), kept.rows + slot * stride);
       kept.cell[slot] = wanted[slot];
       --missing;
     }
   }
 };
 
-/// chi of the four modes whose coefficients these are.
+/// chi of the four modes whose coefficients these are, by the first `terms` of them.
+template <int terms = ScaleTable::terms>
 PROBATION_INLINE Vector tabled_chi(const double* row, double offset) {
-  Vector chi = load(row + std::ptrdiff_t{ScaleTable::terms - 1} * lanes);
+  Vector chi = load(row + std::ptrdiff_t{terms - 1} * lanes);
 #pragma GCC unroll 8
-  for (int i = ScaleTable::terms - 2; i >= 0; --i) chi = chi * offset + load(row + std::ptrdiff_t{i} * lanes);
+  for (int i = terms - 2; i >= 0; --i) chi = chi * offset + load(row + std::ptrdiff_t{i} * lanes);
   return chi;
 }
+
+/// How many terms keep the digits of chi for modes up to x: term n is below 2 (x / 64)^n / (n + 2)! of it.
+PROBATION_INLINE int terms_of_chi(double x) { return x < 0.3 ? 5 : x < 1.0 ? 6 : ScaleTable::terms; }
 
 }  // namespace probation::kernels::PROBATION_ISA

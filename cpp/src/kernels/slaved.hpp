@@ -46,14 +46,7 @@ struct SlavedModes {
     const int count = steps.count;
     const double* u = steps.forcing;
     const double* v = steps.curvature;
-    if (steps.uniform) {
-      const double inverse = 1.0 / steps.scale[0], of_u = first * inverse;
-      const double of_v = of_u - 2.0 * second * inverse * inverse;
-      if (v)
-        for (int n = 0; n < count; ++n) stress[n] += of_u * u[n] + of_v * v[n];
-      else
-        for (int n = 0; n < count; ++n) stress[n] += of_u * u[n];
-    } else if (v) {
+    if (v) {
       for (int n = 0; n < count; ++n) {
         const double inverse = 1.0 / steps.scale[n];
         stress[n] += inverse * (first * (u[n] + v[n]) - 2.0 * second * inverse * v[n]);

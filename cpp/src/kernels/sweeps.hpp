@@ -1,11 +1,11 @@
 #pragma once
-// The sweeps of one build; modal_sweep.cpp chooses among them.
+// The sweeps of one build, and the steps they take; modal_sweep.cpp chooses among them.
 
 #include "kernels.hpp"
 
 namespace probation::kernels::PROBATION_ISA {
 
-/// Even steps. A one-step rule leaves `before` as it was.
+/// Even steps, two at least; `before` is left one instant behind the state.
 void even_sweep(const Modes&, const Steps&, double* stress);
 
 /// Steps of any length; `before` is left one instant behind the state.
@@ -15,11 +15,20 @@ void uneven_sweep(const Modes&, const Steps&, double* stress);
 void general_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions,
                            int count, double* scratch);
 
-/// Along one in which the time scale alone moves.
+/// Along one in which the time scale alone moves, by one factor for all steps, which are even and two at
+/// least.
+void even_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&);
+
+/// Along one in which the time scale alone moves; uneven steps.
 void time_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&, double* scratch);
 
-/// The better one of the two.
+/// The best one of them.
 void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions, int count,
                    double* scratch);
+
+/// See StepPasses.
+bool form_two_step(const StepSamples&, const FormedSteps&);
+bool form_straight(const StepSamples&, const FormedSteps&);
+bool form_parabolic(const StepSamples&, const FormedSteps&);
 
 }  // namespace probation::kernels::PROBATION_ISA

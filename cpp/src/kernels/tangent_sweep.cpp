@@ -35,7 +35,7 @@ void run(const Modes& modes, const Steps& steps, double* stress, const TangentDi
   double* by_log_scale = scratch + 8 * m;
   for (int n = 0; n < steps.count; ++n) {
     if (n == 0 || !steps.uniform) tabulate<Step>(modes, steps.scale[n], steps.ratio[n], scratch);
-    const double u = steps.forcing[n], v = steps.curvature ? steps.curvature[n] : 0.0;
+    const double u = steps.forcing[n], v = curvature_at(steps, n);
     Vector total{};
     for (std::ptrdiff_t at = 0; at < m; at += lanes) {
       const Vector y = load(modes.state + at), before = load(modes.before + at);
@@ -67,6 +67,12 @@ void run(const Modes& modes, const Steps& steps, double* stress, const TangentDi
   }
 }
 
+bool all_equal(const double* values, int count) {
+  bool equal = true;
+  for (int n = 1; n < count; ++n) equal &= values[n] == values[0];
+  return equal;
+}
+
 }  // namespace
 
 void general_tangent_sweep(const Modes& modes, const Steps& steps, double* stress,
@@ -84,8 +90,11 @@ void general_tangent_sweep(const Modes& modes, const Steps& steps, double* stres
 void tangent_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection* directions,
                    int count, double* scratch) {
   const TangentDirection& d = directions[0];
-  if (count == 1 && d.log_scale && !d.forcing && !d.curvature && !d.log_inverse && !d.weight)
-    return time_tangent_sweep(modes, steps, stress, d, scratch);
+  if (count == 1 && d.log_scale && !d.forcing && !d.curvature && !d.log_inverse && !d.weight) {
+    if (!steps.uniform) return time_tangent_sweep(modes, steps, stress, d, scratch);
+    if (steps.count > 1 && all_equal(d.log_scale, steps.count))
+      return even_tangent_sweep(modes, steps, stress, d);
+  }
   general_tangent_sweep(modes, steps, stress, directions, count, scratch);
 }
 

@@ -50,60 +50,6 @@ struct TimeBlock {
   }
 };
 
-struct StressAndSlope {
-  Vector stress, slope;
-};
-
-/// Adds the sums of what advance(n) returns to stress[n] and slope[n], four steps at a time.
-template <class Advance>
-PROBATION_INLINE void add_both_sums(int count, double* stress, double* slope, Advance advance) {
-  int n = 0;
-  StressAndSlope four[lanes];
-  for (; n + lanes <= count; n += lanes) {
-#pragma GCC unroll 4
-    for (int i = 0; i < lanes; ++i) four[i] = advance(n + i);
-    store(stress + n,
-          load(stress + n) + sums(four[0].stress, four[1].stress, four[2].stress, four[3].stress));
-    store(slope + n, load(slope + n) + sums(four[0].slope, four[1].slope, four[2].slope, four[3].slope));
-  }
-  for (; n < count; ++n) {
-    const StressAndSlope one = advance(n);
-    stress[n] += sum(one.stress);
-    slope[n] += sum(one.slope);
-  }
-}
-
-template <bool curved, int K>
-void even_exponential_block(const Modes& modes, const Steps& steps, int at, double* stress,
-                            const TangentDirection& d) {
-  TimeBlock<K> b(modes, d, at);
-  StepCoefficients<Vector> c[K], by_log_scale[K];
-  for (int k = 0; k < K; ++k) {
-    const Vector x = b.inverse_ratio[k] * steps.scale[0];
-    c[k] = weighted(ExponentialStep::coefficients<Vector>(x, 1.0), b.weight[k]);
-    by_log_scale[k] = weighted(ExponentialStep::log_slopes<Vector>(x, 1.0), b.weight[k]);
-  }
-  add_both_sums(steps.count, stress, d.stress, [&](int n) {
-    const double u = steps.forcing[n], v = curved ? steps.curvature[n] : 0.0, log_scale = d.log_scale[n];
-    StressAndSlope total{};
-#pragma GCC unroll 8
-    for (int k = 0; k < K; ++k) {
-      Vector next = c[k].forcing * u, moved = by_log_scale[k].forcing * u;
-      if constexpr (curved) {
-        next += c[k].curvature * v;
-        moved += by_log_scale[k].curvature * v;
-      }
-      moved += by_log_scale[k].previous * b.state[k];
-      b.slope[k] = c[k].previous * b.slope[k] + moved * log_scale;
-      b.state[k] = c[k].previous * b.state[k] + next;
-      total.stress += b.state[k];
-      total.slope += b.slope[k];
-    }
-    return total;
-  });
-  b.template put_back<false>(modes, d, at);
-}
-
 /// With phi, psi and chi of scale_table.hpp, d phi = x (chi - phi) and d psi = -2 psi - d phi for d ln x.
 template <bool curved, int K>
 void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress,
@@ -132,35 +78,6 @@ void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tab
     return total;
   });
   b.template put_back<false>(modes, d, at);
-}
-
-/// All coefficients go with 1 / (next + x), so that d ln x moves a step by -x / (next + x) times its result.
-template <int K>
-void even_bdf2_block(const Modes& modes, const Steps& steps, int at, double* stress,
-                     const TangentDirection& d) {
-  TimeBlock<K> b(modes, d, at);
-  StepCoefficients<Vector> c[K];
-  Vector share[K];
-  for (int k = 0; k < K; ++k) {
-    const Vector x = b.inverse_ratio[k] * steps.scale[0];
-    c[k] = Bdf2Step::coefficients<Vector>(x, steps.ratio[0]);
-    share[k] = x * c[k].forcing;
-    c[k].forcing *= b.weight[k];
-  }
-  add_both_sums(steps.count, stress, d.stress, [&](int n) {
-    const double u = steps.forcing[n], log_scale = d.log_scale[n];
-    StressAndSlope total{};
-#pragma GCC unroll 8
-    for (int k = 0; k < K; ++k) {
-      const Vector next = c[k].previous * b.state[k] + (c[k].before * b.before[k] + c[k].forcing * u);
-      const Vector change = c[k].previous * b.slope[k] + c[k].before * b.slope_before[k];
-      b.take(k, next, change - share[k] * (next * log_scale));
-      total.stress += b.state[k];
-      total.slope += b.slope[k];
-    }
-    return total;
-  });
-  b.template put_back<true>(modes, d, at);
 }
 
 template <int K>
@@ -207,10 +124,6 @@ void in_stretches(const Steps& steps, int most, double* stress, const TangentDir
 
 void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d,
                 double* scratch) {
-  if (steps.uniform)
-    return in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
-      even_bdf2_block<decltype(size)::value>(modes, steps, at, stress, d);
-    });
   in_stretches(steps, Bdf2Steps::most, stress, d,
                [&](const Steps& part, const TangentDirection& there, double* stress_there) {
                  const Bdf2Steps a(part);
@@ -222,19 +135,6 @@ void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const Ta
                    general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
                  return part.count;
                });
-}
-
-void even_exponential_sweep(const Modes& modes, const Steps& steps, double* stress,
-                            const TangentDirection& d) {
-  const SlavedModes slaved(modes, steps.scale[0]);
-  slaved.sweep_with_slope(modes, steps, stress, d);
-  in_blocks<largest_block>(slaved.from, slaved.to, [&](auto size, int at) {
-    constexpr int K = decltype(size)::value;
-    if (steps.curvature)
-      even_exponential_block<true, K>(modes, steps, at, stress, d);
-    else
-      even_exponential_block<false, K>(modes, steps, at, stress, d);
-  });
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress,
@@ -255,21 +155,18 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
                        double* scratch) {
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
-  if (steps.uniform && last > 0)
-    even_exponential_sweep(modes, most, stress, d);
-  else
-    in_stretches(most, TabledSteps::most, stress, d,
-                 [&](const Steps& part, const TangentDirection& there, double* stress_there) {
-                   if (modes.table) {
-                     const TabledSteps tabled(modes, part.scale, part.count);
-                     if (tabled.count > 0) {
-                       tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
-                       return tabled.count;
-                     }
+  in_stretches(most, TabledSteps::most, stress, d,
+               [&](const Steps& part, const TangentDirection& there, double* stress_there) {
+                 if (modes.table) {
+                   const TabledSteps tabled(modes, part.scale, part.count);
+                   if (tabled.count > 0) {
+                     tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
+                     return tabled.count;
                    }
-                   general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
-                   return part.count;
-                 });
+                 }
+                 general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
+                 return part.count;
+               });
   const TangentDirection end = later(d, last);
   general_tangent_sweep(modes, part_of(steps, last, 1), stress + last, &end, 1, scratch);
 }

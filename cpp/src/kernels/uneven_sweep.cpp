@@ -11,35 +11,53 @@ namespace {
 // Vectors of four modes in a block: coefficients from a table or a reciprocal, or formed by an exponential.
 constexpr int largest_block = 4, largest_formed_block = 2;
 
+/// K vectors of modes, their states in units of their weights: the forcing drives all of them alike.
+template <int K>
+struct UnitBlock {
+  Vector inverse_ratio[K], unit[K], state[K], before[K];
+
+  PROBATION_INLINE UnitBlock(const Modes& modes, int at) {
+    for (int k = 0; k < K; ++k) {
+      const std::ptrdiff_t j = at + k * lanes;
+      const Vector weight = load(modes.weight + j), z = load(modes.state + j),
+                   z_before = load(modes.before + j);
+      // A state without weight is driven by next to nothing, by which it can be divided.
+      const Vector divisor = choose(weight < 1e-150, Vector{} + 1e-150, weight);
+      inverse_ratio[k] = load(modes.inverse_ratio + j);
+      unit[k] = choose(z * z + z_before * z_before == 0.0, weight, divisor);
+      state[k] = z / divisor;
+      before[k] = z_before / divisor;
+    }
+  }
+  PROBATION_INLINE void put_back(const Modes& modes, int at) const {
+    for (int k = 0; k < K; ++k) {
+      const std::ptrdiff_t j = at + k * lanes;
+      store(modes.state + j, unit[k] * state[k]);
+      store(modes.before + j, unit[k] * before[k]);
+    }
+  }
+};
+
 /// K vectors of modes whose coefficients are formed in every step.
 template <class Step, bool two_step, bool curved, int K>
 void formed_block(const Modes& modes, const Steps& steps, int at, double* stress) {
-  Vector state[K], before[K];
-  for (int k = 0; k < K; ++k) {
-    const std::ptrdiff_t j = at + k * lanes;
-    state[k] = load(modes.state + j);
-    before[k] = load(modes.before + j);
-  }
+  UnitBlock<K> b(modes, at);
   add_sums(steps.count, stress, [&](int n) {
     Vector total{};
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const auto c = weighted<Step>(modes, at + k * lanes, steps.scale[n], steps.ratio[n]);
+      const auto c = Step::template coefficients<Vector>(b.inverse_ratio[k] * steps.scale[n], steps.ratio[n]);
       Vector next = c.forcing * steps.forcing[n];
       if constexpr (curved) next = c.curvature * steps.curvature[n] + next;
-      if constexpr (two_step) next = c.before * before[k] + next;
-      next = c.previous * state[k] + next;
-      before[k] = state[k];
-      state[k] = next;
-      total += next;
+      if constexpr (two_step) next = c.before * b.before[k] + next;
+      next = c.previous * b.state[k] + next;
+      b.before[k] = b.state[k];
+      b.state[k] = next;
+      total += b.unit[k] * next;
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) {
-    const std::ptrdiff_t j = at + k * lanes;
-    store(modes.state + j, state[k]);
-    store(modes.before + j, before[k]);
-  }
+  b.put_back(modes, at);
 }
 
 template <class Step, bool two_step, bool curved>
@@ -56,35 +74,37 @@ void formed_exponential_sweep(const Modes& modes, const Steps& steps, double* st
     formed_sweep<ExponentialStep, false, false>(modes, steps, stress);
 }
 
-/// K vectors of modes whose coefficients come from a table; `before` is left alone.
-template <bool curved, int K>
+/// K vectors of modes whose coefficients come from a table, by their first `terms`; `before` is left alone.
+template <bool curved, int terms, int K>
 void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress) {
-  Vector state[K], inverse_ratio[K], weight[K];
-  for (int k = 0; k < K; ++k) {
-    const std::ptrdiff_t j = at + k * lanes;
-    state[k] = load(modes.state + j);
-    inverse_ratio[k] = load(modes.inverse_ratio + j);
-    weight[k] = load(modes.weight + j);
-  }
+  UnitBlock<K> b(modes, at);
   add_sums(steps.count, stress, [&](int n) {
     const double* row = tabled.rows[n] + static_cast<std::ptrdiff_t>(at) * ScaleTable::terms;
     const double offset = tabled.offset[n], scale = steps.scale[n];
     const double v = curved ? steps.curvature[n] : 0.0, straight = steps.forcing[n] - v;
     Vector total{};
-    // z+ = e z + p (phi U + psi V) = z + phi (p (U - V) - x z) + 2 p chi V
+    // y+ = e y + phi U + psi V = y + phi (U - V - x y) + 2 chi V
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const Vector chi = tabled_chi(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
-      const Vector x = inverse_ratio[k] * scale, phi = 1.0 - x * chi;
-      Vector next = state[k];
-      if constexpr (curved) next += chi * (weight[k] * (2.0 * v));
-      next += phi * (weight[k] * straight - x * state[k]);
-      state[k] = next;
-      total += next;
+      const Vector chi = tabled_chi<terms>(row + std::ptrdiff_t{k} * lanes * ScaleTable::terms, offset);
+      const Vector x = b.inverse_ratio[k] * scale, phi = 1.0 - x * chi;
+      Vector next = b.state[k];
+      if constexpr (curved) next += chi * (2.0 * v);
+      next += phi * (straight - x * b.state[k]);
+      b.state[k] = next;
+      total += b.unit[k] * next;
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) store(modes.state + at + std::ptrdiff_t{k} * lanes, state[k]);
+  b.put_back(modes, at);
+}
+
+template <bool curved, int K>
+void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tabled, int at, double* stress) {
+  const int terms = terms_of_chi(largest(modes.inverse_ratio, at, at + K * lanes) * tabled.highest);
+  if (terms <= 5) return tabled_block<curved, 5, K>(modes, steps, tabled, at, stress);
+  if (terms == 6) return tabled_block<curved, 6, K>(modes, steps, tabled, at, stress);
+  tabled_block<curved, ScaleTable::terms, K>(modes, steps, tabled, at, stress);
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress) {
@@ -120,34 +140,23 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
 
 template <int K>
 void bdf2_block(const Modes& modes, const Steps& steps, const Bdf2Steps& a, int at, double* stress) {
-  Vector state[K], before[K], inverse_ratio[K], weight[K];
-  for (int k = 0; k < K; ++k) {
-    const std::ptrdiff_t j = at + k * lanes;
-    state[k] = load(modes.state + j);
-    before[k] = load(modes.before + j);
-    inverse_ratio[k] = load(modes.inverse_ratio + j);
-    weight[k] = load(modes.weight + j);
-  }
+  UnitBlock<K> b(modes, at);
   add_sums(steps.count, stress, [&](int n) {
     Vector inverse[K], total{};
 #pragma GCC unroll 8
-    for (int k = 0; k < K; ++k) inverse[k] = inverse_ratio[k] * steps.scale[n] + a.next[n];
+    for (int k = 0; k < K; ++k) inverse[k] = b.inverse_ratio[k] * steps.scale[n] + a.next[n];
     invert(inverse);
 #pragma GCC unroll 8
     for (int k = 0; k < K; ++k) {
-      const Vector drive = before[k] * a.before[n] + weight[k] * steps.forcing[n];
-      const Vector next = (state[k] * a.here[n] + drive) * inverse[k];
-      before[k] = state[k];
-      state[k] = next;
-      total += next;
+      const Vector drive = b.before[k] * a.before[n] + steps.forcing[n];
+      const Vector next = (b.state[k] * a.here[n] + drive) * inverse[k];
+      b.before[k] = b.state[k];
+      b.state[k] = next;
+      total += b.unit[k] * next;
     }
     return total;
   });
-  for (int k = 0; k < K; ++k) {
-    const std::ptrdiff_t j = at + k * lanes;
-    store(modes.state + j, state[k]);
-    store(modes.before + j, before[k]);
-  }
+  b.put_back(modes, at);
 }
 
 void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress) {

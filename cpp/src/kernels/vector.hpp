@@ -31,11 +31,15 @@ PROBATION_INLINE Vector load(const double* from) {
 }
 PROBATION_INLINE void store(double* to, Vector v) { __builtin_memcpy(to, &v, sizeof v); }
 
+/// The first two of both, and the last two.
+PROBATION_INLINE Vector first_halves(Vector a, Vector b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
+PROBATION_INLINE Vector last_halves(Vector a, Vector b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
+
 /// The four sums a0+a1+a2+a3, b0+..., c0+..., d0+... as one vector.
 PROBATION_INLINE Vector sums(Vector a, Vector b, Vector c, Vector d) {
   const Vector ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
   const Vector cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  return first_halves(ab, cd) + last_halves(ab, cd);
 }
 PROBATION_INLINE double sum(Vector a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 }  // namespace kernels

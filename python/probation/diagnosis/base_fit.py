@@ -16,7 +16,7 @@ from probation.diagnosis.substeps import enough_substeps, predicted
 from probation.excitation import excite
 from probation.gap.carried import carried_noise
 from probation.gap.dnlr_law import DnlrLaw
-from probation.gap.drift import LIKE_AN_EFFECT, estimate_drift, with_drift
+from probation.gap.drift import estimate_drift, like_an_effect, with_drift
 from probation.gap.model import CampaignModel
 from probation.gap.noise import estimate_noise
 from probation.gap.record_view import views_of
@@ -267,7 +267,7 @@ def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    alike = min(drift, LIKE_AN_EFFECT)
+    alike = like_an_effect(drift)
     return tuple(
         with_drift(noise, alike, drift - alike, record.time) for noise, record in zip(noises, residuals, strict=True)
     )

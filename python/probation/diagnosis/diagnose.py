@@ -16,10 +16,12 @@ from probation.diagnosis.next import next_test_of
 from probation.diagnosis.probabilities import (
     TEMPERED,
     answer_set,
+    given_a_gap,
     weigh,
     with_none_leading,
     with_unknown,
     with_unknown_leading,
+    with_unseen,
 )
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
@@ -114,28 +116,24 @@ def diagnose(
     where = locate(base.whitened, seed=seed)
     told(0.35)
     if gap.rejected:
-        base, found = _searched(base, considered, workers, lambda part: told(0.35 + 0.45 * part))
-        weighed = weigh(found, len(considered), TEMPERED)
+        base, found, weighed, judged, verdict = _explained(base, considered, workers, seed, told)
     else:
         found = linear_hypotheses(base, base.columns)
-        weighed = with_none_leading(weigh(found, len(considered)))
-    chosen = answer_set(weighed)
-    verdict: Verdict = "no_gap"
-    judged: dict[tuple[str, ...], Checks] = {}
-    if gap.rejected:
-        left, judged = _judged(weighed, chosen, base, seed)
-        if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
-            weighed, chosen = _with_unknown(weighed, judged)
-        verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
+        weighed, judged, verdict = with_none_leading(weigh(found, len(considered))), {}, "no_gap"
     if weighed[0].effects == (UNKNOWN,):
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
     shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
     while verdict == "explained" and leaves_too_much(shrink):
-        weighed, chosen = _with_unknown(weighed, judged)
+        told_of = weighed[0].hypothesis
+        weighed = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:
             verdict = "unexplained"
-        shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+        if weighed[0].hypothesis is not told_of:
+            shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+    chosen = answer_set(weighed)
+    if gap.rejected:
+        weighed = with_unseen(weighed, [effect.name for effect in considered])
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
@@ -172,6 +170,23 @@ def diagnose(
     )
 
 
+def _explained(
+    base: BaseFit,
+    considered: tuple[Effect, ...],
+    threads: int,
+    seed: int,
+    progress: Callable[[float], None],
+) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
+    """Of a gap: the base fit with the noise beside the best explanation, hypotheses, weighed and checked; verdict."""
+    base, found = _searched(base, considered, threads, lambda part: progress(0.35 + 0.45 * part))
+    weighed = given_a_gap(weigh(found, len(considered), TEMPERED))
+    left, judged = _judged(weighed, answer_set(weighed), base, seed)
+    if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
+        weighed = _with_unknown(weighed, judged)
+    verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
+    return base, found, weighed, judged, verdict
+
+
 def _judged(
     weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, seed: int
 ) -> tuple[bool, dict[tuple[str, ...], Checks]]:
@@ -188,15 +203,12 @@ def _judged(
     return left, found
 
 
-def _with_unknown(
-    weighed: Sequence[Weighed], judged: dict[tuple[str, ...], Checks]
-) -> tuple[list[Weighed], tuple[tuple[str, ...], ...]]:
-    """The best explanation led by itself with an unknown effect beside, which keeps its checks; and the answer set."""
-    changed = with_unknown_leading(weighed)
+def _with_unknown(weighed: Sequence[Weighed], judged: dict[tuple[str, ...], Checks]) -> list[Weighed]:
+    """The best explanation led by itself with an unknown effect beside, which keeps its checks."""
     known = weighed[0].effects
     if known in judged:
         judged.setdefault(with_unknown(known), judged[known])
-    return changed, answer_set(changed)
+    return with_unknown_leading(weighed)
 
 
 def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:

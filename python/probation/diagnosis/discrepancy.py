@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.gap.harmless_drift import harmless_drift
+from probation.gap.ripples import ripple_waves
 from probation.gap.smooth_basis import smooth_basis
 from probation.gap.span import span_of
 
@@ -48,6 +49,8 @@ class Discrepancy:
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
     specimens : ndarray, shape (N, m)
         What other parameters in one record alone do, whitened; none where there is one record.
+    ripples : ndarray, shape (N, m)
+        Whitened waves of what is periodic in the strain; none where nothing certainly is.
     """
 
     columns: tuple[FloatArray, ...]
@@ -57,6 +60,7 @@ class Discrepancy:
     drift: FloatArray
     common: FloatArray
     specimens: FloatArray
+    ripples: FloatArray
 
     @classmethod
     def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
@@ -88,6 +92,7 @@ class Discrepancy:
             drift=drift,
             common=_over_strain(whitened),
             specimens=_of_specimens(whitened),
+            ripples=ripple_waves(whitened),
         )
 
     def __len__(self) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import comb, log
+from math import comb, exp, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
@@ -30,10 +30,18 @@ AGAIN = 0.03
 """Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
 
 LEFT_OVER = 0.9
-"""Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
+"""Part of an explanation's probability that goes to others where a gap is left after it: to an unknown effect beside
+it, and if it is that no effect is needed, to whatever else there is."""
 
 ABOUT_AS_PROBABLE = 12.0
 """Log evidence within which forms of one effect are told apart by how well they fit as they are."""
+
+UNSEEN = 0.1
+"""Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom costs little
+and gains nothing. So what was probable beforehand of two effects stays so, shared out to those that were not tried."""
+
+NOTED = 0.05
+"""Probability from which on a single effect is told with others that may act beside it, unseen."""
 
 COVERED = 0.95
 """Probability that an answer set holds."""
@@ -102,6 +110,32 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
     return sorted(found, key=lambda each: -each.probability)
 
 
+def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighed]:
+    """Beside the probable single effects each pair with another that was not tried, since it would gain nothing.
+
+    It stands for the single effect's own hypothesis: nothing is known of the other.
+
+    Parameters
+    ----------
+    weighed : sequence of Weighed
+    names : sequence of str
+        Of the catalogue's effects.
+    """
+    tried = {each.effects for each in weighed}
+    singles = [each for each in weighed if len(each.effects) == 1 and each.effects[0] in names]
+    found = list(weighed)
+    for single in singles:
+        if single.probability < NOTED:
+            continue
+        for name in names:
+            pair = tuple(sorted({*single.effects, name}))
+            if len(pair) == 2 and pair not in tried:
+                odds = UNSEEN * exp(log_prior(pair, len(names)) - log_prior(single.effects, len(names)))
+                found.append(Weighed(pair, odds * single.probability, single.hypothesis))
+                tried.add(pair)
+    return _normalised(found)
+
+
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
     """Of the forms that are about as probable in the same place, the one that is most nearly exact."""
     best, leading = max(entries, key=lambda entry: entry[0])
@@ -120,6 +154,23 @@ def with_none_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     others = [each for each in weighed if each.effects]
     lifted = max(none.probability, *(each.probability for each in others)) if others else none.probability
     return _normalised([replace(none, probability=lifted), *others])
+
+
+def given_a_gap(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Where a gap is seen, "no effect is needed" keeps little; what it loses goes to all others as they stand.
+
+    A gap that no explanation gains much from may be anything: not first of all something outside the catalogue.
+    """
+    none = next(each for each in weighed if not each.effects)
+    rest = 1.0 - none.probability
+    if none.probability <= 1.0 - LEFT_OVER or rest <= 0.0:
+        return list(weighed)
+    return _normalised(
+        [
+            replace(each, probability=1.0 - LEFT_OVER if each is none else LEFT_OVER * each.probability / rest)
+            for each in weighed
+        ]
+    )
 
 
 def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:

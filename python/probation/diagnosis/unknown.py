@@ -1,8 +1,9 @@
 """An effect outside the catalogue: whatever it does, it does it smoothly, or from specimen to specimen.
 
-It may be one function of the strain in all records; other parameters of the law in each record; a smooth discrepancy in
-one record, of one size in all, or of its own size in each. Which of these nobody knows beforehand, so that each has a
-share of the prior and its size is integrated over: what a few numbers tell earns more than what takes many.
+It may be one function of the strain in all records; periodic in the strain, as teeth are; other parameters of the law
+in each record; a smooth discrepancy in one record, of one size in all, or of its own size in each. Which of these
+nobody knows beforehand, so that each has a share of the prior and its size is integrated over: what a few numbers tell
+earns more than what takes many.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ if TYPE_CHECKING:
 SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 
-OF_THE_STRAIN, OF_THE_SPECIMEN, ALIKE, IN_ONE, IN_EACH = 0.25, 0.2, 0.25, 0.2, 0.1
-"""Prior shares: one function of the strain, other parameters in each record, one size in all records, in one record
-only, a size in each."""
+OF_THE_STRAIN, PERIODIC, OF_THE_SPECIMEN, ALIKE, IN_ONE, IN_EACH = 0.2, 0.1, 0.2, 0.2, 0.2, 0.1
+"""Prior shares: one function of the strain, periodic in the strain, other parameters in each record, one size in all
+records, in one record only, a size in each."""
 
 RECORDS = 2
 """Records that are tried alone, those with the most left."""
@@ -58,6 +59,7 @@ def log_evidence_of_unknown(
     one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
     scores = [
         np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
+        np.log(PERIODIC) + _along(found, discrepancy, forms, discrepancy.ripples),
         np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
         np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
         np.log(IN_ONE / count) + float(logsumexp(one)),

@@ -29,8 +29,9 @@ SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
 USUAL = 5.0
 """Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
 
-LIKE_AN_EFFECT = 0.5
-"""Of these as much as may go along with an effect: a slow wandering that is more like one is told as that effect."""
+LEAST_ALIKE, PART_ALIKE, MOST_ALIKE = 0.25, 0.2, 2.0
+"""Of a drift as much goes along with an effect: a slow wandering that is more like one is told as that effect, but a
+form is known to some per cent only, and what it leaves of an effect's direction drifts as everything does."""
 
 BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
 """The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
@@ -81,6 +82,11 @@ def estimate_drift(whitened: Whitened) -> float:
     chance = weight / weight.sum()
     mean = float(chance @ SIZES)
     return max(mean + SURE * float(np.sqrt(chance @ (SIZES - mean) ** 2)), LEAST)
+
+
+def like_an_effect(drift: float) -> float:
+    """Relative variance of a drift at the first half period that may go along with an effect."""
+    return float(np.clip(PART_ALIKE * drift, LEAST_ALIKE, MOST_ALIKE))
 
 
 def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
