@@ -46,27 +46,27 @@ class OwnScaleTable {
 
 /// Arrays padded to a multiple of four with modes of weight zero, which stay at zero.
 struct ModalGroup {
-  Eigen::ArrayXd ratio, inverse_ratio, weight, state, before;
+  Eigen::ArrayXd inverse_ratio, weight, state, before;
   OwnScaleTable table;
 
   /// Takes the modes, at rest.
-  void set(const Eigen::ArrayXd& ratios, const Eigen::ArrayXd& weights) {
-    const Eigen::Index modes = ratios.size(), padded = (modes + 3) / 4 * 4;
-    if (!same(ratio, ratios)) {
-      table.forget();
-      ratio = ratios;
+  void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
+    const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
+    if (!same(ratio_, ratio)) {
+      ratio_ = ratio;
       inverse_ratio.setOnes(padded);
-      inverse_ratio.head(modes) = ratios.inverse();
+      inverse_ratio.head(modes) = ratio.inverse();
+      table.forget();
     }
     weight.setZero(padded);
-    weight.head(modes) = weights;
     state.setZero(padded);
     before.setZero(padded);
+    weight.head(modes) = weights;
   }
   /// Whether it has these modes already.
   bool holds(const Spectrum& spectrum) const {
-    const Eigen::Index modes = ratio.size();
-    return modes > 0 && modes == spectrum.modal_weight.size() && same(ratio, spectrum.relaxation_ratio) &&
+    const Eigen::Index modes = ratio_.size();
+    return modes > 0 && modes == spectrum.modal_weight.size() && same(ratio_, spectrum.relaxation_ratio) &&
            same(weight.head(modes), spectrum.modal_weight);
   }
   Eigen::Index padded() const { return weight.size(); }
@@ -116,6 +116,8 @@ struct ModalGroup {
   }
 
  private:
+  Eigen::ArrayXd ratio_;  ///< tau_j / tau_max, not padded
+
   /// To the last bit.
   static bool same(const Eigen::Ref<const Eigen::ArrayXd>& one, const Eigen::ArrayXd& other) {
     if (one.size() != other.size()) return false;

@@ -58,7 +58,7 @@ class Solver {
 
  private:
   struct Workspace;
-  /// Tables that would change the last bits of the next answer.
+  /// What is known of the history, and tables that would change the last bits of the next answer.
   void forget();
 
   History history_;
