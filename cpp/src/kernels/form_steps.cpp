@@ -13,10 +13,10 @@ namespace {
 /// scale = scale_of(m) for every step; whether all are positive.
 template <class ScaleOf>
 PROBATION_INLINE bool form_scales(long from, long to, double* __restrict scale, ScaleOf scale_of) {
-  int not_positive = 0;
+  unsigned not_positive = 0;
   for (long m = from; m < to; ++m) {
     scale[m] = scale_of(m);
-    not_positive |= scale[m] > 0.0 ? 0 : 1;
+    not_positive |= scale[m] > 0.0 ? 0U : 1U;
   }
   return not_positive == 0;
 }
