@@ -21,7 +21,8 @@ elseif(MSVC)
   set(PROBATION_KERNEL_FLAGS "")
 endif()
 if(PROBATION_SANITIZE)
-  list(APPEND PROBATION_KERNEL_FLAGS -O1)  # checks in unrolled loops keep the optimizer busy for minutes
+  # Checks in unrolled loops keep the optimizer busy for minutes, and where their variables are the debugger's notes.
+  list(APPEND PROBATION_KERNEL_FLAGS -O1 -fno-var-tracking)
 endif()
 
 function(probation_add_kernels engine)
