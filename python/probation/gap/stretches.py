@@ -1,0 +1,51 @@
+"""Stretches of a record, and what polynomials on each of them leave: no law's error is as rough."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+
+BLOCKS, DEGREE = 12, 5
+"""The finest smooth basis: polynomials of this degree on so many stretches of a record."""
+
+BLOCK = 40
+"""Least samples of a stretch."""
+
+
+def in_stretches(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
+    """Stretches of nearly equal length that end at the jumps, without those that are too short to tell anything."""
+    return [part for part in _stretches(values, jumps) if len(part) >= BLOCK // 2]
+
+
+def leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:
+    """What polynomials on stretches leave, every sample; short stretches give zeros."""
+    parts = []
+    for part in _stretches(values, jumps):
+        basis = legendre(len(part), min(DEGREE, max(len(part) - 2, 0))) if len(part) else np.zeros((0, 1))
+        parts.append(part - basis @ (basis.T @ part))
+    return np.concatenate(parts)
+
+
+@lru_cache(maxsize=256)
+def legendre(count: int, degree: int) -> FloatArray:
+    """Orthonormal polynomials up to a degree on so many samples, one a column."""
+    place = np.linspace(-1.0, 1.0, count)
+    return np.linalg.qr(np.polynomial.legendre.legvander(place, degree))[0]
+
+
+def _stretches(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
+    target = max(len(values) // BLOCKS, BLOCK)
+    borders = [0, *sorted(jumps), len(values)]
+    return [
+        part
+        for first, last in pairwise(borders)
+        for part in np.array_split(values[first:last], max((last - first) // target, 1))
+    ]
