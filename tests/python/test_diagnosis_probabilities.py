@@ -12,11 +12,11 @@ from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
     AGAIN,
-    LEFT_OVER,
     UNSEEN,
     Weighed,
     answer_set,
     given_a_gap,
+    given_no_gap,
     log_prior,
     weigh,
     with_unseen,
@@ -66,22 +66,46 @@ def test_probabilities_sum_to_one_and_come_in_order():
     assert {(), ("unknown",)} <= {each.effects for each in weighed}
 
 
-def test_where_a_gap_is_seen_what_no_effect_loses_goes_to_all_others_as_they_stand():
+def weighed_as(parts):
     base = hypothesis()
-    parts = {(): 0.9, ("a",): 0.05, ("unknown",): 0.03, ("b",): 0.02}
-    found = given_a_gap([Weighed(effects, chance, base) for effects, chance in parts.items()])
+    return [Weighed(effects, chance, base) for effects, chance in parts.items()]
+
+
+def test_where_a_gap_is_declared_what_no_effect_loses_goes_to_all_others_as_they_stand():
+    """At p = 0.001 no density of p-values speaks for "none" by more than 0.0188 to one, odds of 0.45 to 0.55 before."""
+    found = given_a_gap(weighed_as({(): 0.9, ("a",): 0.05, ("unknown",): 0.03, ("b",): 0.02}), 0.001)
     chances = {each.effects: each.probability for each in found}
     assert found[0].effects == ("a",)
-    assert chances[()] == pytest.approx(1.0 - LEFT_OVER)
-    assert chances[("a",)] == pytest.approx(0.5 * LEFT_OVER)
+    assert chances[()] / (1.0 - chances[()]) == pytest.approx(0.018777 * 0.45 / 0.55, rel=1e-3)
+    assert chances[("a",)] == pytest.approx(0.5 * (1.0 - chances[()]))
     assert chances[("unknown",)] / chances[("b",)] == pytest.approx(1.5)
     assert sum(chances.values()) == pytest.approx(1.0)
 
 
-def test_explanations_that_lead_already_stay_as_they_are_where_a_gap_is_seen():
-    base = hypothesis()
-    before = [Weighed(("a",), 0.95, base), Weighed((), 0.05, base)]
-    assert given_a_gap(before) == before
+def test_explanations_that_lead_already_stay_as_they_are_where_a_gap_is_declared():
+    before = weighed_as({("a",): 0.999, (): 0.001})
+    assert given_a_gap(before, 0.001) == before
+
+
+def test_a_gap_that_cannot_be_chance_leaves_nothing_for_no_effect():
+    assert given_a_gap(weighed_as({(): 1.0 - 1e-6, ("a",): 1e-6}), 0.0)[-1].probability < 1e-9
+
+
+def test_where_no_gap_is_declared_the_p_value_speaks_by_the_ratio_of_its_densities():
+    """p = 0.5: 0.5^0.8 / 0.2 = 2.87 for "none"; p = 0.01: 0.126."""
+    before = weighed_as({(): 0.8, ("a",): 0.15, ("b",): 0.05})
+    large = {each.effects: each.probability for each in given_no_gap(before, 0.5)}
+    assert large[()] / large[("a",)] == pytest.approx(2.87 * 0.8 / 0.15, rel=2e-3)
+    assert large[("a",)] / large[("b",)] == pytest.approx(3.0)
+    small = {each.effects: each.probability for each in given_no_gap(weighed_as({(): 0.9, ("a",): 0.1}), 0.01)}
+    assert small[()] / small[("a",)] == pytest.approx(0.126 * 9.0, rel=5e-3)
+
+
+def test_no_explanation_leads_no_effect_where_no_gap_is_declared():
+    found = given_no_gap(weighed_as({("a",): 0.7, (): 0.2, ("b",): 0.1}), 0.02)
+    assert found[0].effects == ()
+    assert found[0].probability == pytest.approx(found[1].probability)
+    assert sum(each.probability for each in found) == pytest.approx(1.0)
 
 
 def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_beforehand():

@@ -59,7 +59,7 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
     assert best.record is None
     assert best.p_value < 1e-10
     assert best.period_strain == pytest.approx(0.1, rel=0.02)
-    waves = ripple_waves(seen)
+    waves, _ = ripple_waves(seen)
     assert np.sum(waves**2) == pytest.approx(1.0)
     told = seen.whiten([(record.residual - rough)[:, None] for record, rough in zip(records, noise(3, 3), strict=True)])
     rest = told[:, 0] - waves @ np.linalg.lstsq(waves, told[:, 0], rcond=None)[0]
@@ -67,7 +67,28 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
 
 
 def test_noise_offers_no_waves_of_a_ripple():
-    assert ripple_waves(whitened(noise(1))[0]).shape == (5 * COUNT, 0)
+    waves, log_share = ripple_waves(whitened(noise(1))[0])
+    assert waves.shape == (5 * COUNT, 0)
+    assert log_share == 0.0
+
+
+@pytest.mark.parametrize("size", [0.5, 2.0])
+def test_the_choice_of_a_period_costs_what_laplace_says_of_a_flat_prior(size):
+    """The likelihood of one sine, amplitude and phase fitted, integrated over its period by sums.
+
+    Within half a unit: the strongest samples are cut, so that a strong wave's power is told low.
+    """
+    rng = np.random.default_rng(5)
+    place = np.linspace(0.0, 1.0, COUNT)
+    values = problem.SIGMA * (rng.standard_normal(COUNT) + size * np.sin(2.0 * np.pi * 20.3 * place))
+    rate = np.full(COUNT, 0.01)
+    record = RecordResidual("r", 100.0 * place, place, rate, values, np.ones((COUNT, 1)))
+    best = find_ripples(Whitened.of([record], [problem.white(COUNT, "r")]))[0]
+    frequency = np.linspace(17.0, 23.0, 6001)
+    waves = np.exp(-2j * np.pi * np.outer(frequency, place))
+    power = np.abs(waves @ (values / problem.SIGMA)) ** 2 / COUNT
+    integral = np.sum(np.exp(power - power.max())) * (frequency[1] - frequency[0])
+    assert best.log_share == pytest.approx(np.log(integral / best.tried), abs=0.5)
 
 
 def test_a_ripple_of_one_record_is_found_there():

@@ -17,8 +17,8 @@ from probation.diagnosis.probabilities import (
     TEMPERED,
     answer_set,
     given_a_gap,
+    given_no_gap,
     weigh,
-    with_none_leading,
     with_unknown,
     with_unknown_leading,
     with_unseen,
@@ -116,10 +116,11 @@ def diagnose(
     where = locate(base.whitened, seed=seed)
     told(0.35)
     if gap.rejected:
-        base, found, weighed, judged, verdict = _explained(base, considered, workers, seed, told)
+        base, found, weighed, judged, verdict = _explained(base, considered, gap.p_value, workers, seed, told)
     else:
         found = linear_hypotheses(base, base.columns)
-        weighed, judged, verdict = with_none_leading(weigh(found, len(considered))), {}, "no_gap"
+        weighed = given_no_gap(weigh(found, len(considered), TEMPERED), gap.p_value)
+        judged, verdict = {}, "no_gap"
     if weighed[0].effects == (UNKNOWN,):
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
@@ -173,13 +174,14 @@ def diagnose(
 def _explained(
     base: BaseFit,
     considered: tuple[Effect, ...],
+    p_value: float,
     threads: int,
     seed: int,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
     """Of a gap: the base fit with the noise beside the best explanation, hypotheses, weighed and checked; verdict."""
     base, found = _searched(base, considered, threads, lambda part: progress(0.35 + 0.45 * part))
-    weighed = given_a_gap(weigh(found, len(considered), TEMPERED))
+    weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
     left, judged = _judged(weighed, answer_set(weighed), base, seed)
     if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
         weighed = _with_unknown(weighed, judged)

@@ -51,6 +51,8 @@ class Discrepancy:
         What other parameters in one record alone do, whitened; none where there is one record.
     ripples : ndarray, shape (N, m)
         Whitened waves of what is periodic in the strain; none where nothing certainly is.
+    log_ripple_share : float
+        What the choice of their period costs; see `gap.ripples.Ripple.log_share`.
     """
 
     columns: tuple[FloatArray, ...]
@@ -61,6 +63,7 @@ class Discrepancy:
     common: FloatArray
     specimens: FloatArray
     ripples: FloatArray
+    log_ripple_share: float
 
     @classmethod
     def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
@@ -84,6 +87,7 @@ class Discrepancy:
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         drift = harmless_drift(whitened, columns, signals)
+        ripples, log_ripple_share = ripple_waves(whitened)
         return cls(
             columns=tuple(columns),
             spectrum=tuple(spectrum),
@@ -92,7 +96,8 @@ class Discrepancy:
             drift=drift,
             common=_over_strain(whitened),
             specimens=_of_specimens(whitened),
-            ripples=ripple_waves(whitened),
+            ripples=ripples,
+            log_ripple_share=log_ripple_share,
         )
 
     def __len__(self) -> int:

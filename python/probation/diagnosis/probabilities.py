@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import comb, exp, log
+from math import comb, e, exp, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
@@ -19,29 +19,35 @@ if TYPE_CHECKING:
     from probation.gap.cause import Cause
 
 NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.30, 0.10, 0.01
-UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.11, 0.03
+UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.13, 0.01
 """Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
 
-TEMPERED = 0.5
-"""Power of the evidence where there is a gap. Evidence believes in its forms and its noise more than these deserve; the
-power by which the probabilities of causes come true, found on sealed campaigns of the split that is for it."""
+TEMPERED = 0.4
+"""Power of the evidence, which believes in its forms and its noise more than these deserve: the one by which the
+probabilities of causes come true, found on sealed campaigns of the split that is for it."""
+
+SHY = 0.2
+"""Of gaps that are not declared, P(p-value of the gap test < p) = p^SHY, found on the same campaigns; without a gap it
+is p."""
 
 AGAIN = 0.03
 """Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
 
 LEFT_OVER = 0.9
-"""Part of an explanation's probability that goes to others where a gap is left after it: to an unknown effect beside
-it, and if it is that no effect is needed, to whatever else there is."""
+"""Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
 
 ABOUT_AS_PROBABLE = 12.0
 """Log evidence within which forms of one effect are told apart by how well they fit as they are."""
 
-UNSEEN = 0.1
+UNSEEN = 0.2
 """Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom costs little
 and gains nothing. So what was probable beforehand of two effects stays so, shared out to those that were not tried."""
 
 NOTED = 0.05
 """Probability from which on a single effect is told with others that may act beside it, unseen."""
+
+TINY = 1e-12
+"""Smaller p-values are told as this."""
 
 COVERED = 0.95
 """Probability that an answer set holds."""
@@ -148,26 +154,49 @@ def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(sorted({*effects, UNKNOWN}))
 
 
-def with_none_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
-    """Where no gap is seen, no explanation may lead "no effect is needed"."""
-    none = next(each for each in weighed if not each.effects)
-    others = [each for each in weighed if each.effects]
-    lifted = max(none.probability, *(each.probability for each in others)) if others else none.probability
-    return _normalised([replace(none, probability=lifted), *others])
+def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
+    """Where no gap is declared: the test's p-value is a datum, too, and no explanation may lead "no effect is needed".
 
+    The test looks for more than the explanations describe, so that a small p-value speaks against "none" even where
+    their evidence does not: its odds are multiplied by the ratio of the densities of p, p^(1 - SHY) / SHY (Sellke,
+    Bayarri and Berger 2001).
 
-def given_a_gap(weighed: Sequence[Weighed]) -> list[Weighed]:
-    """Where a gap is seen, "no effect is needed" keeps little; what it loses goes to all others as they stand.
-
-    A gap that no explanation gains much from may be anything: not first of all something outside the catalogue.
+    Parameters
+    ----------
+    weighed : sequence of Weighed
+    p_value : float
+        Of the test for a gap.
     """
     none = next(each for each in weighed if not each.effects)
+    told = max(p_value, TINY) ** (1.0 - SHY) / SHY * none.probability
+    weighed = _normalised([replace(each, probability=told) if each is none else each for each in weighed])
+    most = max(each.probability for each in weighed)
+    return _normalised([each if each.effects else replace(each, probability=most) for each in weighed])
+
+
+def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
+    """Where a gap is declared, "no effect is needed" keeps no more than the test leaves it.
+
+    That is what its odds beforehand and the least of all ratios of the densities of p, -e p ln p, come to (Sellke,
+    Bayarri and Berger 2001). What it loses goes to all others as they stand: a gap that no explanation gains much from
+    may be anything, not first of all something outside the catalogue.
+
+    Parameters
+    ----------
+    weighed : sequence of Weighed
+    p_value : float
+        Of the test for a gap.
+    """
+    none = next(each for each in weighed if not each.effects)
+    p_value = max(p_value, TINY)
+    odds = -e * p_value * log(p_value) * NONE / (1.0 - NONE)
+    most = odds / (1.0 + odds)
     rest = 1.0 - none.probability
-    if none.probability <= 1.0 - LEFT_OVER or rest <= 0.0:
+    if none.probability <= most or rest <= 0.0:
         return list(weighed)
     return _normalised(
         [
-            replace(each, probability=1.0 - LEFT_OVER if each is none else LEFT_OVER * each.probability / rest)
+            replace(each, probability=most if each is none else (1.0 - most) * each.probability / rest)
             for each in weighed
         ]
     )

@@ -59,7 +59,7 @@ def log_evidence_of_unknown(
     one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
     scores = [
         np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
-        np.log(PERIODIC) + _along(found, discrepancy, forms, discrepancy.ripples),
+        np.log(PERIODIC) + discrepancy.log_ripple_share + _along(found, discrepancy, forms, discrepancy.ripples),
         np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
         np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
         np.log(IN_ONE / count) + float(logsumexp(one)),

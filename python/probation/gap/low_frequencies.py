@@ -11,7 +11,6 @@ from scipy.special import chdtrc
 from probation.gap.arma import Arma, ArmaFit, Periodogram, fit_arma, matched_level
 
 if TYPE_CHECKING:
-
     from probation.gap.noise_evidence import NoiseEvidence
 
 AGREES = 1e-3

@@ -50,11 +50,26 @@ class Ripple:
     period_strain : float
     p_value : float
         Over all periods of all records.
+    power : float
+        In units of the noise's.
+    tried : float
+        Periods that could be told apart among those that were tried.
     """
 
     record: str | None
     period_strain: float
     p_value: float
+    power: float
+    tried: float
+
+    @property
+    def log_share(self) -> float:
+        """Log of the part of the tried periods within which this one is known: what its choice costs an explanation.
+
+        A wave of energy L, 2 * power, over an extent E of the strain is known to 0.55 / (E sqrt(L)) in frequency
+        (Rife and Boorstyn 1974); Laplace's integral over a flat prior of `tried` / E is that times sqrt(2 pi).
+        """
+        return float(min(np.log(1.38 / (self.tried * np.sqrt(2.0 * self.power))), 0.0))
 
 
 def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
@@ -86,17 +101,17 @@ def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
         for spectrum in spectra:
             power, count = spectrum.comb(frequency, harmonics)
             together, terms = together + power, terms + count
-            found.append(_strongest(spectrum.record, frequency, power, count, families))
+            found.append(_strongest(spectrum.record, frequency, power, count, step, families))
         if len(spectra) > 1:
-            found.append(_strongest(None, frequency, together, terms, families))
+            found.append(_strongest(None, frequency, together, terms, step, families))
         for each in found:
             if each is not None and (each.record not in best or each.p_value < best[each.record].p_value):
                 best[each.record] = each
     return tuple(sorted(best.values(), key=lambda ripple: ripple.p_value))
 
 
-def ripple_waves(whitened: Whitened) -> FloatArray:
-    """Whitened waves of the most certain ripple, shape (N, m), the energies of all sum to 1; none if none is certain.
+def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
+    """Whitened waves of the most certain ripple, and what the choice of its period costs.
 
     Its period and the harmonics of that, of one phase in all records where it is in all, as they are and growing with
     the strain; they fall as those of a saw tooth.
@@ -104,10 +119,17 @@ def ripple_waves(whitened: Whitened) -> FloatArray:
     Parameters
     ----------
     whitened : Whitened
+
+    Returns
+    -------
+    columns : ndarray, shape (N, m)
+        The energies of all sum to 1; none if no ripple is certain.
+    log_share : float
+        See `Ripple.log_share`; 0 if none is certain.
     """
     found = next((each for each in find_ripples(whitened) if each.p_value < CERTAIN), None)
     if found is None:
-        return np.zeros((len(whitened), 0))
+        return np.zeros((len(whitened), 0)), 0.0
     orders = np.arange(1, HARMONICS[-1] + 1)
     largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
     parts = []
@@ -119,7 +141,7 @@ def ripple_waves(whitened: Whitened) -> FloatArray:
     columns = whitened.whiten(parts)
     share = np.tile(orders**-2.0, 4)
     size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-    return np.asarray(columns / size * np.sqrt(share / share.sum()))
+    return np.asarray(columns / size * np.sqrt(share / share.sum())), found.log_share
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,7 +211,7 @@ def _power(strain: FloatArray, values: FloatArray, spacing: float, count: int) -
 
 
 def _strongest(
-    record: str | None, frequency: FloatArray, power: FloatArray, terms: FloatArray, families: int
+    record: str | None, frequency: FloatArray, power: FloatArray, terms: FloatArray, step: int, families: int
 ) -> Ripple | None:
     """The least probable sum of so many exponential variables, among all frequencies of so many families."""
     tried = np.flatnonzero(terms)
@@ -198,4 +220,5 @@ def _strongest(
     chances = gammaincc(terms[tried], power[tried])
     best = int(np.argmin(chances))
     p_value = float(-np.expm1(tried.size * families * np.log1p(-min(float(chances[best]), 1.0 - 1e-15))))
-    return Ripple(record, 1.0 / float(frequency[tried[best]]), p_value)
+    at = tried[best]
+    return Ripple(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)
