@@ -109,13 +109,13 @@ def test_no_explanation_leads_no_effect_where_no_gap_is_declared():
 
 
 def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_beforehand():
-    """Six effects, prior 0.30 of one and 0.10 of two: 0.1/15 over 0.3/6 for each pair, times what its freedom costs."""
+    """Six effects, prior 0.33 of one and 0.12 of two: 0.12/15 over 0.33/6 for each pair, times what its freedom costs."""
     single = alone(NAMES[0])
     found = with_unseen([Weighed((NAMES[0],), 0.9, single), Weighed(("unknown",), 0.1, hypothesis())], NAMES)
     chances = {each.effects: each.probability for each in found}
     assert sum(chances.values()) == pytest.approx(1.0)
     for name in NAMES[1:]:
-        assert chances[(NAMES[0], name)] / chances[(NAMES[0],)] == pytest.approx(UNSEEN * (0.1 / 15) / (0.3 / 6))
+        assert chances[(NAMES[0], name)] / chances[(NAMES[0],)] == pytest.approx(UNSEEN * (0.12 / 15) / (0.33 / 6))
     assert chances[(NAMES[0],)] / chances[("unknown",)] == pytest.approx(9.0)
     assert len(found) == 2 + 5
 

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.gap.cause import Cause
 
-NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.30, 0.10, 0.01
-UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.13, 0.01
+NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.33, 0.12, 0.01
+UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.08, 0.01
 """Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
 
 TEMPERED = 0.4
