@@ -38,7 +38,7 @@ def nothing_else_is_named(found):
     """Relaxation alone leads by far; beside it at most "and something unknown", of which no data are quite free."""
     named = set(found.answer_set)
     return (
-        found.best.effects == (MISSING,) and found.best.probability > 0.85 and named <= {(MISSING,), (MISSING, UNKNOWN)}
+        found.best.effects == (MISSING,) and found.best.probability > 0.8 and named <= {(MISSING,), (MISSING, UNKNOWN)}
     )
 
 
