@@ -39,8 +39,8 @@ def vhb(loading):
     for effects in (TWO, None):
         for held_out in (None, *(record.id for record in whole.records)):
             records = tuple(_thinned(each, each.id == held_out, loading) for each in whole.records)
-            label = f"VHB {'loading' if loading else 'all'}, {'two' if effects else 'all'} effects, held out: {held_out}"
-            yield label, replace(whole, records=records), effects
+            part, many = "loading" if loading else "all", "two" if effects else "all"
+            yield f"VHB {part}, {many} effects, held out: {held_out}", replace(whole, records=records), effects
 
 
 CASES = {"etfe": etfe, "vhb-loading": lambda: vhb(True), "vhb": lambda: vhb(False)}
@@ -76,8 +76,8 @@ def _size(parameter):
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("cases", nargs="*", choices=[*CASES, []], default=list(CASES))
-    for name in parser.parse_args().cases:
+    parser.add_argument("cases", nargs="*", choices=[*CASES, []], default=[])
+    for name in parser.parse_args().cases or CASES:
         for label, campaign, effects in CASES[name]():
             print(label, flush=True)
             for line in told(diagnose(campaign, effects=effects, design=False)):

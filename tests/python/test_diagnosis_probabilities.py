@@ -109,7 +109,7 @@ def test_no_explanation_leads_no_effect_where_no_gap_is_declared():
 
 
 def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_beforehand():
-    """Six effects, prior 0.33 of one and 0.12 of two: 0.12/15 over 0.33/6 for each pair, times what its freedom costs."""
+    """Six effects, prior 0.33 of one, 0.12 of two: 0.12/15 over 0.33/6 for each pair, times what its freedom costs."""
     single = alone(NAMES[0])
     found = with_unseen([Weighed((NAMES[0],), 0.9, single), Weighed(("unknown",), 0.1, hypothesis())], NAMES)
     chances = {each.effects: each.probability for each in found}

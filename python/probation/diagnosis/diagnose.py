@@ -125,7 +125,7 @@ def diagnose(
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
     shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
-    while verdict == "explained" and leaves_too_much(shrink):
+    while gap.rejected and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
         told_of = weighed[0].hypothesis
         weighed = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:

@@ -12,6 +12,7 @@ from probation.gap.low_frequencies import KnownSpectrum, fit_spectra
 from probation.gap.noise_evidence import FEW, NoiseEvidence, noise_evidence
 from probation.gap.noise_model import NoiseModel
 from probation.gap.quantisation import quantisation_noise
+from probation.gap.same_rig import of_one_rig
 from probation.gap.smooth_basis import WAVES, waves
 
 if TYPE_CHECKING:
@@ -31,7 +32,8 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     agree with that ARMA(1,1) in every record, or else in those records where the others foretell them: then noise
     and only noise is there, and it is fitted with them.
     (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet stretches and
-    replicates override (2) and (3).
+    replicates override (2) and (3). (5) A record whose noise would be many times that of all others, though its
+    neighbouring samples scatter as theirs, is given theirs.
 
     Parameters
     ----------
@@ -47,7 +49,7 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     prepared = [noise_evidence(record) for record in records]
     seen = [each for each in prepared if each.rough is not None]
     fits = iter(fit_spectra(seen, pool) if seen else ())
-    return tuple(_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared)
+    return of_one_rig([_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared])
 
 
 def carried_strain_noise(

@@ -185,7 +185,7 @@ def blame_table(judged: Judged) -> Table:
     rows = sorted(parts.items(), key=lambda each: -each[1])
     return Table(
         ("effect", "has a part [%]"),
-        tuple((name, f"{100 * part:.2g}") for name, part in rows if part >= _LIKELY or name == "volume_change"),
+        tuple((name, f"{100 * part:.0f}") for name, part in rows if part >= _LIKELY or name == "volume_change"),
         "What the diagnosis blames",
     )
 
