@@ -156,7 +156,7 @@ def _average(name: str, plain: Plain, key: str, low: float, interval: str | None
 def _beside_oracle(group: Plain) -> Aim:
     """How much more often than the oracle expects; the oracle's own expectation is known well beside it."""
     top, expected = _part(group, "top1"), cast("float | None", group["oracle_expected"])
-    name, rate = "resolvable causes named, less the oracle's rate", cast("float | None", top["rate"])
+    name, rate = "resolvable named, less the oracle's rate", cast("float | None", top["rate"])
     if rate is None or expected is None:
         return Aim(name, 0, None, None, low=-0.03)
     low, high = cast("list[float]", top["interval95"])
