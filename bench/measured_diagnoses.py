@@ -61,11 +61,17 @@ def told(found):
             break
         sizes = ", ".join(_size(parameter) for parameter in each.parameters)
         yield f"  {each.probability:6.1%} {' + '.join(each.effects) or 'none'} [{', '.join(each.records)}] {sizes}"
-        if each.checks:
+        if each.checks and each.checks.notes:
             yield f"         {'; '.join(each.checks.notes)}"
     for name, closure in (("fitted", shrink.identify), ("held out", shrink.held_out)):
         if closure:
-            yield f"  {name}: {closure}"
+            yield f"  {name}: {_closed(closure)}"
+
+
+def _closed(closure):
+    part = "no gap to close" if closure.closure is None else f"{closure.closure:.0%} closed"
+    ends = "" if closure.interval is None else " ({:.0%} to {:.0%})".format(*closure.interval)
+    return f"{closure.before_MPa:.3g} -> {closure.after_MPa:.3g} MPa, noise {closure.noise_MPa:.2g}, {part}{ends}"
 
 
 def _size(parameter):
@@ -77,7 +83,10 @@ def _size(parameter):
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("cases", nargs="*", choices=[*CASES, []], default=[])
-    for name in parser.parse_args().cases or CASES:
+    chosen = parser.parse_args().cases or CASES
+    if not DATA.is_dir():
+        parser.error(f"found no {DATA}: the measured records belong beside the checkout")
+    for name in chosen:
         for label, campaign, effects in CASES[name]():
             print(label, flush=True)
             for line in told(diagnose(campaign, effects=effects, design=False)):
