@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.blind.layout import Layout
-from probation.blind.scores.answer import read_answer
-from probation.blind.scores.case import Case
-from probation.blind.seal import open_truth, read_json
 from probation.diagnosis.probabilities import SHY, TEMPERED, TINY, log_prior
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.answer import read_answer
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.seal import open_truth, read_json
 
 POWERS = (1.0, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 SHYNESSES = (0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)

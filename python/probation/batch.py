@@ -9,10 +9,10 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads
-from probation.change import Change, engine_change
 from probation.errors import InputError
-from probation.history import Jumps, looks_for_jumps
-from probation.law import Law, Scheme, Start, engine_law, make_solver, solver_options
+from probation.law.change import Change, engine_change
+from probation.law.history import Jumps, looks_for_jumps
+from probation.law.modal import Law, Scheme, Start, engine_law, make_solver, solver_options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +27,7 @@ class Observed:
     Parameters
     ----------
     history : History
-        From `probation.history.make_history`.
+        From `probation.law.history.make_history`.
     true_stress : array_like, shape (n_times,) [MPa]
     change : Change
         What an effect changes in the law along this record.
@@ -62,7 +62,7 @@ def stresses(
     parameters : array_like, shape (sets, 3)
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
     history : History
-        From `probation.history.make_history`.
+        From `probation.law.history.make_history`.
     threads : int
         0: all cores.
     out : ndarray, shape (sets, n_times), optional

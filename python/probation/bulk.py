@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, one_of
 from probation.errors import InputError
-from probation.history import Jumps, looks_for_jumps
-from probation.law import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
+from probation.law.history import Jumps, looks_for_jumps
+from probation.law.modal import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")

@@ -8,11 +8,13 @@ import shlex
 import sys
 import traceback
 import warnings
+from functools import cache
+from importlib.metadata import entry_points
+from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
 from probation.commands import (
-    blind,
     certify,
     companion,
     coverage,
@@ -23,7 +25,6 @@ from probation.commands import (
     export,
     field,
     fit,
-    paper,
     preview,
     simulate,
 )
@@ -35,10 +36,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 COMMANDS = (
-    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, paper, blind,
-    field,
+    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, field,
 )  # fmt: skip
-"""One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
+"""One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here.
+
+Packages beside this one add theirs by an entry point of the group `probation.commands`.
+"""
 
 _DESCRIPTION = """\
 Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline polymers, on your records.
@@ -73,6 +76,13 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(f"{message}; see {self.prog} --help")
 
 
+@cache
+def commands() -> tuple[ModuleType, ...]:
+    """The modules of all commands: those of this package, then those of others by name."""
+    others = sorted(entry_points(group="probation.commands"), key=lambda entry: entry.name)
+    return (*COMMANDS, *(entry.load() for entry in others))
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The parser of all commands."""
     parser = _Parser(
@@ -84,7 +94,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"probation {__version__}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", parser_class=_Parser)
-    for command in COMMANDS:
+    for command in commands():
         own = command.add_parser(subparsers)
         own.set_defaults(run=command.run)
         own.formatter_class = argparse.RawDescriptionHelpFormatter
@@ -128,7 +138,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    names = [command.NAME for command in COMMANDS]
+    names = [command.NAME for command in commands()]
     parser = build_parser()
     if not arguments:
         parser.print_help()

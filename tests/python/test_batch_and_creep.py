@@ -5,8 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Law, PowerLaw, Weissenberg, batch, creep
-from probation.history import make_history
+from probation import Change, Law, PowerLaw, Weissenberg, batch
+from probation.law.history import make_history
+from probation.law.modal import creep
 
 TIME = np.linspace(0.0, 100.0, 201)
 STRAIN = 0.005 * TIME

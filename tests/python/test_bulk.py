@@ -13,10 +13,10 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import BulkIdentification, Law, PowerLaw, Record, Weissenberg, bulk, identify_many
-from probation.excitation import excite
 from probation.identify.covariance import covariance
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, first_guess
+from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
 TIME = np.linspace(0.0, 100.0, 201)

@@ -6,7 +6,7 @@ import pytest
 
 from probation.cli import main
 from probation.demo import STEPS
-from probation.paper.twins import twin_campaign
+from probation.published.experiments import twin_campaign
 
 
 @pytest.fixture(scope="module")

@@ -8,12 +8,12 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
-from probation.calibration import TABLE_2
 from probation.calibration.forms import FORMS
 from probation.calibration.paper_relations import paper_relations
 from probation.calibration.regression import excess_scatter, regress
-from probation.paper.twins import necking_history
-from probation.records import CompanionSettings, LawSettings
+from probation.calibration.table_2 import TABLE_2
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.published.experiments import necking_history
 
 TRUTH = (0.0046, 0.0406)
 RELATION = Weissenberg(*TRUTH)

@@ -7,7 +7,7 @@ from scipy.optimize import least_squares
 
 from campaigns import linear_problem as problem
 from probation import ConvergenceError
-from probation.gap import Cause
+from probation.effects.cause import Cause
 
 COUNT = 120
 TIME = np.linspace(0.0, 100.0, COUNT)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from campaigns import made_up_diagnosis as made_up
-from probation.diagnosis import Closure, Explanation
-from probation.diagnosis.result import CauseParameter, Checks
+from probation.diagnosis.closure import Closure
+from probation.diagnosis.result import CauseParameter, Checks, Explanation
 from probation.diagnosis.tables import MOST, where_table, which_table
 from probation.diagnosis.words import (
     NOTHING,

@@ -7,9 +7,9 @@ import pytest
 
 from probation import Campaign, Record
 from probation.cli import main
-from probation.excitation.answer import CSV_HEADER, describe_excitation
-from probation.excitation.known_histories import KNOWN_HISTORIES
-from probation.paper.twins import twin_campaign
+from probation.published.experiments import twin_campaign
+from probation.smoothing.answer import CSV_HEADER, describe_excitation
+from probation.smoothing.known_histories import KNOWN_HISTORIES
 
 
 @pytest.fixture
@@ -52,7 +52,7 @@ def test_csv_json_plot_and_page_are_written(jump_file, tmp_path, capsys):
     assert rows.shape == (1501, 5)
     assert np.quantile(np.abs(rows[:740, 2] / 1.7e-3 - 1.0), 0.95) < 0.005
     answer = json.loads((tmp_path / "out.json").read_text())
-    assert answer["schema"] == "probation.excitation/1"
+    assert answer["schema"] == "probation.smoothing/1"
     found = answer["records"]["jump"]
     assert found["method"] == "spline"
     assert found["rate_jumps_s"] == [pytest.approx(40.0, abs=0.1)]
@@ -133,14 +133,14 @@ def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
 
 
 def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("probation.excitation.comparison.NOISES", (2e-5,))
-    monkeypatch.setattr("probation.excitation.comparison.COMPARED", ("raw", "quintic-spline"))
-    monkeypatch.setattr("probation.excitation.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
+    monkeypatch.setattr("probation.smoothing.comparison.NOISES", (2e-5,))
+    monkeypatch.setattr("probation.smoothing.comparison.COMPARED", ("raw", "quintic-spline"))
+    monkeypatch.setattr("probation.smoothing.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
     arguments = ["--draws", "1", "--json", str(tmp_path / "c.json"), "--plot", str(tmp_path / "c.png")]
     assert main(["excitation", "--compare", *arguments]) == 0
     assert capsys.readouterr().out.startswith("Default quintic-spline: 95 % of the rates are within 0.0")
     answer = json.loads((tmp_path / "c.json").read_text())
-    assert answer["schema"] == "probation.excitation-comparison/1"
+    assert answer["schema"] == "probation.smoothing-comparison/1"
     assert {row["method"] for row in answer["results"]} == {"raw", "quintic-spline"}
 
 

@@ -9,10 +9,10 @@ from scipy.linalg import toeplitz
 
 from campaigns import gap_noise
 from probation import InputError
-from probation.gap.arma import LEAST_RISE, Arma, Periodogram, fit_arma
-from probation.gap.noise import carried_strain_noise, estimate_noise
-from probation.gap.quantisation import quantisation_step
-from probation.gap.spikes import find_spikes
+from probation.noise.arma import LEAST_RISE, Arma, Periodogram, fit_arma
+from probation.noise.estimate import carried_strain_noise, estimate_noise
+from probation.noise.quantisation import quantisation_step
+from probation.noise.spikes import find_spikes
 
 
 def rng(seed=0):

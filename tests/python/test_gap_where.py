@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from campaigns import gap_noise
-from probation.gap.regions import runs
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.signatures import parameter_drift, sequential_estimates
-from probation.gap.where import contribution_regions, locate
-from probation.gap.whitening import Whitened
+from probation.detection.sharp import find_lines, find_steps
+from probation.detection.signatures import parameter_drift, sequential_estimates
+from probation.detection.where import contribution_regions, locate
+from probation.noise.regions import runs
+from probation.noise.whitening import Whitened
 
 NAMES = ("unrelaxed_modulus", "tau_max", "hardening_modulus")
 COUNT = 500

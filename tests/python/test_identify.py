@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 import probation
 from probation import Campaign, Law, Noise, Record, Weissenberg, fit
 from probation.identify.covariance import covariance, status_of
-from probation.paper.twins import experiment, twin_campaign
-from probation.records import CompanionSettings, LawSettings
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.published.experiments import experiment, twin_campaign
 
 TRUTH = (3224.0, 5.207, 2.556)
 

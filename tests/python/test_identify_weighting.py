@@ -8,7 +8,6 @@ from scipy.special import stdtrit
 
 import probation
 from probation import Campaign, Law, Noise, Record, fit
-from probation.excitation import excite
 from probation.identify import strain_noise as strain_noise_module
 from probation.identify import weighting as weighting_module
 from probation.identify.bias import bias_of
@@ -16,8 +15,9 @@ from probation.identify.noise_model import NoiseModel
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.strain_noise import StrainNoise
 from probation.identify.weighting import Weighted, residual_and_jacobian
-from probation.paper.twins import experiment_3
-from probation.records import LawSettings
+from probation.law.settings import LawSettings
+from probation.published.experiments import experiment_3
+from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
 

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from probation.cli import main
-from probation.paper.exhibits import EXHIBITS
+from probation_studies.paper.exhibits import EXHIBITS
 
 
 def test_the_page_goes_where_the_help_says_and_the_verdict_comes_first(tmp_path, monkeypatch, capsys):

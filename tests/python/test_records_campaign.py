@@ -9,7 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from probation.errors import InputError
-from probation.records import Campaign, CompanionSettings, LawSettings, Noise, Record
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.records.campaign import Campaign
+from probation.records.record import Noise, Record
 
 CSV = "time_s,true_strain,true_stress_MPa\n" + "".join(f"{at},{0.1 * at},{at}\n" for at in range(12))
 ENTRY = '[[record]]\nid = "a"\nfile = "a.csv"\ncontrol = "strain-rate"\nrole = "identify"\n'

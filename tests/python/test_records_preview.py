@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from probation.errors import InputError
-from probation.records import preview
 from probation.records.noise import scatter
+from probation.records.preview import preview
 from probation.records.text_plot import text_plot
 
 DATA = Path(__file__).parents[3] / "shared" / "data"

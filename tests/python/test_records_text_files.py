@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from probation.errors import InputError
-from probation.records import read_record, read_strain_history
 from probation.records.header import split_unit
+from probation.records.reading import read_record
+from probation.records.strain_history import read_strain_history
 
 HEADINGS = ("time_s", "true_strain", "true_stress_MPa")
 # Twelve samples of whatever; read back exactly because float(repr(x)) == x.

@@ -28,10 +28,10 @@ from probation.calibration.record_fits import (
 from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
-from probation.excitation import excite
-from probation.law import SCHEMES, Scheme
-from probation.records import Campaign
+from probation.law.modal import SCHEMES, Scheme
+from probation.records.campaign import Campaign
 from probation.report.provenance import samples_sha256
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

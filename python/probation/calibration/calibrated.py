@@ -10,17 +10,17 @@ import numpy as np
 from probation import _core
 from probation._arrays import FloatArray
 from probation.calibration.forms import FORMS, NAMEABLE, Form
-from probation.change import Change, Direction
-from probation.companion import Companion, from_settings
 from probation.errors import InputError
-from probation.history import Jumps, make_history
-from probation.records.calibration_settings import CalibrationSettings
-from probation.records.settings import COMPANION_FORMS, CompanionSettings
+from probation.law.calibration_settings import CalibrationSettings
+from probation.law.change import Change, Direction
+from probation.law.companion import Companion, from_settings
+from probation.law.history import Jumps, make_history
+from probation.law.settings import COMPANION_FORMS, CompanionSettings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law import Law, Scheme, Start
+    from probation.law.modal import Law, Scheme, Start
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
     from probation.calibration.record_fits import RecordFits, RecordRate
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
-SCHEMA = "probation.companion/1"
+SCHEMA = "probation.law.companion/1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -290,7 +290,7 @@ class Calibration:
         ]
 
     def to_json(self) -> str:
-        """The answer as JSON text, schema "probation.companion/1"."""
+        """The answer as JSON text, schema "probation.law.companion/1"."""
         return json_answer(SCHEMA, self.to_dict())
 
     def plot(self) -> Figure:

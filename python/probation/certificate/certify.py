@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation._arrays import as_number
-from probation.calibration import CalibratedCompanion
+from probation.calibration.calibrated import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
@@ -16,16 +16,17 @@ from probation.certificate.result import Certificate
 from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_covariance
 from probation.certificate.verdict import decide
 from probation.errors import InputError
-from probation.identify.parameter import outside_name
+from probation.inference.parameter import outside_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from probation._arrays import FloatArray
-    from probation.excitation import Method as ExcitationMethod
-    from probation.identify import Fit
-    from probation.law import Scheme, Start
-    from probation.records import Campaign, Record
+    from probation.identify.result import Fit
+    from probation.law.modal import Scheme, Start
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 ByRecord: TypeAlias = "dict[str, dict[str, Estimate]]"
 """Estimates by record and parameter."""

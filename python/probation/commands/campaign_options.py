@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 
 def add_campaign(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
@@ -87,7 +87,7 @@ def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
     InputError
         At the first thing that is wrong in it.
     """
-    from probation.records import Campaign  # noqa: PLC0415 - see the package
+    from probation.records.campaign import Campaign  # noqa: PLC0415 - see the package
 
     if len(paths) > 1 or is_data_file(paths[0]):
         return Campaign.from_files(paths, control=control)

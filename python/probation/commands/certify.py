@@ -45,7 +45,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.certificate import certify  # noqa: PLC0415 - see the package
+    from probation.certificate.certify import certify  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
     campaign = with_held_out(campaign_from(options), options.held_out)

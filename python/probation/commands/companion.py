@@ -14,8 +14,8 @@ from probation.commands.scheme_options import add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.calibration import RateTable
-    from probation.records import Campaign
+    from probation.calibration.rate_table import RateTable
+    from probation.records.campaign import Campaign
 
 NAME = "companion"
 
@@ -82,7 +82,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.calibration import RateTable, calibrate_companion  # noqa: PLC0415 - see the package
+    from probation.calibration.calibrate import calibrate_companion  # noqa: PLC0415 - see the package
+    from probation.calibration.rate_table import RateTable  # noqa: PLC0415 - see the package
 
     if options.toml and options.json == "-":
         raise InputError("found both --toml and --json -, expected one of them on standard output")
@@ -113,7 +114,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _source(options: argparse.Namespace) -> Campaign | RateTable:
     """Table 2, a table, a campaign, or data files that stand in for one."""
-    from probation.calibration import TABLE_2  # noqa: PLC0415
+    from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
     from probation.calibration.table_file import read_rate_table  # noqa: PLC0415
 
     if options.table_2:

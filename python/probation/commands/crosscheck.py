@@ -11,8 +11,8 @@ from probation.commands.progress import shown
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.law import Law
-    from probation.records import Campaign
+    from probation.law.modal import Law
+    from probation.records.campaign import Campaign
 
 NAME = "crosscheck"
 
@@ -45,8 +45,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.crosscheck import crosscheck  # noqa: PLC0415 - see the package
-    from probation.records import Campaign  # noqa: PLC0415
+    from probation.records.campaign import Campaign  # noqa: PLC0415
+    from probation.schemes.crosscheck import crosscheck  # noqa: PLC0415 - see the package
 
     if options.campaign is None:
         if options.record or options.set:
@@ -67,8 +67,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
     """The campaign's law, what is neither set nor held identified."""
-    from probation.companion import from_settings  # noqa: PLC0415
-    from probation.identify import fit  # noqa: PLC0415
+    from probation.identify.fit import fit  # noqa: PLC0415
+    from probation.law.companion import from_settings  # noqa: PLC0415
 
     held = {**campaign.law.fixed, **settings}
     relation = from_settings(campaign.law.companion)

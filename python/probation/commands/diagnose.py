@@ -21,7 +21,7 @@ from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 NAME = "diagnose"
 
@@ -133,7 +133,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
         if not equals or not record or not other:
             raise InputError(f"--pair: found {entry!r}, expected ID=REFERENCE_ID")
         pairs.setdefault(record, []).append(other)
-    from probation.comparison import compare  # noqa: PLC0415 - see the package
+    from probation.comparison.compare import compare  # noqa: PLC0415 - see the package
 
     campaign, reference = campaign_from(options), campaign_at(options.against, options.control)
     with shown(f"{campaign.name} against {reference.name}"):
@@ -158,7 +158,8 @@ def _isolability(
 
 def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
     from probation.answers import json_answer  # noqa: PLC0415 - see the package
-    from probation.gap import catalogue_json, catalogue_table, effects  # noqa: PLC0415
+    from probation.effects.listing import catalogue_json, catalogue_table  # noqa: PLC0415
+    from probation.effects.registry import effects  # noqa: PLC0415
 
     for option in ("plot", "report"):
         if getattr(options, option):
@@ -178,7 +179,7 @@ def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
 
 
 def _known(names: list[str] | None) -> None:
-    from probation.gap.registry import effects  # noqa: PLC0415 - see the package
+    from probation.effects.registry import effects  # noqa: PLC0415 - see the package
 
     try:
         effects(names)

@@ -12,10 +12,10 @@ from probation.commands.campaign_options import campaign_at, is_data_file
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said
 from probation.commands.progress import shown
 from probation.errors import InputError
-from probation.excitation import DEFAULT, METHODS
+from probation.smoothing.methods import DEFAULT, METHODS
 
 if TYPE_CHECKING:
-    from probation.records import Record
+    from probation.records.record import Record
 
 NAME = "excitation"
 
@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _describe(options: argparse.Namespace) -> int:
-    from probation.excitation.answer import describe_excitation  # noqa: PLC0415 - see the package
+    from probation.smoothing.answer import describe_excitation  # noqa: PLC0415 - see the package
 
     if options.file is None:
         raise InputError("found no file, expected FILE or --compare")
@@ -93,7 +93,7 @@ def _describe(options: argparse.Namespace) -> int:
 
 def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
     """Those of a campaign, or of a data file that stands in for one."""
-    from probation.records import Campaign  # noqa: PLC0415
+    from probation.records.campaign import Campaign  # noqa: PLC0415
 
     try:
         campaign = campaign_at([path])
@@ -109,7 +109,7 @@ def _strain_alone(place: Path, refused: InputError) -> Record:
     """A file of strain over time as a record without stress; `refused` says why it is no stress-strain record."""
     import numpy as np  # noqa: PLC0415 - see the package
 
-    from probation.records import Record  # noqa: PLC0415
+    from probation.records.record import Record  # noqa: PLC0415
     from probation.records.strain_history import read_strain_history  # noqa: PLC0415
 
     try:
@@ -128,7 +128,7 @@ def _strain_alone(place: Path, refused: InputError) -> Record:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    from probation.excitation.comparison import DRAWS, compare  # noqa: PLC0415
+    from probation.smoothing.comparison import DRAWS, compare  # noqa: PLC0415
 
     given = [name for name in ("file", "record", "csv", "report") if getattr(options, name)]
     if given or options.method != "auto":

@@ -16,9 +16,9 @@ from probation.errors import InputError
 from probation.histories.named import nearest
 
 if TYPE_CHECKING:
-    from probation.export import Export
-    from probation.identify import Fit
-    from probation.law import Law
+    from probation.exporting.result import Export
+    from probation.identify.result import Fit
+    from probation.law.modal import Law
 
 NAME = "export"
 
@@ -75,8 +75,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.export import FORMATS  # noqa: PLC0415 - see the package
-    from probation.export.result import exports_json  # noqa: PLC0415
+    from probation.exporting.formats import FORMATS  # noqa: PLC0415 - see the package
+    from probation.exporting.result import exports_json  # noqa: PLC0415
 
     if options.list_formats:
         width = max(map(len, FORMATS))
@@ -132,8 +132,8 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
     InputError
         If none can, or one that was named cannot.
     """
-    from probation.export import export  # noqa: PLC0415
-    from probation.export.source import law_and_source  # noqa: PLC0415
+    from probation.exporting.exporting import export  # noqa: PLC0415
+    from probation.exporting.source import law_and_source  # noqa: PLC0415
 
     source = _source(options)
     law_and_source(source)  # complains once, not for every format
@@ -166,7 +166,7 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
 
 def _source(options: argparse.Namespace) -> Law | Fit | Path:
     """A law by ``--set``, a fit that was written, or one made here."""
-    from probation.identify import fit  # noqa: PLC0415
+    from probation.identify.fit import fit  # noqa: PLC0415
 
     if not options.source:
         if not options.set:

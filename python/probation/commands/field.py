@@ -100,7 +100,7 @@ def _identify(options: argparse.Namespace) -> int:
     from probation.field.identify import BlockLostError, identify_field  # noqa: PLC0415
     from probation.field.maps import open_maps  # noqa: PLC0415
     from probation.field.source import open_field  # noqa: PLC0415
-    from probation.law import Law  # noqa: PLC0415
+    from probation.law.modal import Law  # noqa: PLC0415
 
     columns = {}
     for entry in options.column:

@@ -9,7 +9,7 @@ from probation.commands.campaign_options import add_campaign, add_control, campa
 from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_start
-from probation.excitation import METHODS as EXCITATIONS
+from probation.smoothing.methods import METHODS as EXCITATIONS
 
 NAME = "fit"
 
@@ -71,7 +71,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.identify import fit  # noqa: PLC0415 - see the package
+    from probation.identify.fit import fit  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
     campaign = campaign_from(options)

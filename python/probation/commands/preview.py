@@ -44,7 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.records import preview  # noqa: PLC0415 - see the package
+    from probation.records.preview import preview  # noqa: PLC0415 - see the package
 
     shown = preview(
         options.file,

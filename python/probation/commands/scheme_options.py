@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.answers import PARAMETER_KEYS
-from probation.law import DIFFERENTIABLE
+from probation.law.modal import DIFFERENTIABLE
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from probation.law import Scheme
+    from probation.law.modal import Scheme
 
 
 def add_scheme(

@@ -11,7 +11,7 @@ from probation.commands.delivery import add_delivery, deliver_files, said, tell,
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.scheme_options import add_scheme, add_start
 from probation.errors import InputError
-from probation.law import SCHEMES
+from probation.law.modal import SCHEMES
 
 if TYPE_CHECKING:
     from probation.histories import ImposedHistory
@@ -60,7 +60,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.histories import list_histories  # noqa: PLC0415 - see the package
-    from probation.simulate import simulate  # noqa: PLC0415
+    from probation.simulation import simulate  # noqa: PLC0415
 
     if options.list_histories:
         print(list_histories())
@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _history(options: argparse.Namespace) -> ImposedHistory:
     from probation.histories import history_from  # noqa: PLC0415
-    from probation.history_file import read_history  # noqa: PLC0415
+    from probation.histories.file import read_history  # noqa: PLC0415
 
     if (options.file is None) == (options.history is None):
         both = "both a file and --history" if options.file else "neither a file nor --history"

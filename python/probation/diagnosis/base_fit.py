@@ -9,38 +9,39 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from probation.diagnosis.candidate import WhitenedColumns
-from probation.diagnosis.discrepancy import Discrepancy
-from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
-from probation.excitation import excite
-from probation.gap.carried import carried_noise
-from probation.gap.dnlr_law import DnlrLaw
-from probation.gap.drift import estimate_drift, like_an_effect, with_drift
-from probation.gap.model import CampaignModel
-from probation.gap.noise import estimate_noise
-from probation.gap.record_view import views_of
-from probation.gap.screen import screen
-from probation.gap.view_residual import residual_of
-from probation.gap.whitener import Whitener
-from probation.gap.whitening import Whitened
-from probation.identify import fit
+from probation.effects.record_view import views_of
+from probation.identify.fit import fit
 from probation.identify.given import given
+from probation.inference.candidate import WhitenedColumns
+from probation.inference.carried import carried_noise
+from probation.inference.discrepancy import Discrepancy
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.refit import Refit, refit
+from probation.inference.screen import screen
+from probation.inference.view_residual import residual_of
+from probation.noise.drift import estimate_drift, like_an_effect, with_drift
+from probation.noise.estimate import estimate_noise
+from probation.noise.whitener import Whitener
+from probation.noise.whitening import Whitened
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.gap.effect import Effect
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.protocol import GapLaw
-    from probation.gap.record_residual import RecordResidual
-    from probation.gap.record_view import RecordView
-    from probation.gap.screen import Column
-    from probation.identify import Fit
-    from probation.law import Scheme
-    from probation.records import Campaign, Record
+    from probation.effects.effect import Effect
+    from probation.effects.record_view import RecordView
+    from probation.identify.result import Fit
+    from probation.inference.protocol import GapLaw
+    from probation.inference.screen import Column
+    from probation.law.modal import Scheme
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.detection.where import Located, contribution_regions
 from probation.diagnosis.headline import title
 from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation, Status
-from probation.gap.where import Located, contribution_regions
-from probation.identify.parameter import IDENTIFIABLE, WEAKLY
+from probation.inference.parameter import IDENTIFIABLE, WEAKLY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

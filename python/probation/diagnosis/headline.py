@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.words import listed, percent
-from probation.gap.registry import effect
+from probation.effects.registry import effect
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.design.next_test import next_test
 from probation.diagnosis.result import UNKNOWN, NextTest
-from probation.gap.next_test import next_test
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,24 +7,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
-from probation.diagnosis.evidence import evidence
-from probation.diagnosis.form_error import form_columns
+from probation.detection.sharp import find_lines, find_steps
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.refit import MOST_STEPS, Refit, refit
 from probation.errors import ConvergenceError, InputError
-from probation.gap.parallel import in_parallel
-from probation.gap.screen import screen
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.span import span_of
+from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
+from probation.inference.evidence import evidence
+from probation.inference.form_error import form_columns
+from probation.inference.refit import MOST_STEPS, Refit, refit
+from probation.inference.screen import screen
+from probation.noise.span import span_of
+from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.diagnosis.base_fit import BaseFit
-    from probation.gap.effect import Effect
-    from probation.gap.model import CampaignModel
+    from probation.effects.effect import Effect
+    from probation.inference.model import CampaignModel
 
 HEAT_STEPS = 4
 """Gauss-Newton steps of the race's first round."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.detection.sharp import find_lines, find_steps
+from probation.detection.signatures import parameter_drift
 from probation.diagnosis.result import Signature
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.signatures import parameter_drift
 
 if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.identify import Fit
-    from probation.records import Campaign
+    from probation.identify.result import Fit
+    from probation.records.campaign import Campaign
+    from probation.smoothing.excitation import Excitation
 
 TOLERATED = 2.0
 """Norm of the scheme's error over the noise, all samples together: its square is what an effect must gain at least."""

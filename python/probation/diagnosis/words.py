@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import floor, log10
 from typing import TYPE_CHECKING
 
+from probation.detection.gap_test import LEVEL
 from probation.diagnosis.result import UNKNOWN
-from probation.gap.gap_test import LEVEL
 from probation.report.estimate import plus_minus
 
 if TYPE_CHECKING:

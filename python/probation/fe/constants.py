@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._arrays import as_number
-from probation.companion import Exponential, PowerLaw, Table, Weissenberg
 from probation.errors import InputError
-from probation.law import Law, Spectrum
+from probation.law.companion import Exponential, PowerLaw, Table, Weissenberg
+from probation.law.modal import Law, Spectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.companion import Companion
+    from probation.law.companion import Companion
 
 NAMES = (
     "unrelaxed_modulus_MPa",

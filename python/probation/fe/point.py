@@ -17,7 +17,7 @@ from probation.fe.where import library_path
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law import Law
+    from probation.law.modal import Law
 
 _CUT_STEP = 1
 

@@ -12,7 +12,6 @@ import numpy as np
 from probation._arrays import one_of
 from probation._core import __version__
 from probation.answers import plain
-from probation.blind.origin import commit
 from probation.bulk import METHODS, Method
 from probation.errors import InputError
 from probation.field.block import FieldTask, identify_block
@@ -21,9 +20,10 @@ from probation.field.grid import block_grid
 from probation.field.pixels import Way
 from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, map_kinds, read_run
-from probation.identify.parameter import by_inside_name, outside_name
-from probation.law import DIFFERENTIABLE, Law
-from probation.law_answer import law_answer
+from probation.inference.parameter import by_inside_name, outside_name
+from probation.law.answer import law_answer
+from probation.law.modal import DIFFERENTIABLE, Law
+from probation.origin import commit
 from probation.pool import WorkersLostError, run_all
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation.bulk import Method
     from probation.field.samples import BoolArray
     from probation.field.source import Samples
-    from probation.law import Law, Scheme
+    from probation.law.modal import Law, Scheme
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation.field.grid import Block, BlockGrid
-    from probation.law import Law
+    from probation.law.modal import Law
 
 SCHEMA = "probation.field/1"
 LEDGER, SECONDS = "block_crc32", "block_cpu_seconds"

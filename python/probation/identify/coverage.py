@@ -22,8 +22,9 @@ from probation._arrays import FloatArray, as_whole_number
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
-from probation.identify.parameter import SYMBOLS
-from probation.records import Campaign, Record
+from probation.inference.parameter import SYMBOLS
+from probation.records.campaign import Campaign
+from probation.records.record import Record
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.weighting import Weighting
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
 """Table 1's reference [MPa], [s], [MPa]."""

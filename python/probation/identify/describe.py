@@ -10,7 +10,6 @@ from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
-from probation.identify.parameter import SYMBOLS, UNITS, Parameter
 from probation.identify.profile import profile
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
@@ -18,6 +17,7 @@ from probation.identify.search import search_range
 from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.variable_projection import EDGE
 from probation.identify.weighting import known_of
+from probation.inference.parameter import SYMBOLS, UNITS, Parameter
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
     from probation.identify.weighting import Weighted, Weighting
-    from probation.law import Law, Scheme, Start
-    from probation.records import Campaign
+    from probation.law.modal import Law, Scheme, Start
+    from probation.records.campaign import Campaign
 
 
 def describe(

@@ -7,25 +7,25 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.companion import from_settings
 from probation.errors import InputError
-from probation.excitation import excite
 from probation.identify.describe import describe
-from probation.identify.parameter import by_inside_name, outside_name
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
-from probation.law import SCHEMES, Law, Scheme, Start
-from probation.reduction import spectrum_of
+from probation.inference.parameter import by_inside_name, outside_name
+from probation.law.companion import from_settings
+from probation.law.modal import SCHEMES, Law, Scheme, Start
+from probation.law.reduction import spectrum_of
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from probation.excitation import Method as ExcitationMethod
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_modulus": 1.0}
 """Placeholders: variable projection needs no start."""

@@ -10,8 +10,8 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.identify.modelled_record import ModelledRecord
-from probation.identify.parameter import SYMBOLS, Parameter, outside_name
-from probation.law_answer import law_answer
+from probation.inference.parameter import SYMBOLS, Parameter, outside_name
+from probation.law.answer import law_answer
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
-    from probation.law import Law, Scheme, Start
+    from probation.law.modal import Law, Scheme, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.identify.problem import Problem
-    from probation.law import Law
+    from probation.law.modal import Law
 
 Bounds = tuple[float, float]
 

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation.excitation import excite
-from probation.excitation.segments import CLEAN
-from probation.identify.parameter import SYMBOLS
-from probation.law import make_solver
+from probation.inference.parameter import SYMBOLS
+from probation.law.modal import make_solver
+from probation.smoothing.excitation import excite
+from probation.smoothing.segments import CLEAN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.problem import RecordProblem
-    from probation.law import Law
+    from probation.law.modal import Law
+    from probation.smoothing.excitation import Excitation
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 LARGEST = 3000
 """Samples of a record up to which its strain noise has a matrix (that of 3000 takes about 3 s to make and factor)."""

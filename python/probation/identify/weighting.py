@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.excitation import excite
-from probation.excitation.segments import CLEAN
 from probation.identify.autocorrelation import fitted_noise
 from probation.identify.bias import low_frequency
 from probation.identify.covariance import Covariance, covariance
@@ -29,14 +27,16 @@ from probation.identify.strain_noise import (
     resampled,
     share_of_error,
 )
+from probation.smoothing.excitation import excite
+from probation.smoothing.segments import CLEAN
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.problem import Problem, RecordProblem
-    from probation.law import Law
+    from probation.law.modal import Law
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 Weighting = Literal["auto", "plain", "strain-noise", "strain-noise-frozen"]
 WEIGHTINGS: tuple[Weighting, ...] = ("auto", "plain", "strain-noise", "strain-noise-frozen")

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
+from probation._complaint import bad_input, likely, listed, quoted
 from probation.errors import InputError
-from probation.records.complaint import bad_input, likely, listed, quoted
 from probation.records.options import ReadOptions
 from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, normalised, role_of
 from probation.records.table import Column, Table

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
+from probation._complaint import quoted, suggestion
 from probation.errors import InputError
+from probation.law.settings import LawSettings
 from probation.records.campaign_file import load_campaign_file
-from probation.records.complaint import quoted, suggestion
 from probation.records.reading import read_records
 from probation.records.record import Record
 from probation.records.saving import save_campaign
-from probation.records.settings import LawSettings
 
 
 @dataclass(frozen=True)

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
-from probation.records.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
-from probation.records.complaint import bad_input, quoted, suggestion
+from probation.law.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
+from probation.law.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
 from probation.records.encoding import decode
 from probation.records.options import SPECIMEN_KEYS
 from probation.records.profiles import PROFILES
 from probation.records.reading import read_record
 from probation.records.record import CONTROLS, RECORD_ROLES, Noise, Record
 from probation.records.roles import ROLES
-from probation.records.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
 from probation.records.temperatures import with_temperature
 from probation.records.toml_table import TomlTable
 

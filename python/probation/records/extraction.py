@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._complaint import bad_input, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns
 from probation.records.checks import MINIMUM_SAMPLES, find_fault
-from probation.records.complaint import bad_input, quoted
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading

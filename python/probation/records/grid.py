@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from probation.records.complaint import bad_input
+from probation._complaint import bad_input
 from probation.records.source import Source
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
+from probation._complaint import bad_input, quoted
 from probation.errors import InputError
 from probation.records.assembly import assemble
-from probation.records.complaint import bad_input, quoted
 from probation.records.options import ReadOptions, read_options
 from probation.records.profiles import Profile, Reading, find_profile
 from probation.records.record import Noise, Record

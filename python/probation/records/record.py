@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._complaint import quoted, suggestion
 from probation.errors import InputError
 from probation.records.checks import find_fault
-from probation.records.complaint import quoted, suggestion
 
 FloatArray = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.record import Record
-from probation.records.settings import CompanionSettings, LawSettings
 
 _HEADINGS = {
     "time": "time_s",

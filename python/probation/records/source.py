@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from probation._complaint import bad_input
 from probation.errors import InputError
-from probation.records.complaint import bad_input
 from probation.records.encoding import decode
 
 _GZIP_MAGIC = b"\x1f\x8b"

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from probation._complaint import bad_input, quoted
 from probation.records.checks import find_fault
-from probation.records.complaint import bad_input, quoted
 from probation.records.options import ReadOptions
 from probation.records.reading import chosen_tables, open_file
 from probation.records.record import Record

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar, cast
 
+from probation._complaint import bad_input, likely, listed, quoted, suggestion
 from probation.errors import InputError
-from probation.records.complaint import bad_input, likely, listed, quoted, suggestion
 
 _HEADER = re.compile(r"\s*\[{1,2}\s*([^\[\]]+?)\s*\]{1,2}\s*(#.*)?")
 _T = TypeVar("_T")

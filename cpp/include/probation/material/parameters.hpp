@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "probation/companion/forms.hpp"
+#include "probation/law/modal/companion/forms.hpp"
 #include "probation/log_spaced.hpp"
 
 namespace probation::material {

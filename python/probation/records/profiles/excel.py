@@ -6,9 +6,9 @@ import zipfile
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
 from probation.records.checks import MINIMUM_SAMPLES
-from probation.records.complaint import bad_input, quoted, suggestion
 from probation.records.grid import Grid
 from probation.records.options import ReadOptions
 from probation.records.profiles.delimited import table_from
