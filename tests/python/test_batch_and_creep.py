@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import Change, Law, PowerLaw, Weissenberg, batch
+from probation.law.creep import creep
 from probation.law.history import make_history
-from probation.law.modal import creep
 
 TIME = np.linspace(0.0, 100.0, 201)
 STRAIN = 0.005 * TIME

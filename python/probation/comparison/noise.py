@@ -9,7 +9,7 @@ import numpy as np
 
 from probation.comparison.measured_law import ENDS, followed
 from probation.comparison.strain_path import branches
-from probation.inference.carried import carried_noise
+from probation.inference.propagated import propagated_noise
 from probation.inference.view_residual import residual_of
 from probation.noise.drift import LEAST, with_drift
 from probation.noise.estimate import estimate_noise
@@ -93,7 +93,7 @@ def change_noise(
         for frame, noise in zip(followed, references, strict=True)
     ]
     columns.append(_undecided(view, law, missed))
-    strain = carried_noise(law, view, excitation, law.start)
+    strain = propagated_noise(law, view, excitation, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
     return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())

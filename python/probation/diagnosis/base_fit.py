@@ -14,15 +14,16 @@ from probation.effects.record_view import views_of
 from probation.identify.fit import fit
 from probation.identify.given import given
 from probation.inference.candidate import WhitenedColumns
-from probation.inference.carried import carried_noise
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
+from probation.inference.propagated import propagated_noise
 from probation.inference.refit import Refit, refit
 from probation.inference.screen import screen
 from probation.inference.view_residual import residual_of
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
+from probation.noise.stretches import leftover
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.smoothing.excitation import excite
@@ -181,7 +182,8 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
     """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
-    control, which it did. The strain does not tell; the stress does, of all smoothed records together.
+    control, which it did. The strain does not tell; the stress does, of all smoothed records together, by what is
+    rougher than any effect that the law may lack.
     """
     chosen = {record.id: excite(record) for record in campaign.records}
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
@@ -191,7 +193,8 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
             smooth, recorded = (
                 predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
             )
-            favours_raw += float(np.sum((smooth**2 - recorded**2) / _loudness(smooth)))
+            rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
+            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / _loudness(smooth)))
     return chosen | raw if favours_raw > 0.0 else chosen
 
 
@@ -223,7 +226,7 @@ def fit_views(
             raw[part],
             jacobian[part],
             given_noise=known[view.id].noise.stress_MPa,
-            carried=carried_noise(law, view, excitations[view.id], parameters),
+            carried=propagated_noise(law, view, excitations[view.id], parameters),
         )
         for view, part in model.parts
     ]

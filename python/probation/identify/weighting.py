@@ -21,12 +21,12 @@ from probation.identify.search import first_guess
 from probation.identify.strain_noise import (
     CARRIED_NOISE,
     LARGEST,
-    StrainNoise,
     carried_at_end,
     left_over,
     resampled,
     share_of_error,
 )
+from probation.inference.strain_noise import StrainNoise
 from probation.smoothing.excitation import excite
 from probation.smoothing.segments import CLEAN
 
@@ -263,7 +263,7 @@ def _strain_noises(
                 moved = resampled(each, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue
-        noise = StrainNoise.of(each)
+        noise = StrainNoise.of(each.excitation, each.scheme, each.start, each.substeps)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
             noise = noise if float(np.max(share)) > CARRIED_NOISE else None

@@ -13,10 +13,9 @@ from probation.noise.low_frequencies import KnownSpectrum, fit_spectra
 from probation.noise.model import NoiseModel
 from probation.noise.quantisation import quantisation_noise
 from probation.noise.same_rig import of_one_rig
-from probation.noise.smooth_basis import WAVES, waves
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.record_residual import RecordResidual
@@ -50,34 +49,6 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     seen = [each for each in prepared if each.rough is not None]
     fits = iter(fit_spectra(seen, pool) if seen else ())
     return of_one_rig([_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared])
-
-
-def carried_strain_noise(
-    apply: Callable[[FloatArray], FloatArray],
-    deviation: FloatArray | float,
-    count: int,
-    rank: int = WAVES,
-) -> FloatArray:
-    """Smooth part of J_eps Sigma_eps J_eps^T as A A^T, A of shape (count, rank): strain noise seen as stress.
-
-    J_eps is never formed: the strain noise is expanded in `rank` slow waves; the rough rest shows in the fit residual
-    and is measured there. Needed where the strain was smoothed: an unsmoothed strain's noise is roughest where the law
-    is stiffest, and the level that is measured covers its slow part too.
-
-    Parameters
-    ----------
-    apply : callable
-        (count, k) strain perturbations [-] to (count, k) stress perturbations [MPa], the model's and its
-        differentiator's doing.
-    deviation : float or ndarray, shape (count,)
-        Standard deviation of the white strain noise [-].
-    count : int
-        Samples.
-    rank : int
-        Waves; by default those at which the noise is extrapolated, not measured.
-    """
-    columns = waves(count, rank) * (np.asarray(deviation, dtype=np.float64) * np.ones(count))[:, None]
-    return np.asarray(apply(columns), dtype=np.float64)
 
 
 def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:

@@ -34,8 +34,8 @@ class RecordResidual:
     given_noise : float, optional
         Standard deviation of the stress noise [MPa] as the user states it; never narrows what the data show.
     carried : ndarray, shape (n, k) [MPa], optional
-        A with A A^T = J_eps Sigma_eps J_eps^T, the part of the strain noise that the model turns into *smooth* stress
-        (`carried_strain_noise`). Its rough part shows in the residual and is measured there.
+        A with A A^T = J_eps Sigma_eps J_eps^T: the noise of a smoothed strain, or of the first sample of a raw one,
+        as stress (`inference.propagated`). What is rougher shows in the residual and is measured there.
     quiet : tuple of slice
         Dwells and pre-load segments: the noise is taken there if they are long enough.
     replicate : ndarray, shape (n,) [MPa], optional
