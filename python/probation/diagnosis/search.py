@@ -177,7 +177,7 @@ class Search:
         count = len(self.base.whitened)
         # What is above the noise for certain; the noise itself is the same for all.
         gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
-        return best + (IN_THE_RUNNING - 1.0) * gap + SLACK
+        return float(best + (IN_THE_RUNNING - 1.0) * gap + SLACK)
 
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause beside those of a hypothesis."""

@@ -263,7 +263,9 @@ def _strain_noises(
                 moved = resampled(each, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue
-        noise = StrainNoise.of(each.excitation, each.scheme, each.start, each.substeps)
+        noise: StrainNoise | None = None
+        if each.excitation.strain_noise >= CLEAN:
+            noise = StrainNoise.of(each.excitation, each.scheme, each.start, each.substeps)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
             noise = noise if float(np.max(share)) > CARRIED_NOISE else None

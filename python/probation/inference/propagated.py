@@ -47,11 +47,11 @@ def propagated_noise(
     """
     if excitation.strain_noise < CLEAN:
         return None
-    columns = (
-        StrainNoise.of(excitation, view.scheme, law.first_step, view.stride).leading(law.law_at(parameters))
-        if isinstance(law, DnlrLaw)
-        else _by_differences(law, view, excitation, parameters)
-    )
+    if isinstance(law, DnlrLaw):
+        noise = StrainNoise.of(excitation, view.scheme, law.first_step, view.stride)
+        columns = noise.leading(law.law_at(parameters))
+    else:
+        columns = _by_differences(law, view, excitation, parameters)
     left, size, _ = np.linalg.svd(columns, full_matrices=False)
     level = scatter(view.sampled(view.time), view.data)
     kept = size > NEGLIGIBLE * level

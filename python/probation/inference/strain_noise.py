@@ -9,7 +9,6 @@ import numpy as np
 
 from probation import _core
 from probation.law.modal import make_solver
-from probation.smoothing.segments import CLEAN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,12 +47,8 @@ class StrainNoise:
     _made: dict[bytes, FloatArray] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(
-        cls, excitation: Excitation, scheme: Scheme, start: Start = "exponential", substeps: int = 1
-    ) -> StrainNoise | None:
-        """That of a record, driven by an excitation at its samples; None where its strain has none."""
-        if excitation.strain_noise < CLEAN:
-            return None
+    def of(cls, excitation: Excitation, scheme: Scheme, start: Start = "exponential", substeps: int = 1) -> StrainNoise:
+        """That of a record, driven by an excitation at its samples."""
         operator, rate = excitation.strain_operator(), excitation.rate_operator()
         if substeps > 1:
             scheme = "sa2" if excitation.strain_rate is None else "sa3"

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
-
-from probation.smoothing.necking import smooth_necking, smooth_necking_as_printed
-from probation.smoothing.penalised_spline import smooth_cubic, smooth_quintic
-from probation.smoothing.savitzky_golay import smooth_savitzky_golay
+from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 if TYPE_CHECKING:
     from probation.smoothing.smoothed import Smoother
@@ -21,25 +19,39 @@ class Way:
 
     Attributes
     ----------
-    smooth : Smoother
+    module, function : str
+        Where its `Smoother` is, in this package; imported when it is first used.
     title : str
         What it is, in words.
     segmented : bool
         Whether it is done segment by segment between jumps.
     """
 
-    smooth: Smoother
+    module: str
+    function: str
     title: str
     segmented: bool = True
 
+    @cached_property
+    def smooth(self) -> Smoother:
+        """The function that does it."""
+        return cast("Smoother", getattr(import_module(f"{__package__}.{self.module}"), self.function))
+
 
 SMOOTHERS: dict[Method, Way] = {
-    "quintic-spline": Way(smooth_quintic, "quintic smoothing spline (generalised cross-validation)"),
-    "spline": Way(smooth_cubic, "cubic smoothing spline (generalised cross-validation)"),
-    "savitzky-golay": Way(smooth_savitzky_golay, "local cubics, Savitzky-Golay (generalised cross-validation)"),
-    "necking": Way(smooth_necking, "(A-1) and sines through the strain, their derivative", segmented=False),
+    "quintic-spline": Way(
+        "penalised_spline", "smooth_quintic", "quintic smoothing spline (generalised cross-validation)"
+    ),
+    "spline": Way("penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)"),
+    "savitzky-golay": Way(
+        "savitzky_golay", "smooth_savitzky_golay", "local cubics, Savitzky-Golay (generalised cross-validation)"
+    ),
+    "necking": Way(
+        "necking", "smooth_necking", "(A-1) and sines through the strain, their derivative", segmented=False
+    ),
     "necking-as-printed": Way(
-        smooth_necking_as_printed,
+        "necking",
+        "smooth_necking_as_printed",
         "(A-1) and sines through the strain, and through its three-point central difference",
         segmented=False,
     ),
