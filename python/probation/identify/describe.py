@@ -10,7 +10,6 @@ from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
-from probation.identify.profile import profile
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
 from probation.identify.search import search_range
@@ -63,6 +62,8 @@ def describe(
     degrees = max(sum(problem.lengths) - len(free), 1)
     profiles = {}
     if intervals == "profile":
+        from probation.identify.profile import profile  # noqa: PLC0415 - interpolation is slow to load
+
         quantile = float(stdtrit(degrees, 0.975))
         profiles = {names[i]: profile(problem, weighted, known, int(i), quantile, limits) for i in free}
     parameters: dict[str, Parameter] = {}

@@ -12,6 +12,7 @@ from probation._complaint import suggestion
 from probation.effects.alteration import ONCE, Alteration
 from probation.effects.cause import Cause
 from probation.errors import InputError
+from probation.noise.moving_parabola import moving_parabola
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -183,8 +184,6 @@ class CampaignModel:
         What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
         over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept.
         """
-        from scipy.signal import savgol_filter  # noqa: PLC0415 - slow to load
-
         base, causes = self.split(parameters)
         views = []
         for view in self.views:
@@ -192,7 +191,7 @@ class CampaignModel:
             missing = view.data - view.sampled(predicted)
             window = 2 * (len(missing) // 50) + 1
             if window > _PARABOLA:
-                missing = savgol_filter(missing, window, polyorder=2)
+                missing = moving_parabola(missing, window)
             between = np.interp(view.time, view.sampled(view.time), missing)
             views.append(replace(view, quiet_stress=predicted + between))
         return CampaignModel(self.law, views, self.causes)
