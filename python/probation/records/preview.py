@@ -185,10 +185,11 @@ def _columns_with_roles(
 ) -> tuple[tuple[str, str | None, str | None], ...]:
     assigned: dict[str, Column] = {} if reading.auxiliary else assign_columns(table, options)
     roles = {column.position: role for role, column in assigned.items()}
+    stated = {column.position: column.unit for column in assigned.values()}
     return tuple(
         (
             column.label or "(no heading)",
-            options.units.get(roles.get(column.position, "")) or column.unit,
+            options.units.get(roles.get(column.position, "")) or stated.get(column.position, column.unit),
             roles.get(column.position),
         )
         for column in table.columns

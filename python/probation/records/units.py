@@ -65,6 +65,19 @@ def convert(values: FloatArray, unit: str, target: str) -> FloatArray:
     return np.asarray(registry.Quantity(values, spelled).to(target).magnitude, dtype=np.float64)
 
 
+def measures(text: str, target: str) -> bool:
+    """Tell whether the text spells a unit of what `target`, a unit as pint spells it, is a unit of.
+
+    >>> measures("kN", "N"), measures("kN", "mm"), measures("Load", "N")
+    (True, False, False)
+    """
+    try:
+        convert(np.ones(1), text, target)
+    except ValueError:
+        return False
+    return True
+
+
 def is_unit(text: str) -> bool:
     """Tell whether the text spells a unit."""
     spelled = spelling(text)
