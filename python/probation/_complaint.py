@@ -49,7 +49,12 @@ def quoted(text: str) -> str:
 
 def listed(names: Iterable[str], last: str = "or") -> str:
     """Join names for a sentence: 'a', 'b' or 'c'."""
-    shown = [quoted(name) for name in names]
+    return joined(map(quoted, names), last)
+
+
+def joined(texts: Iterable[str], last: str) -> str:
+    """Join texts for a sentence as they are: s, N and mm."""
+    shown = list(texts)
     return f" {last} ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else "".join(shown)
 
 

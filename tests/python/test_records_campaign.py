@@ -300,6 +300,13 @@ def test_a_record_of_nine_samples_is_refused():
         record(n=9)
 
 
+def test_a_record_made_in_memory_with_strain_in_percent_is_refused():
+    """Its exponential would overflow later, and no message would name the strain."""
+    time = np.linspace(0.0, 1.0, 11)
+    with pytest.raises(InputError, match=r"record 'a', true_strain, sample 10: found 25, expected at most 5 .* by 100"):
+        Record("a", time, 25.0 * time, time)
+
+
 def test_noise_cannot_be_negative():
     with pytest.raises(InputError, match=r"noise\.strain"):
         Noise(strain=-1.0)

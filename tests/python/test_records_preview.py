@@ -48,11 +48,20 @@ def test_the_first_rows_are_shown_as_they_stand(shown):
 
 def test_warnings_are_shown(tmp_path):
     path = tmp_path / "percent.csv"
-    lines = ["time_s,true_strain,true_stress_MPa"] + [f"{at},{at},{at}" for at in range(12)]
+    lines = ["time_s,true_strain,true_stress_MPa"] + [f"{at},{0.3 * at},{at}" for at in range(12)]
     path.write_text("\n".join(lines), encoding="utf-8")
     summary = preview(path).summary()
     assert "1 record, 1 warning" in summary.splitlines()[0]
     assert "warning: strain in percent?" in summary
+
+
+def test_units_that_are_assumed_are_told(tmp_path):
+    path = tmp_path / "bare.csv"
+    lines = ["Time,true_strain,kPa"] + [f"{at},{0.01 * at},{at}" for at in range(12)]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    shown = preview(path, columns={"true_stress": "kPa"})
+    assert "warning: no unit is stated for column 'Time' of bare.csv: s assumed" in shown.summary()
+    assert ("kPa", "kPa", "true_stress") in shown.columns
 
 
 def test_uneven_sampling_is_told(tmp_path):

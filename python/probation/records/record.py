@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from probation._complaint import quoted, suggestion
 from probation.errors import InputError
 from probation.records.checks import find_fault
+from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
 
 FloatArray = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ class Record:
     ------
     InputError
         If a sample is not finite, the shapes differ, time does not increase, there are fewer than
-        ten samples, or control or role is unknown.
+        ten samples, a true strain is beyond 5 (a stretch of 148), or control or role is unknown.
     """
 
     id: str
@@ -101,6 +102,12 @@ class Record:
             raise InputError(
                 f"record {quoted(self.id)}, {fault.quantity}, sample {fault.sample}: "
                 f"found {fault.found}, expected {fault.expected}"
+            )
+        largest = int(np.argmax(np.abs(self.true_strain)))
+        if abs(self.true_strain[largest]) > LARGEST_TRUE_STRAIN:
+            raise InputError(
+                f"record {quoted(self.id)}, true_strain, sample {largest}: found {self.true_strain[largest]:.10g}, "
+                f"expected {expected_strain('true_strain', stated=True)}; divide by 100 if it is in percent"
             )
         for name, value, known in (("control", self.control, CONTROLS), ("role", self.role, RECORD_ROLES)):
             if value not in known:
