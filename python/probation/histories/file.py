@@ -13,6 +13,7 @@ from probation.histories import ImposedHistory
 from probation.records.options import ReadOptions
 from probation.records.reading import open_file
 from probation.records.roles import ROLES, role_of
+from probation.records.strain_limits import expected_strain, impossible_sample
 from probation.records.units import convert
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ def read_history(path: str | PathLike[str]) -> HistoryFile:
     columns = _columns(table)
     samples = {role: _samples(table, role, column) for role, column in columns.items()}
     _check_time(table, columns["time"], samples["time"])
+    _check_strain(table, columns["true_strain"], samples["true_strain"])
     history = ImposedHistory(
         path.name, samples["time"], true_strain=samples["true_strain"], strain_rate=samples.get("strain_rate")
     )
@@ -112,4 +114,18 @@ def _check_time(table: Table, column: Column, time: FloatArray) -> None:
             "time that increases from row to row",
             row=table.row_numbers[at],
             column=column.label,
+        )
+
+
+def _check_strain(table: Table, column: Column, true_strain: FloatArray) -> None:
+    stated = column.unit is not None
+    bad = impossible_sample("true_strain", true_strain, true_strain, stated)
+    if bad is not None:
+        raise bad_input(
+            table.path,
+            f"true strain {true_strain[bad]:.10g}" + ("" if stated else " without a unit"),
+            expected_strain("true_strain", stated),
+            row=table.row_numbers[bad],
+            column=column.label,
+            remedy="check its unit" if stated else 'if it is in percent, head the column "true_strain (%)"',
         )
