@@ -1,6 +1,7 @@
 """Identification: the minimum, what is known about it, and what is told."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -261,3 +262,26 @@ def test_white_residuals_give_the_textbook_covariance():
     known = covariance(x[:, None], residual, [2000], np.ones(1))
     assert not known.correlated
     assert known.standard_error(0) == pytest.approx(np.sqrt(residual @ residual / 1999 / (x @ x)), rel=1e-9)
+
+
+@pytest.mark.parametrize("factor", [1e-7, 1e3])
+def test_a_modulus_outside_1_kpa_to_1_tpa_is_questioned(factor):
+    """3224 MPa, read as 0.32 kPa or 3.2 TPa."""
+    record = ramp_record(samples=101)
+    slipped = replace(record, true_stress=factor * record.true_stress)
+    told = [warning for warning in fit(Campaign("x", (slipped,))).warnings if "are the units of stress" in warning]
+    assert len(told) == 1
+    assert told[0].startswith(f"E_u = {3224.0 * factor:.1g}"[:7])
+    assert not any("units" in warning for warning in fit(Campaign("x", (record,))).warnings)
+
+
+def test_units_that_were_assumed_are_told_with_the_fit(tmp_path):
+    """In the summary and in the JSON, by column and file."""
+    record = ramp_record(samples=101)
+    rows = zip(record.time.tolist(), record.true_strain.tolist(), record.true_stress.tolist(), strict=True)
+    lines = ["time_s,true_strain,true_stress", *(",".join(map(repr, row)) for row in rows)]
+    (tmp_path / "bare.csv").write_text("\n".join(lines), encoding="utf-8")
+    answer = fit(Campaign.from_files([tmp_path / "bare.csv"]))
+    told = "no unit is stated for column 'true_stress' of bare.csv: MPa assumed"
+    assert f"warning: bare: {told}" in answer.summary()
+    assert any(told in warning for warning in json.loads(answer.to_json())["warnings"])

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from probation.law.modal import Law, Scheme, Start
     from probation.records.campaign import Campaign
 
+LIKELY_MODULI = (1e-3, 1e6)
+"""Unrelaxed modulus, from the softest gel to diamond [MPa]."""
+
 
 def describe(
     campaign: Campaign,
@@ -83,6 +86,7 @@ def describe(
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {value:.6g} {UNITS[name]}".rstrip())
     warnings += _edge_warnings(problem, law, limits)
     warnings += _rate_warnings(problem, law)
+    warnings += _modulus_warnings(problem, law)
     if weighting == "plain":
         warnings += strain_noise_warnings(problem.records, law)
     largest_error, shift = scheme_error(problem, problem.records, law, jacobian, known)
@@ -201,3 +205,14 @@ def _rate_warnings(problem: Problem, law: Law) -> list[str]:
                 f"companion relation is calibrated, {low:.2g} to {high:.2g} 1/s"
             )
     return found
+
+
+def _modulus_warnings(problem: Problem, law: Law) -> list[str]:
+    """No solid is softer or stiffer: a slip of the units is likelier."""
+    low, high = LIKELY_MODULI
+    if problem.held[0] or low <= law.unrelaxed_modulus <= high:
+        return []
+    return [
+        f"{SYMBOLS['unrelaxed_modulus']} = {law.unrelaxed_modulus:.3g} MPa lies outside 1 kPa to 1 TPa: "
+        "are the units of stress and strain right? probation preview shows how a file is read"
+    ]
