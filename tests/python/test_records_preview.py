@@ -17,7 +17,7 @@ measured = pytest.mark.skipif(not DATA.is_dir(), reason="the measured records ar
 @pytest.fixture
 def shown(tmp_path):
     lines = ["Zeit (ms);True strain;True stress (kPa);Note"]
-    lines += [f"{100 * at};0,{at:02d};{at},5;x" for at in range(12)]
+    lines += [f"{100 * at};0,{at:02d};{10 * at},5;x" for at in range(12)]
     path = tmp_path / "zug.csv"
     path.write_bytes("\n".join(lines).encode("latin-1"))
     return preview(path, columns={"time": "Zeit"})
@@ -39,11 +39,11 @@ def test_the_layout_is_told(shown):
         ("Note", None, None),
     )
     assert "0 to 0.11" in summary
-    assert "0.0005 to 0.0115 MPa" in summary
+    assert "0.0005 to 0.1105 MPa" in summary
 
 
 def test_the_first_rows_are_shown_as_they_stand(shown):
-    assert "  100  0,01  1,5" in shown.summary().splitlines()
+    assert "  100  0,01  10,5" in shown.summary().splitlines()
 
 
 def test_warnings_are_shown(tmp_path):

@@ -16,6 +16,7 @@ from probation.records.profiles import PROFILES
 from probation.records.reading import read_record
 from probation.records.record import CONTROLS, RECORD_ROLES, Noise, Record
 from probation.records.roles import ROLES
+from probation.records.start import STARTS
 from probation.records.temperatures import with_temperature
 from probation.records.toml_table import TomlTable
 
@@ -32,6 +33,7 @@ _RECORD_KEYS = (
     "specimen_index",
     "sheet",
     "noise",
+    "start",
     "temperature_file",
     "temperature_C",
 )
@@ -179,6 +181,7 @@ def _record(folder: Path, entry: TomlTable) -> Record:
         control=entry.text("control", default="other", known=CONTROLS),
         role=entry.text("role", default="identify", known=RECORD_ROLES),
         noise=Noise(stress_MPa=levels.get("stress_MPa"), strain=levels.get("strain")),
+        start=entry.text("start", default="relaxed", known=STARTS),
     )
     if "temperature_file" in entry.values:
         return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
