@@ -133,6 +133,52 @@ def test_a_bound_is_kept_and_told():
     assert any("bound" in warning for warning in answer.warnings)
 
 
+def nearly_elastic_campaign():
+    """tau_max is 1e5 times as long as the record: the search ends at the upper edge of its range, 1e3 times."""
+    time = np.linspace(0.0, 100.0, 200)
+    law = Law(unrelaxed_modulus=3000.0, tau_max=1e7, hardening_modulus=2.5)
+    noise = 0.05 * np.random.default_rng(1).normal(size=200)
+    stress = law.stress(time, 0.005 * time, scheme="sa3") + noise
+    return Campaign("x", (Record("a", time, 0.005 * time, stress, control="strain-rate"),))
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_at_an_edge_of_the_search_nothing_is_claimed_of_what_the_edge_decides(method):
+    """tau_max two decades further on moves G from 568 to 8 MPa and E_u by 0.7 %: E_u alone is known."""
+    answer = fit(nearly_elastic_campaign(), method=method)
+    status = {name: parameter.status for name, parameter in answer.parameters.items()}
+    assert status["unrelaxed_modulus"] == "identifiable"
+    assert status["tau_max"] == status["hardening_modulus"] == answer.product.status == "not_identifiable"
+    told = json.loads(answer.to_json())["parameters"]["tau_max_s"]
+    assert told["se"] is None
+    assert told["interval95"] is None
+    assert "All parameters" not in answer.verdict
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_the_value_quoted_lies_in_the_range_quoted(method):
+    answer = fit(nearly_elastic_campaign(), method=method)
+    (warning,) = [each for each in answer.warnings if "edge of its range" in each]
+    assert answer.law.tau_max <= 1e5 * (1.0 + 1e-9)
+    assert "1e+05 of 0.000503 to 1e+05 s" in warning
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_a_modulus_that_is_zero_is_zero_by_every_method_and_has_no_error(method):
+    """A stress that falls with the strain: the best G is negative, which is not possible."""
+    time = np.linspace(0.0, 1.0, 100)
+    stress = 30.0 - 20.0 * time + 0.01 * np.random.default_rng(1).normal(size=100)
+    answer = fit(Campaign("x", (Record("a", time, time, stress, control="strain-rate"),)), method=method)
+    hardening = answer.parameters["hardening_modulus"]
+    assert (hardening.value, hardening.se, hardening.status) == (0.0, None, "not_identifiable")
+    assert "G ended at its bound, 0 MPa" in answer.warnings
+
+
+def test_bounds_beyond_the_usual_range_are_searched():
+    answer = fit(nearly_elastic_campaign(), bounds={"tau_max_s": (1e6, 1e9)})
+    assert answer.law.tau_max == pytest.approx(1e7, rel=0.5)
+
+
 def test_a_short_elastic_record_does_not_determine_the_law():
     """Up to 0.05 % strain the record is one straight line: one number cannot give three."""
     time = np.linspace(0.0, 0.1, 60)

@@ -10,11 +10,10 @@ from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
+from probation.identify.ends import ends_of
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
-from probation.identify.search import search_range
 from probation.identify.strain_noise import strain_noise_warnings
-from probation.identify.variable_projection import EDGE
 from probation.identify.weighting import known_of
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter
 from probation.records.noise import scatter
@@ -63,12 +62,14 @@ def describe(
     known, jacobian = known_of(problem, law, weighted)
     free, names, values = problem.free, law.parameter_names, law.parameters
     degrees = max(sum(problem.lengths) - len(free), 1)
+    ends = ends_of(problem, law, limits)
     profiles = {}
     if intervals == "profile":
         from probation.identify.profile import profile  # noqa: PLC0415 - interpolation is slow to load
 
         quantile = float(stdtrit(degrees, 0.975))
-        profiles = {names[i]: profile(problem, weighted, known, int(i), quantile, limits) for i in free}
+        told = [int(i) for i in free if names[i] not in ends.withdrawn]
+        profiles = {names[i]: profile(problem, weighted, known, i, quantile, limits) for i in told}
     parameters: dict[str, Parameter] = {}
     warnings = list(campaign.warnings)
     for index, name in enumerate(names):
@@ -77,14 +78,13 @@ def describe(
             parameters[name] = Parameter(name, value, None, None, "held", UNITS[name])
             continue
         position = int(np.flatnonzero(free == index)[0])
-        error, relative = known.standard_error(position), float(known.relative_error[position])
+        error = None if name in ends.withdrawn else known.standard_error(position)
+        relative = float(known.relative_error[position])
         found = _parameter(name, value, error, relative, degrees, UNITS[name])
         if name in profiles:
             found = replace(found, interval95=profiles[name].interval95)
         parameters[name] = found
-        if not limits[name][0] < value * (1 + 1e-9) < limits[name][1] or value == 0.0:
-            warnings.append(f"{SYMBOLS[name]} ended at its bound, {value:.6g} {UNITS[name]}".rstrip())
-    warnings += _edge_warnings(problem, law, limits)
+    warnings += ends.warnings
     warnings += _rate_warnings(problem, law)
     warnings += _modulus_warnings(problem, law)
     if weighting == "plain":
@@ -99,7 +99,7 @@ def describe(
         method=method,
         weighting=_used(weighting, problem, weighted),
         parameters=parameters,
-        product=_product(known, problem, law, degrees),
+        product=_product(known, problem, law, degrees, withdrawn=ends.product),
         names=tuple(names[i] for i in free),
         correlation=correlation(known.matrix),
         condition_number=known.condition_number,
@@ -123,25 +123,6 @@ def _used(weighting: Weighting, problem: Problem, weighted: Weighted) -> str:
     if weighted.resampled is not None:
         return "plain, strain noise resampled"
     return "autocorrelated" if any(noise.correlation > 0.0 for noise in problem.noises) else "plain"
-
-
-def _edge_warnings(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]]) -> list[str]:
-    """Where the search could not go on: the best tau_max (or alpha) is at an end of the range that it looks at."""
-    if problem.held[1]:
-        return []
-    name, value = law.parameter_names[1], float(law.parameters[1])
-    low, high = search_range(problem, limits)
-    if value <= low * EDGE and low > limits[name][0]:
-        end = "lower"
-    elif value >= high / EDGE and high < limits[name][1]:
-        end = "upper"
-    else:
-        return []
-    unit = f" {UNITS[name]}" if UNITS[name] else ""
-    return [
-        f"{SYMBOLS[name]}: the search ended at the {end} edge of its range, {value:.3g} of {low:.3g} to "
-        f"{high:.3g}{unit}; these records do not bound it"
-    ]
 
 
 def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
@@ -176,7 +157,7 @@ def _parameter(name: str, value: float, se: float | None, relative_error: float,
     return Parameter(name, value, se, (value - reach, value + reach), status_of(relative_error), unit)
 
 
-def _product(known: Covariance, problem: Problem, law: Law, degrees: int) -> Parameter:
+def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, withdrawn: bool) -> Parameter:
     """E_u tau_max (or E_u alpha) and its standard error, to first order."""
     values = law.parameters
     gradient = np.array([values[1], values[0], 0.0])[problem.free]
@@ -186,7 +167,7 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int) -> Par
     moved = [p for p, index in enumerate(problem.free) if index < 2]
     if not moved:
         return Parameter("product", value, None, None, "held", unit)
-    if not np.all(np.isfinite(known.relative_error[moved])):
+    if withdrawn or not np.all(np.isfinite(known.relative_error[moved])):
         return Parameter("product", value, None, None, "not_identifiable", unit)
     se = float(np.sqrt(max(variance, 0.0)))
     return _parameter("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
