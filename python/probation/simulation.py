@@ -164,6 +164,7 @@ def simulate(
             absolute_tolerance=absolute_tolerance,
         )
     rate = history.strain_rate if history.strain_rate is not None else np.diff(strain) / np.diff(history.time)
+    extrapolation = None if law.companion is None else law.companion.extrapolation(rate)
     return Simulation(
         name=history.name,
         law=law,
@@ -173,19 +174,7 @@ def simulate(
         true_strain=strain,
         true_stress=stress,
         stress_imposed=history.true_stress is not None,
-        warnings=companion_warnings(law, rate),
-    )
-
-
-def companion_warnings(law: Law, strain_rate: FloatArray) -> tuple[str, ...]:
-    """Say where the companion relation is asked outside the rates it was calibrated on; empty if nowhere."""
-    if law.companion is None or (outside := law.companion.outside(strain_rate)) is None:
-        return ()
-    assert law.companion.calibrated is not None
-    low, high = law.companion.calibrated
-    return (
-        f"the companion relation ({law.companion.form}) was calibrated between {low:.3g} and {high:.3g} 1/s and is "
-        f"asked between {outside[0]:.3g} and {outside[1]:.3g} 1/s: it extrapolates",
+        warnings=() if extrapolation is None else (extrapolation,),
     )
 
 

@@ -103,7 +103,7 @@ def test_extrapolating_the_companion_relation_is_warned_of(capsys):
     assert main(["simulate", *arguments]) == 0
     err = capsys.readouterr().err
     assert err.startswith("warning: ")
-    assert "asked between 0.1 and 0.1 1/s" in err
+    assert "strain rates 0.1 to 0.1 1/s leave the range" in err
 
 
 def test_without_output_a_picture_goes_to_the_terminal(capsys):

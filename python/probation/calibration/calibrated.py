@@ -113,15 +113,7 @@ class CalibratedCompanion:
 
     def extrapolation(self, rate: ArrayLike) -> str | None:
         """A warning where the rates leave the calibrated range, else None."""
-        outside, known = self.relation.outside(rate), self.relation.calibrated
-        if outside is None or known is None:
-            return None
-        decades = max(np.log10(known[0] / outside[0]), np.log10(outside[1] / known[1]))
-        return (
-            f"strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the companion relation is "
-            f"calibrated, {known[0]:.2g} to {known[1]:.2g} 1/s, by {decades:.2g} decades; there its form is assumed, "
-            "and its standard error knows nothing of that"
-        )
+        return self.relation.extrapolation(rate)
 
     def prediction_factor(
         self,

@@ -85,7 +85,9 @@ def describe(
             found = replace(found, interval95=profiles[name].interval95)
         parameters[name] = found
     warnings += ends.warnings
-    warnings += _rate_warnings(problem, law)
+    if law.companion is not None:
+        warned = ((each.record.id, law.companion.extrapolation(each.excitation.rate)) for each in problem.records)
+        warnings += [f"{record}: {text}" for record, text in warned if text]
     warnings += _modulus_warnings(problem, law)
     if weighting == "plain":
         warnings += strain_noise_warnings(problem.records, law)
@@ -171,21 +173,6 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, wit
         return Parameter("product", value, None, None, "not_identifiable", unit)
     se = float(np.sqrt(max(variance, 0.0)))
     return _parameter("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
-
-
-def _rate_warnings(problem: Problem, law: Law) -> list[str]:
-    if law.companion is None:
-        return []
-    found = []
-    for each in problem.records:
-        outside = law.companion.outside(each.excitation.rate)
-        if outside and law.companion.calibrated:
-            low, high = law.companion.calibrated
-            found.append(
-                f"{each.record.id}: strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the "
-                f"companion relation is calibrated, {low:.2g} to {high:.2g} 1/s"
-            )
-    return found
 
 
 def _modulus_warnings(problem: Problem, law: Law) -> list[str]:

@@ -79,15 +79,33 @@ class Companion:
         return self.relaxation_time(rate) * seen
 
     def outside(self, rate: ArrayLike) -> tuple[float, float] | None:
-        """The range of the given rates [1/s] if it leaves the calibrated one, else None."""
+        """The range of the given rates [1/s] if it leaves the calibrated one, else None.
+
+        Rates up to the floor are those of holds and of standing starts, unless all are.
+        """
         rates = np.abs(np.atleast_1d(np.asarray(rate, dtype=np.float64)))
-        rates = rates[rates > self.rate_floor]
+        rates = rates[rates > 0.0]
         if self.calibrated is None or rates.size == 0:
             return None
+        if np.any(rates > self.rate_floor):
+            rates = rates[rates > self.rate_floor]
         low, high = float(rates.min()), float(rates.max())
         tolerance = 1 + 1e-9
         inside = low * tolerance >= self.calibrated[0] and high <= self.calibrated[1] * tolerance
         return None if inside else (low, high)
+
+    def extrapolation(self, rate: ArrayLike) -> str | None:
+        """What to warn of where the given rates [1/s] leave the calibrated range, else None."""
+        outside = self.outside(rate)
+        if outside is None or self.calibrated is None:
+            return None
+        low, high = self.calibrated
+        decades = max(np.log10(low / max(outside[0], self.rate_floor)), np.log10(outside[1] / high))
+        return (
+            f"strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the companion relation "
+            f"({self.form}) is calibrated, {low:.2g} to {high:.2g} 1/s, by {decades:.2g} decades: there its form is an "
+            "assumption, of which no standard error knows"
+        )
 
 
 @dataclass(frozen=True)
