@@ -14,8 +14,11 @@ if TYPE_CHECKING:
 
 
 def _start(rates: FloatArray, tau_max: FloatArray) -> FloatArray:
-    """Linear regression of We = tau_max r on log10 r."""
-    return np.polyfit(np.log10(rates), rates * tau_max, 1)
+    """Linear regression of We = tau_max r on log10 r; their mean where the line would be negative at some rate."""
+    line: FloatArray = np.polyfit(np.log10(rates), rates * tau_max, 1)
+    if np.any(np.polyval(line, np.log10(rates)) <= 0.0):
+        return np.array([0.0, np.mean(rates * tau_max)])
+    return line
 
 
 def _log_gradient(companion: Companion, rates: FloatArray) -> FloatArray:
