@@ -45,6 +45,9 @@ NOMINAL = 0.95
 CONFIDENCE = 0.99
 """Of the interval of a coverage, which must contain `NOMINAL`."""
 
+LEAST_COVERAGE = 0.85
+"""A study tells that intervals hold if its draws could tell them from intervals of this coverage."""
+
 RECOMMENDED: Weighting = "auto"
 JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
 
@@ -114,6 +117,11 @@ class Counted:
         return low <= NOMINAL <= high
 
     @property
+    def tells(self) -> bool:
+        """Whether there are draws enough to say that an interval holds."""
+        return enough_draws(self.draws)
+
+    @property
     def all_hold(self) -> bool:
         """Whether the intervals of all parameters hold."""
         return all(self.holds(name) for name in self.hits)
@@ -145,6 +153,14 @@ class Coverage:
         if failing:
             kinds = ", ".join(failing)
             return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
+        if not enough_draws(draws):
+            lowest = min(each.interval(name)[0] for each in recommended for name in each.hits)
+            needed = next(count for count in range(draws, 1000) if enough_draws(count))
+            return (
+                f"{draws} draws are too few to tell whether the 95 % intervals of weighting {RECOMMENDED!r} hold: they "
+                f"allow a coverage of {100 * lowest:.0f} %. {needed} draws can tell 95 % from "
+                f"{100 * LEAST_COVERAGE:.0f} %."
+            )
         return (
             f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} "
             "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
@@ -180,7 +196,7 @@ class Coverage:
                     name: {
                         "coverage": each.coverage(name),
                         "interval99": list(each.interval(name)),
-                        "holds": each.holds(name),
+                        "holds": None if each.holds(name) and not each.tells else each.holds(name),
                         "bias": each.bias[name],
                     }
                     for name in each.hits
@@ -203,6 +219,11 @@ def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tup
     low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
     high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
     return low, high
+
+
+def enough_draws(draws: int) -> bool:
+    """Whether the interval of a coverage counted at `NOMINAL` would exclude `LEAST_COVERAGE`."""
+    return exact_interval(round(NOMINAL * draws), draws)[0] >= LEAST_COVERAGE
 
 
 def study(
