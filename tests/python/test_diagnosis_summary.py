@@ -6,6 +6,7 @@ import pytest
 
 from campaigns import made_up_diagnosis as made_up
 from probation.diagnosis.closure import Closure
+from probation.diagnosis.headline import choices
 from probation.diagnosis.result import CauseParameter, Checks, Explanation
 from probation.diagnosis.tables import MOST, where_table, which_table
 from probation.diagnosis.words import (
@@ -192,3 +193,16 @@ def test_parameters_of_a_combination_stand_under_their_effects_with_the_record_o
     ]
     alone = replace(pair, parameters=pair.parameters[:2])
     assert parameter_lines(alone, made_up.self_heating()) == ["stress 2.00 ± 0.10 MPa", "start 1.00 ± 0.10 MPa"]
+
+
+def test_a_list_of_explanations_names_each_once_and_brackets_combinations():
+    sets = [("unknown",), ("unknown", "volume_change"), ("volume_change",), ("unknown",)]
+    unknown = "an effect outside the catalogue"
+    assert choices(sets) == f"{unknown}, (change of volume and {unknown}) or change of volume"
+
+
+def test_a_chance_near_one_is_no_number_with_an_exponent():
+    found = made_up.no_gap()
+    text = replace(found, gap=replace(found.gap, p_value=0.998)).summary()
+    assert "1e+02" not in text
+    assert "here it is more than 99 %" in " ".join(text.split())

@@ -302,6 +302,7 @@ def test_drift_of_the_force_and_hardening_are_told_apart_without_a_specimen(drif
     assert found.probability_after > 0.95
     assert sorted(found.separates) == [["force_drift"], ["rate_dependent_hardening"]]
     assert found.what.startswith("Before the next test record the force while the specimen hangs free of load")
+    assert "rate-dependent hardening" in found.what  # its title, not its name
     answer = json.loads(json_answer("probation.next_test/1", found.to_dict()))
     assert set(answer) >= {"what", "separates", "probability_after"}
     assert len(answer["ranking"]) == len(found.ranking)

@@ -13,7 +13,7 @@ from probation.answers import json_answer
 from probation.calibration.rate_table import rate_groups
 from probation.calibration.summary import percent, summary_text
 from probation.records.saving import companion_text
-from probation.report.estimate import plus_minus
+from probation.report.estimate import percentage, plus_minus
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -198,7 +198,11 @@ class Calibration:
             largest = float(np.max(np.abs(chosen.percent_residual)))
             why = _REASONS[self.chosen_by]
             points = self.table is not None and len(self.table.groups) <= len(chosen.form.parameter_names)
-            how_well = "through every rate, which leaves nothing to test it by" if points else f"to {largest:.2g} %"
+            how_well = (
+                "through every rate, which leaves nothing to test it by"
+                if points
+                else f"to {percentage(0.01 * largest)} %"
+            )
             sentence = f"{start} {how_well} ({why})"
             if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"

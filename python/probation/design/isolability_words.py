@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.design.telling_apart import DETECTED
+from probation.report.estimate import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,7 +77,7 @@ def _biased(biases: Sequence[Bias]) -> str:
     """The biases that matter: "hardening_modulus_MPa by +3.1 %"."""
     worst = max((abs(bias.percent) for bias in biases), default=0.0)
     named = [bias for bias in biases if abs(bias.percent) >= _SHARE * worst]
-    return _listed([f"{bias.parameter} by {bias.percent:+.2g} %" for bias in named])
+    return _listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named])
 
 
 def _percent(share: float) -> str:

@@ -179,7 +179,9 @@ def next_test(
     separated, surely = _separated(pairwise)
     before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
     separates = [list(answers[at]) for at in separated]
-    what = _sentence(chosen, separates, surely, before)
+    titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
+    named = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in separates]
+    what = _sentence(chosen, named, surely, before)
     return NextTest(what, separates, before, chosen.probability_after, chosen.test, ranking)
 
 
@@ -192,8 +194,7 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
     return (surely, True) if surely else (best, False)
 
 
-def _sentence(chosen: RankedTest, separates: Sequence[Sequence[str]], surely: bool, before: float) -> str:
-    names = [" with ".join(effects).replace("_", " ") if effects else "no effect" for effects in separates]
+def _sentence(chosen: RankedTest, names: Sequence[str], surely: bool, before: float) -> str:
     told = f"{', '.join(names[:-1])} and {names[-1]}"
     what, after = chosen.test.what, chosen.probability_after
     if after < before + HELPS:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.report.estimate import percentage
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
@@ -37,7 +39,7 @@ class Check:
     @property
     def text(self) -> str:
         """One line."""
-        return f"{self.what}: {self.error:.2g} MPa at most ({100.0 * self.relative:.2g} % of the largest stress)"
+        return f"{self.what}: {self.error:.2g} MPa at most ({percentage(self.relative)} % of the largest stress)"
 
 
 def compared(name: str, what: str, found: list[FloatArray], expected: list[FloatArray]) -> Check:

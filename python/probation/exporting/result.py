@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from probation._files import write_whole
 from probation.answers import json_answer
 from probation.law.answer import law_answer
+from probation.report.estimate import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +53,7 @@ class Export:
         first, *others = self.checks
         lines = [
             f"{self._format.what}.",
-            f"  round trip: {first.error:.2g} MPa at most, {100.0 * first.relative:.2g} % of the largest stress",
+            f"  round trip: {first.error:.2g} MPa at most, {percentage(first.relative)} % of the largest stress",
         ]
         if self.request.reduction is not None:
             lines.append(f"  {self.request.reduction.summary()}")

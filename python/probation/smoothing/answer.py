@@ -14,7 +14,7 @@ from scipy.integrate import cumulative_simpson
 from probation._arrays import FloatArray
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.report.estimate import plus_minus
+from probation.report.estimate import percentage, plus_minus
 from probation.report.table import Table
 from probation.smoothing.differences import differences
 from probation.smoothing.excitation import Excitation, excite
@@ -123,7 +123,7 @@ class RecordExcitation:
         if not rate.any():
             return f"{self.id}: strain rate zero"
         median = float(np.median(self.relative_error))
-        known = f"known to {100 * median:.2g} % (median standard error)" if median > 0.0 else "without noise"
+        known = f"known to {percentage(median)} % (median standard error)" if median > 0.0 else "without noise"
         jumps = [f"{float(self.time[jump]):.4g}" for jump in self.excitation.jumps]
         count = f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}" if jumps else "no jumps"
         return f"{self.id}: {said}, {known}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
@@ -134,7 +134,7 @@ class RecordExcitation:
         excitation = self.excitation
         known = "given with the record" if self.record.noise.strain is not None else "estimated"
         rate, strain = excitation.rate, excitation.true_strain
-        parts = [100.0 * each for each in _spread(self.relative_error)]
+        parts = [percentage(each) for each in _spread(self.relative_error)]
         rows = [
             ("method", f"{excitation.method}: {excitation.differentiator}"),
             ("samples", f"{len(self.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
@@ -142,7 +142,7 @@ class RecordExcitation:
             ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
             ("rate at the start", f"{plus_minus(rate[0], excitation.rate_se[0])} 1/s"),
             ("rate at the end", f"{plus_minus(rate[-1], excitation.rate_se[-1])} 1/s"),
-            ("its standard error", "median {:.2g}, 95 % below {:.2g}, largest {:.2g} %".format(*parts)),
+            ("its standard error", "median {}, 95 % below {}, largest {} %".format(*parts)),
             ("integrated rate − measured strain", f"{np.abs(self.integrated - self.measured).max():.2g} at most"),
         ]
         if excitation.strain_rate is None:

@@ -10,6 +10,7 @@ import numpy as np
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.records.record import Record
+from probation.report.estimate import percentage
 from probation.report.table import Table
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES
@@ -84,10 +85,10 @@ class Comparison:
             if key[:2] == ("jump", first):
                 met = "met" if each.p95 <= AIM else "missed"
                 parts.append(
-                    f"{100 * each.p95:.2g} % at a jump by ten with noise {first:g} (aim {100 * AIM:g} %: {met})"
+                    f"{percentage(each.p95)} % at a jump by ten with noise {first:g} (aim {100 * AIM:g} %: {met})"
                 )
         worst_key, worst = max(own, key=lambda pair: pair[1].p95)
-        parts.append(f"at most {100 * worst.p95:.2g} % ({worst_key[0]}, noise {worst_key[1]:g})")
+        parts.append(f"at most {percentage(worst.p95)} % ({worst_key[0]}, noise {worst_key[1]:g})")
         return f"Default {DEFAULT}: 95 % of the rates are within " + "; ".join(parts) + "."
 
     @property
