@@ -5,9 +5,11 @@ from dataclasses import replace
 import pytest
 
 from campaigns import made_up_diagnosis as made_up
+from probation.detection.signatures import Drift
 from probation.diagnosis.closure import Closure
 from probation.diagnosis.headline import choices
 from probation.diagnosis.result import CauseParameter, Checks, Explanation
+from probation.diagnosis.signatures import changes_with
 from probation.diagnosis.tables import MOST, where_table, which_table
 from probation.diagnosis.words import (
     NOTHING,
@@ -206,3 +208,19 @@ def test_a_chance_near_one_is_no_number_with_an_exponent():
     text = replace(found, gap=replace(found.gap, p_value=0.998)).summary()
     assert "1e+02" not in text
     assert "here it is more than 99 %" in " ".join(text.split())
+
+
+@pytest.mark.parametrize(
+    ("by_noise", "by_scatter", "text"),
+    [
+        ({"log_rate": 1e-9, "order": 0.2}, {"log_rate": 1e-4, "order": 0.5}, "with the strain rate"),
+        ({"log_rate": 1e-9, "order": 1e-6}, {"log_rate": 0.3, "order": 0.5}, "from record to record"),
+        (
+            {"log_rate": 1e-9, "temperature": 1e-9},
+            {"log_rate": 1e-3, "temperature": 1e-4},
+            "with the strain rate or with the temperature",
+        ),
+    ],
+)
+def test_a_parameter_is_said_to_follow_only_what_the_scatter_between_records_allows(by_noise, by_scatter, text):
+    assert changes_with(Drift("tau_max_s", {}, {}, 1e-9, by_noise, by_scatter, {})) == text

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import stdtr
 
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
 
@@ -30,7 +31,9 @@ class Drift:
     heterogeneity_p_value : float
         That all records want the same value (Cochran's Q).
     slope_p_value : dict of str to float
-        That the changes have no slope along a covariate ("log_rate", "order", ...).
+        That the changes have no slope along a covariate ("log_rate", "order", ...), by the noise alone.
+    scatter_p_value : dict of str to float
+        That records which differ at random would show such a slope: Student's test against their scatter about it.
     slope : dict of str to float
         Change of the parameter per unit of the covariate.
     """
@@ -40,6 +43,7 @@ class Drift:
     se: Mapping[str, float]
     heterogeneity_p_value: float
     slope_p_value: Mapping[str, float]
+    scatter_p_value: Mapping[str, float]
     slope: Mapping[str, float]
 
 
@@ -86,7 +90,7 @@ def parameter_drift(
     records, count = whitened.records, len(whitened.records)
     tangent = whitened.whiten([record.tangent for record in records])
     residual = np.concatenate([noise.whiten(whitened.clean(index)) for index, noise in enumerate(whitened.noises)])
-    along = dict(covariates) if covariates is not None else {"log_rate": _log_rates(whitened), "order": range(count)}
+    along = dict(covariates) if covariates is not None else usual_covariates(whitened)
     found = []
     for column, name in enumerate(names):
         own = np.zeros((len(whitened), count))
@@ -108,7 +112,7 @@ def parameter_drift(
         level = whitened.scale_spread
         q_value = float(away @ weight @ away)
         heterogeneity = float(chi_square_tail(q_value, known.size - 1, level)) if known.size > 1 else 1.0
-        slopes, p_values = {}, {}
+        slopes, p_values, scattered = {}, {}, {}
         for label, numbers in along.items():
             place = np.asarray([float(x) for x in numbers])[known]
             if known.size < 2 or np.ptp(place) == 0.0:
@@ -118,6 +122,7 @@ def parameter_drift(
             slope = float((normal @ (columns.T @ weight @ value))[1])
             slopes[label] = slope
             p_values[label] = float(2.0 * normal_tail(abs(slope) / np.sqrt(max(normal[1, 1], 1e-300)), level))
+            scattered[label] = _chance_among_scattered(place, value, np.diag(spread))
         ids = [records[int(i)].name for i in known]
         found.append(
             Drift(
@@ -126,6 +131,7 @@ def parameter_drift(
                 dict(zip(ids, np.sqrt(np.diag(spread)).tolist(), strict=True)),
                 heterogeneity,
                 p_values,
+                scattered,
                 slopes,
             )
         )
@@ -191,6 +197,35 @@ def sequential_estimates(
             moved[usable], deviation[usable] = change[:, column] / scale[column], error[:, column] / scale[column]
             found.append(Sequential(record.name, name, record.time[ends - 1], moved, deviation, p_value))
     return tuple(found)
+
+
+def usual_covariates(whitened: Whitened) -> dict[str, Sequence[float]]:
+    """What a parameter may change with: "log_rate" (median of the moving samples) and "order", one number a record."""
+    return {"log_rate": _log_rates(whitened), "order": range(len(whitened.records))}
+
+
+def _chance_among_scattered(place: FloatArray, value: FloatArray, variance: FloatArray) -> float:
+    """Chance of such a slope where values differ at random, too, by Student's t; 1 for fewer than three values.
+
+    Parameters
+    ----------
+    place, value : ndarray, shape (n,)
+        Of the covariate, and of the parameter.
+    variance : ndarray, shape (n,)
+        Of the values, by noise; what they scatter beyond it about the line comes on top.
+    """
+    freedom = len(value) - 2
+    if freedom < 1:
+        return 1.0
+    design = np.column_stack([np.ones(len(value)), place - place.mean()])
+    left = value - design @ np.linalg.lstsq(design, value, rcond=None)[0]
+    total = variance + max(float(left @ left) / freedom - float(variance.mean()), 0.0)
+    weighted = design / np.sqrt(total)[:, None]
+    normal = np.linalg.pinv(weighted.T @ weighted, hermitian=True)
+    line = normal @ (weighted.T @ (value / np.sqrt(total)))
+    spread = float(np.sum((value - design @ line) ** 2 / total)) / freedom
+    error = float(np.sqrt(normal[1, 1] * max(spread, 1.0)))
+    return 2.0 * float(stdtr(freedom, -abs(line[1]) / max(error, 1e-300)))
 
 
 def _log_rates(whitened: Whitened) -> list[float]:
