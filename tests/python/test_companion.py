@@ -157,3 +157,10 @@ def test_a_history_below_the_calibrated_range_is_warned_about():
     )
     (warning,) = simulate(law, history_from("ramp:rate=1e-9,strain=0.1")).warnings
     assert "leave the range" in warning
+
+
+def test_a_users_relation_that_raises_is_named_with_the_rates_it_was_asked_for():
+    with pytest.raises(
+        probation.InputError, match=r"function\(rates\) raised KeyError: 'tau'; .* from 1e-08 to 1000 1/s"
+    ):
+        RateFunction(lambda rates: {}["tau"])

@@ -6,7 +6,7 @@ import pytest
 import probation
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.registry import register, unregister
-from probation.inference.callable_law import maxwell_bar
+from probation.inference.callable_law import CallableLaw, maxwell_bar
 from probation.records.campaign import Campaign
 from probation.records.record import Record
 
@@ -68,3 +68,21 @@ def test_a_users_own_effect_is_found_once_it_is_registered():
 
 def _bend(view):
     return np.sin(3.0 * np.pi * view.recorded_strain / 0.4)
+
+
+def test_a_law_that_raises_is_named_with_its_record_and_parameters():
+    def broken(time, true_strain, parameters, alteration):
+        if time[-1] < 50.0:
+            raise ZeroDivisionError("float division by zero")
+        return parameters[0] * true_strain
+
+    law = CallableLaw(broken, ("modulus_MPa",), (1000.0,), (0.0,), (1e5,))
+    said = r"record 'fast': .* modulus_MPa = \d.*; it raised ZeroDivisionError: float division by zero"
+    with pytest.raises(probation.InputError, match=said):
+        probation.diagnose(campaign(), law=law, design=False)
+
+
+def test_a_law_that_gives_no_numbers_is_named_with_its_record_and_parameters():
+    law = CallableLaw(lambda *_: np.full(160, np.nan), ("modulus_MPa",), (1000.0,), (0.0,), (1e5,))
+    with pytest.raises(probation.InputError, match=r"record 'slow': .* at modulus_MPa = 1000; it raised function\("):
+        probation.diagnose(campaign(), law=law, design=False)

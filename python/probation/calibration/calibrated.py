@@ -80,7 +80,8 @@ class CalibratedCompanion:
         """Of `parameters`, shape (p,); NaN where nothing is known."""
         if self.covariance is None:
             return np.full(len(self.parameters), np.nan)
-        return np.asarray(np.sqrt(np.diag(self.covariance)[: len(self.parameters)]))
+        variance = np.diag(self.covariance)[: len(self.parameters)]
+        return np.asarray(np.sqrt(np.where(variance >= 0.0, variance, np.nan)))  # a form that fits ill may tell nothing
 
     def relaxation_time(self, rate: ArrayLike) -> FloatArray:
         """Longest relaxation time, shape (n,) [s]."""

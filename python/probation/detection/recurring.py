@@ -61,11 +61,12 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
     ----------
     whitened : Whitened
     """
-    largest = max(float(record.true_strain.max()) for record in whitened.records)
+    ends = [end(record.true_strain) for record in whitened.records for end in (np.min, np.max)]
+    largest = float(max(ends, key=abs))  # negative in compression
     found = []
     for part in WIDTHS:
-        width = part * largest
-        places = np.arange(width, largest, width)
+        width = part * abs(largest)
+        places = np.sign(largest) * np.arange(width, abs(largest), width)
         shares = {
             record.name: share
             for index, record in enumerate(whitened.records)

@@ -20,6 +20,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.propagated import propagated_noise
 from probation.inference.refit import Refit, refit
 from probation.inference.screen import screen
+from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
@@ -209,7 +210,8 @@ def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=scheme)
-    return fit_views(law, views, campaign.records, excitations)
+    known = law if isinstance(law, DnlrLaw) else UsersLaw(law)
+    return fit_views(known, views, campaign.records, excitations)
 
 
 def fit_views(

@@ -17,7 +17,7 @@ from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
-from probation.diagnosis.next import next_test_of
+from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import (
     TEMPERED,
     answer_set,
@@ -36,6 +36,7 @@ from probation.diagnosis.signatures import signatures
 from probation.effects.registry import effects as catalogue
 from probation.inference.thinning import thin
 from probation.parallel import usual_threads
+from probation.records.checks import require_signal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -102,6 +103,8 @@ def diagnose(
     considered = catalogue(effects)
     workers = threads or usual_threads()
 
+    for record in campaign.records:
+        require_signal(record)
     campaign, thinned = thin(campaign)
 
     def told(part: float) -> None:
@@ -140,7 +143,8 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
-    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if design else None
+    planned = design and is_stretched(base)
+    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if planned else None
     apart = None
     if design:
         apart = isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers)
@@ -255,6 +259,8 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
     found = []
     if not robust:
         found.append("whether there is a gap hangs on the noise level: the verdict changes at 0.8 or 1.25 times it")
+    if not is_stretched(base):
+        found.append("no record is stretched: no next test is looked for, since only tension tests are planned")
     if len(base.whitened.records) == 1:
         found.append("one record only: nothing can be left out, and a cause that acts alike in it cannot be told apart")
     for noise in base.whitened.noises:

@@ -26,6 +26,11 @@ FORMS_WITHIN = 4.0
 """... if their log evidence is within this of the best one's."""
 
 
+def is_stretched(base: BaseFit) -> bool:
+    """Whether any record is: the tests that can be planned are tension tests."""
+    return any(float(np.max(view.recorded_strain)) > 0.0 for view in base.model.views)
+
+
 def next_test_of(
     base: BaseFit,
     weighed: Sequence[Weighed],

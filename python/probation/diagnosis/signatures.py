@@ -63,7 +63,8 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
             if drift.heterogeneity_p_value >= LEVEL:
                 continue
             low, high = min(drift.change.values()), max(drift.change.values())
-            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by {low:+.3g} to {high:+.3g}"
+            changes = f"changes {changes_with(drift)}, by {low:+.3g} to {high:+.3g}"
+            text = f"{drift.parameter}, refitted record by record, {changes}"
             found.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(found)
 

@@ -25,11 +25,13 @@ def maxwell_element(time: FloatArray, values: FloatArray, relaxation_time: float
     relaxation_time : float [s]
         Positive.
     """
+    moved = values - values[0]
+    size = float(np.max(np.abs(moved))) or 1.0  # the engine takes strains: any other quantity may be far larger
     law = _core.Law(1.0, 0.0, relaxation_time, 1.0, None, _one_mode())
     found = np.empty(len(time))
-    solver = _core.Solver(_core.History(time, values - values[0]), _core.Scheme.sa2)
+    solver = _core.Solver(_core.History(time, moved / size), _core.Scheme.sa2)
     solver.stress(law, _core.LawChange(), found)
-    return found
+    return size * found
 
 
 @lru_cache(maxsize=1)

@@ -10,6 +10,7 @@ import numpy as np
 from probation import _core
 from probation.identify.noise_model import NoiseModel
 from probation.law.modal import Law, Scheme, Start, make_solver
+from probation.records.checks import require_signal
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -53,7 +54,14 @@ class RecordProblem:
     def prepare(
         cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start, substeps: int = 1
     ) -> RecordProblem:
-        """Estimate the noise and set up the solver."""
+        """Estimate the noise and set up the solver.
+
+        Raises
+        ------
+        InputError
+            For a record whose strain does not move or that bears no stress.
+        """
+        require_signal(record)
         noise = record.noise.stress_MPa
         if noise is None:
             noise = scatter(record.time, record.true_stress)

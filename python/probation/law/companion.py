@@ -255,7 +255,13 @@ class RateFunction(Companion):
         if not 0.0 < low < high:
             raise InputError(f"between is ({low}, {high}); expected two positive rates, the lower one first")
         rates = np.geomspace(low, high, 4001)
-        times = np.asarray(self.function(rates))
+        try:
+            times = np.asarray(self.function(rates))
+        except Exception as error:
+            raise InputError(
+                f"function(rates) raised {type(error).__name__}: {error}; it is called with {len(rates)} rates from "
+                f"{low:g} to {high:g} 1/s and is to give tau_max [s] at each"
+            ) from error
         if times.shape not in ((), rates.shape):
             raise InputError(f"function(rates) has the shape {times.shape}; expected {rates.shape}, as rates")
         times = as_samples(np.broadcast_to(times, rates.shape), "function(rates)")
