@@ -1,12 +1,14 @@
 """``probation demo``, ``fit`` and ``preview``."""
 
 import json
+from pathlib import Path
 
 import pytest
 
 from probation.cli import main
 from probation.demo import STEPS
 from probation.published.experiments import twin_campaign
+from probation.report.estimate import plus_minus
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +27,20 @@ def test_the_demonstration_identifies_every_twin_within_three_standard_errors(fo
         found = told["identification"]["parameters"]["experiment-1"][name]
         assert abs(found["value"] - value) < 3 * found["se"]
     assert told["seed"] == 0
+
+
+def test_the_readme_shows_what_the_demonstration_prints(folder):
+    """Lines end in … where they are cut; the verdicts and the first rows of the table are the demonstration's own."""
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    block = readme.split("```text\n")[1].split("```")[0].splitlines()
+    told = json.loads((folder / "demo.json").read_text(encoding="utf-8"))
+    verdicts = [told[step.name]["verdict"] for step in STEPS]
+    for line, verdict in zip(block, verdicts, strict=False):
+        assert verdict == line if not line.endswith("…") else verdict.startswith(line.removesuffix("…").rstrip())
+    values = told["identification"]["parameters"]["experiment-1"]
+    for name, value in values.items():
+        (row,) = [line for line in block if f"experiment-1  {name}" in line]
+        assert plus_minus(value["value"], value["se"]) in row
 
 
 def test_the_page_of_the_demonstration_holds_every_step(folder):
