@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from probation._core import __version__
+from probation._text import printed_escaped
 from probation.commands import (
     certify,
     companion,
@@ -101,6 +102,7 @@ def build_parser() -> argparse.ArgumentParser:
     return parser
 
 
+@printed_escaped()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command.
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TextIO
 
 from probation._files import write_whole
+from probation._text import raw_stream
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -56,7 +57,11 @@ def tell(summary: str, stream: TextIO) -> None:
     """Print a summary, its first line, the verdict, in bold on a terminal."""
     verdict, newline, rest = summary.partition("\n")
     if stream.isatty() and "NO_COLOR" not in os.environ:
-        verdict = f"\x1b[1m{verdict}\x1b[0m"
+        bold = raw_stream(stream)
+        bold.write("\x1b[1m")
+        stream.write(verdict)
+        bold.write("\x1b[0m")
+        verdict = ""
     print(verdict + newline + rest, file=stream)
 
 

@@ -6,6 +6,8 @@ import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from probation._text import printable, raw_stream
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -31,12 +33,14 @@ def shown(title: str, *, lines: bool = False) -> Iterator[Callable[[int, int, st
     from rich.console import Console  # noqa: PLC0415 - not every command shows progress
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(title, total=None)
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(file=raw_stream(sys.stderr)), transient=True) as progress:
+        task = progress.add_task(printable(title), total=None)
 
         def advance(done: int, total: int, what: str) -> None:
-            progress.update(task, completed=done, total=total, description=f"{title}: {what}" if what else title)
+            progress.update(
+                task, completed=done, total=total, description=printable(f"{title}: {what}" if what else title)
+            )
 
         yield advance
 

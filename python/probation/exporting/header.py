@@ -6,6 +6,7 @@ import textwrap
 from typing import TYPE_CHECKING
 
 from probation._core import __version__
+from probation._text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,11 +19,11 @@ _PLAIN = str.maketrans(
 
 
 def header_lines(what: str, parts: Sequence[Sequence[str]]) -> list[str]:
-    """Paragraphs under a title, as text of at most 78 columns in plain ASCII."""
+    """Paragraphs under a title, as printable text of at most 78 columns in plain ASCII."""
     lines = textwrap.wrap(f"probation {__version__}: {what}", _WIDTH - 6, subsequent_indent="  ")
     for part in parts:
         for line in part:
-            lines += textwrap.wrap(line, _WIDTH - 6, subsequent_indent="  ", break_long_words=True)
+            lines += textwrap.wrap(printable(line), _WIDTH - 6, subsequent_indent="  ", break_long_words=True)
         lines.append("")
     return [line.translate(_PLAIN).encode("ascii", "replace").decode() for line in lines[:-1]]
 
