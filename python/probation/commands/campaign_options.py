@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from probation._files import kind_of
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -95,5 +96,5 @@ def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
 
 
 def is_data_file(path: str) -> bool:
-    """Whether it is a file, and no campaign.toml."""
-    return Path(path).is_file() and Path(path).suffix != ".toml"
+    """Whether it is there, and neither a folder nor a campaign.toml."""
+    return kind_of(path) not in (None, "a folder") and Path(path).suffix != ".toml"

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from probation._files import read_json
 from probation.errors import InputError
 from probation.identify.fit import fit
 from probation.identify.result import Fit
@@ -48,12 +48,7 @@ def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[
 
 
 def _read(path: Path) -> tuple[Law, str]:
-    try:
-        answer = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as failure:
-        raise InputError(f"{path}: cannot be read: {failure.strerror}") from None
-    except ValueError as failure:
-        raise InputError(f"{path}: found no JSON ({failure}), expected what fit --json writes") from None
+    answer = read_json(path, "what fit --json writes")
     schema = answer.get("schema") if isinstance(answer, dict) else None
     if schema != SCHEMA:
         raise InputError(f"{path}: found the schema {schema!r}, expected {SCHEMA!r}, as fit --json writes it")

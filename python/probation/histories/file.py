@@ -10,6 +10,7 @@ import numpy as np
 
 from probation._complaint import bad_input, listed, quoted
 from probation.histories import ImposedHistory
+from probation.records.checks import find_excess
 from probation.records.options import ReadOptions
 from probation.records.reading import open_file
 from probation.records.roles import ROLES, role_of
@@ -50,9 +51,18 @@ def read_history(path: str | PathLike[str]) -> HistoryFile:
         raise bad_input(path, held, "one strain history, time_s,true_strain")
     table = reading.tables[0]
     columns = _columns(table)
-    samples = {role: _samples(table, role, column) for role, column in columns.items()}
+    samples = {role: _samples(table, role, columns[role]) for role in _WANTED if role in columns}
     _check_time(table, columns["time"], samples["time"])
     _check_strain(table, columns["true_strain"], samples["true_strain"])
+    if fault := find_excess(samples):
+        raise bad_input(
+            path,
+            fault.found,
+            fault.expected,
+            row=table.row_numbers[fault.sample],
+            column=columns[fault.quantity].label,
+            remedy=fault.remedy,
+        )
     history = ImposedHistory(
         path.name, samples["time"], true_strain=samples["true_strain"], strain_rate=samples.get("strain_rate")
     )

@@ -19,6 +19,7 @@ import numpy as np
 from scipy.special import betaincinv
 
 from probation._arrays import FloatArray, as_whole_number
+from probation._files import kind_of, read_whole
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
@@ -356,14 +357,14 @@ def _key(case: Case, draw: int, methods: Sequence[str]) -> tuple[str, int, str]:
 
 
 def _kept(state: str | PathLike[str] | None, seed: int) -> dict[tuple[str, int, str], Any]:
-    if state is None or not Path(state).exists():
+    if state is None or kind_of(state) is None:
         return {}
     kept: dict[tuple[str, int, str], Any] = {}
-    lines = Path(state).read_text(encoding="utf-8").splitlines()
+    lines = read_whole(state).decode(errors="replace").splitlines()
     for number, line in enumerate(lines, 1):
         try:
             found_seed, case, draw, methods, result = json.loads(line)
-        except (json.JSONDecodeError, ValueError, TypeError):
+        except (ValueError, TypeError, RecursionError):
             if number == len(lines):
                 break  # cut off while it was written
             raise InputError(f"{state}, line {number}: found {line[:40]!r}, expected a line of this study") from None

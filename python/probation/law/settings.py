@@ -9,6 +9,7 @@ from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
 from probation.law.modal import ACCURACIES
+from probation.limits import LARGEST_DECADES, USABLE, is_usable
 
 COMPANION_FORMS: dict[str, tuple[str, ...]] = {
     "weissenberg": ("slope", "intercept"),
@@ -67,9 +68,13 @@ class CompanionSettings:
             values = tuple(float(entry) for entry in value) if not isinstance(value, int | float) else ()
             if len(values) < 2 or not all(math.isfinite(entry) and entry > 0 for entry in values):
                 raise InputError(f"companion 'table': found {name} = {value!r}, expected two or more numbers > 0")
+            if unusable := [entry for entry in values if not is_usable(entry)]:
+                raise InputError(f"companion 'table': found {unusable[0]!r} in {name}, expected {USABLE}")
             return values
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             raise InputError(f"companion {self.form!r}: found {name} = {value!r}, expected a finite number")
+        if not is_usable(value):
+            raise InputError(f"companion {self.form!r}: found {name} = {value!r}, expected {USABLE}")
         return float(value)
 
     def _check_table(self) -> None:
@@ -117,8 +122,10 @@ class LawSettings:
     def __post_init__(self) -> None:
         if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 1:
             raise InputError(f"law: found modes = {self.modes!r}, expected a whole number of at least 1")
-        if not (math.isfinite(self.decades) and self.decades > 0):
-            raise InputError(f"law: found decades = {self.decades!r}, expected a positive number")
+        if not 0 < self.decades <= LARGEST_DECADES:
+            raise InputError(
+                f"law: found decades = {self.decades!r}, expected a positive number of at most {LARGEST_DECADES:g}"
+            )
         finest, coarsest = ACCURACIES
         if self.accuracy is not None and not finest <= self.accuracy <= coarsest:
             raise InputError(
@@ -135,4 +142,6 @@ class LawSettings:
             lowest = "at least 0" if name == "hardening_modulus_MPa" else "positive"
             if not (math.isfinite(value) and (value > 0 or (value == 0 and lowest == "at least 0"))):
                 raise InputError(f"law.fixed: found {name} = {value!r}, expected a number that is {lowest}")
+            if not is_usable(value):
+                raise InputError(f"law.fixed: found {name} = {value!r}, expected {USABLE}")
         object.__setattr__(self, "fixed", {name: float(value) for name, value in self.fixed.items()})

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from probation._complaint import bad_input, joined, listed, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
-from probation.records.checks import MINIMUM_SAMPLES, find_fault
+from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
@@ -86,6 +86,7 @@ def extract(
     samples = {
         role: _in_internal_units(table, role, columns[role], values, options) for role, values in raw.samples.items()
     }
+    _check_extent(table, columns, samples)
     role = next(role for role in STRAIN_ROLES if role in columns)
     column = columns[role]
     stated = role in options.units or column.unit is not None or bool(table.roles)  # a profile knows its strain
@@ -168,6 +169,19 @@ def _check_samples(table: Table, columns: dict[str, Column], samples: dict[str, 
         column=columns[fault.quantity].label,
         remedy=fault.remedy,
     )
+
+
+def _check_extent(table: Table, columns: dict[str, Column], samples: dict[str, FloatArray]) -> None:
+    """Refuse numbers beyond what physics allows, once their unit is known."""
+    if fault := find_excess(samples):
+        raise bad_input(
+            table.path,
+            fault.found,
+            fault.expected,
+            row=table.row_numbers[fault.sample],
+            column=columns[fault.quantity].label,
+            remedy=fault.remedy,
+        )
 
 
 def _in_internal_units(table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions) -> FloatArray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from probation.errors import InputError
-from probation_studies.blind.seal import SEALS_FILE, read_json
+from probation_studies.blind.seal import SEALS_FILE, read_object
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Layout:
         path = self.folder / SEALS_FILE
         if not path.is_file():
             raise InputError(f"{self.folder}: found no {SEALS_FILE}; expected a folder made by probation blind make")
-        content = read_json(path)
+        content = read_object(path)
         seals = content.get("seals")
         if not isinstance(seals, dict) or not seals:
             raise InputError(f"{path}: found no seals, expected one per campaign")

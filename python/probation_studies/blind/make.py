@@ -15,7 +15,7 @@ from probation.origin import origin
 from probation.pool import Progress, run_all
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.release import check_seed
-from probation_studies.blind.seal import SEALS_FILE, SEALS_SCHEMA, read_json, read_truth, seal_truth
+from probation_studies.blind.seal import SEALS_FILE, SEALS_SCHEMA, read_object, read_truth, seal_truth
 
 _PLAN_FILE = "plan.json"
 _MAKING = ".making-"
@@ -80,7 +80,7 @@ def _check_plan(layout: Layout, plan: dict[str, object]) -> None:
     """The plan is kept with the truths: the seed would give them away. What was begun may be finished."""
     path = layout.truths / _PLAN_FILE
     if path.exists():
-        found = {key: value for key, value in read_json(path).items() if key in plan}
+        found = {key: value for key, value in read_object(path).items() if key in plan}
         if found != plan:
             raise InputError(f"{layout.folder}: found a split made with {found}, expected {plan} or an empty folder")
         return

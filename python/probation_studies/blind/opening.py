@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from probation._files import write_whole
+from probation._files import read_whole, write_whole
 from probation.errors import InputError
 from probation.origin import now
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.seal import read_json
+from probation_studies.blind.seal import read_object
 from probation_studies.blind.solve import folder_sha256
 
 OPENED_FILE = "opened.json"
@@ -54,12 +54,12 @@ def handed_in(layout: Layout, names: Sequence[str]) -> Handed:
         raise InputError(f"{layout.answers}: found no answer to {missing[0]}{more}; run probation blind solve first")
     for name in names:
         path = layout.answers / f"{name}.json"
-        answer = read_json(path)
+        answer = read_object(path)
         if answer.get("campaign_sha256") != folder_sha256(layout.campaigns / name):
             raise InputError(f"{path}: found an answer to other data than {layout.campaigns / name} holds")
         by = cast("Mapping[str, str]", answer.get("answered") or {})
         commits[f"{by.get('version', '?')} {by.get('commit', '')}".strip()] += 1
-        digests[name] = hashlib.sha256(path.read_bytes()).hexdigest()
+        digests[name] = hashlib.sha256(read_whole(path)).hexdigest()
     return Handed(layout.answers, digests, dict(commits))
 
 
@@ -75,7 +75,7 @@ def record_opening(layout: Layout, handed: Sequence[Handed], *, after_opening: b
     if not record.exists():
         answers = {str(each.folder.resolve()): each.digests for each in handed}
         write_whole(record, json.dumps({"at": now(), "answers": answers}, indent=1) + "\n")
-    opening = read_json(record)
+    opening = read_object(record)
     known = cast("dict[str, dict[str, str]]", opening["answers"])
     there = set().union(*(each.items() for each in known.values()))
     late = [

@@ -10,7 +10,7 @@ from typing import cast
 from probation._files import write_whole
 from probation.errors import InputError
 from probation.origin import commit, now
-from probation_studies.blind.seal import read_json
+from probation_studies.blind.seal import read_object
 
 LEAST_CAMPAIGNS, LEAST_NULLS = 600, 250
 
@@ -36,7 +36,7 @@ def spent_seeds(path: Path = SEEDS_FILE) -> dict[int, Mapping[str, object]]:
     InputError
         If the file holds something else.
     """
-    entries = read_json(path).get("test")
+    entries = read_object(path).get("test")
     if not isinstance(entries, list) or not all(isinstance(each, dict) and "seed" in each for each in entries):
         raise InputError(f"{path}: found no list 'test' of objects with a seed")
     return {cast("int", each["seed"]): each for each in entries}

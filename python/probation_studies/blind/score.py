@@ -14,7 +14,7 @@ from probation_studies.blind.layout import Layout
 from probation_studies.blind.opening import handed_in, record_opening
 from probation_studies.blind.release import shortfall
 from probation_studies.blind.scores.aims import aims
-from probation_studies.blind.seal import open_truth, read_json
+from probation_studies.blind.seal import open_truth, read_object
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -146,7 +146,7 @@ def _answers(layout: Layout, names: list[str]) -> tuple[dict[str, Answer], dict[
     failed: dict[str, str] = {}
     for name in names:
         path = layout.answers / f"{name}.json"
-        content = read_json(path)
+        content = read_object(path)
         diagnosis = content.get("diagnosis")
         if isinstance(diagnosis, dict):
             found[name] = read_answer(diagnosis, str(path))

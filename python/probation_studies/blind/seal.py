@@ -8,7 +8,7 @@ import secrets
 from dataclasses import dataclass
 from pathlib import Path
 
-from probation._files import write_whole
+from probation._files import read_json, write_whole
 from probation.errors import InputError
 
 SEALS_SCHEMA = "probation_studies.blind.seals/1"
@@ -54,7 +54,7 @@ def read_truth(path: Path) -> SealedTruth:
     InputError
         If it cannot be read, or is something else.
     """
-    content = read_json(path)
+    content = read_object(path)
     salt, text = content.get("salt"), content.get("truth")
     if not isinstance(salt, str) or not isinstance(text, str):
         raise InputError(f"{path}: found no salt and truth, expected a sealed truth")
@@ -84,7 +84,7 @@ def open_truth(path: Path, seal: str) -> dict[str, object]:
     return truth
 
 
-def read_json(path: Path) -> dict[str, object]:
+def read_object(path: Path) -> dict[str, object]:
     """A JSON object from a file.
 
     Raises
@@ -92,12 +92,7 @@ def read_json(path: Path) -> dict[str, object]:
     InputError
         If the file cannot be read or holds something else.
     """
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as failure:
-        raise InputError(f"{path}: cannot be read: {failure.strerror or failure}") from None
-    except ValueError as failure:
-        raise InputError(f"{path}: found no JSON ({failure})") from None
+    content = read_json(path, "a JSON object")
     if not isinstance(content, dict):
         raise InputError(f"{path}: found {type(content).__name__}, expected a JSON object")
     return content

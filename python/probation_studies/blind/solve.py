@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TypeAlias
 
 import probation
-from probation._files import write_whole
+from probation._files import read_whole, write_whole
 from probation.origin import origin
 from probation.pool import Progress, run_all
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.seal import read_json
+from probation_studies.blind.seal import read_object
 from probation_studies.blind.solvers import solver_named
 
 Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
@@ -110,7 +110,7 @@ def solve_split(
 
 
 def _is_answered(path: Path) -> bool:
-    return path.is_file() and "error" not in read_json(path)
+    return path.is_file() and "error" not in read_object(path)
 
 
 def _solve_one(solvers: Mapping[Path, Solver], folder: str, name: str) -> dict[Path, dict[str, object]]:
@@ -134,5 +134,5 @@ def folder_sha256(folder: str | Path) -> str:
     """SHA-256 over the names and contents of a campaign's files."""
     digest = hashlib.sha256()
     for path in sorted(Path(folder).iterdir()):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+        digest.update(path.name.encode() + b"\0" + read_whole(path) + b"\0")
     return digest.hexdigest()

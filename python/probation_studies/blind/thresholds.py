@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from probation.errors import InputError
-from probation_studies.blind.seal import read_json
+from probation_studies.blind.seal import read_object
 
 _BOUNDS = ("at_least", "at_most")
 
@@ -65,7 +65,7 @@ def read_thresholds(path: str | Path) -> tuple[Threshold, ...]:
     InputError
         If it cannot be read, or holds something else.
     """
-    require = read_json(Path(path)).get("require")
+    require = read_object(Path(path)).get("require")
     if not isinstance(require, dict) or not require:
         raise InputError(f"{path}: found no thresholds, expected an object 'require' with at least one")
     return tuple(_threshold(Path(path), name, bounds) for name, bounds in require.items())
