@@ -100,6 +100,21 @@ def kind_of(path: str | os.PathLike[str]) -> str | None:
         return None
 
 
+def make_folder(path: str | os.PathLike[str]) -> None:
+    """Make a folder, and those it lies in, where they are not there yet.
+
+    Raises
+    ------
+    InputError
+        If it cannot be made.
+    """
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as failure:
+        reason = getattr(failure, "strerror", None) or failure
+        raise InputError(f"{path}: cannot be made a folder: {reason}; name another") from None
+
+
 def write_whole(path: str | os.PathLike[str], content: str | bytes) -> None:
     """Write a temporary file beside `path` and rename it, so that nobody ever reads half a file.
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from probation._files import write_whole
+from probation._files import make_folder, write_whole
 from probation.answers import PARAMETER_KEYS, json_answer
 from probation.certificate.certify import certify
 from probation.diagnosis.diagnose import diagnose
@@ -247,7 +247,7 @@ class Demo:
             What was written, for people.
         """
         root = Path(folder)
-        (root / "plots").mkdir(parents=True, exist_ok=True)
+        make_folder(root / "plots")
         self.report(root / "report.html")
         write_whole(root / "demo.json", self.to_json())
         written = ["report.html"]

@@ -130,7 +130,7 @@ def test_the_formats_are_listed(capsys):
         ([*WITH_COMPANION, "--format", "c", "-o", "a", "--folder", "b"], "found both -o and --folder"),
         (["--format", "c"], "found neither SOURCE nor --set"),
         (["x.json", *WITH_COMPANION, "--format", "c"], "found SOURCE beside --set or --companion"),
-        (["x.json", "--format", "all", "--folder", "."], "x.json: cannot be read"),
+        (["x.json", "--format", "all", "--folder", "."], "x.json: found no such file"),
         ([*WITH_COMPANION, "--format", "abaqus-prony"], "rate: found none"),
         ([*WITH_COMPANION, "--format", "c", "--rates", "1e-3;2"], "expected numbers between commas"),
     ],

@@ -168,7 +168,16 @@ def test_a_result_whose_name_is_long_or_impossible_is_written_or_refused(tmp_pat
     for name in ("x" * 300, "a\0b"):
         with pytest.raises(InputError, match="cannot be written"):
             write_whole(tmp_path / name, "whole")
+        with pytest.raises(InputError, match="cannot be made a folder"):
+            Campaign("x", (Record("a", *(np.linspace(0.0, 1.0, 10),) * 3),)).save(tmp_path / name)
     assert kind_of(tmp_path / "a\0b") is None
+
+
+@pytest.mark.parametrize("arguments", [["--folder"], ["-o"]])
+def test_a_place_that_cannot_be_written_to_is_bad_input(arguments, capfd):
+    law = [f"--set={name}=2" for name in ("unrelaxed_modulus_MPa", "hardening_modulus_MPa", "tau_max_s")]
+    assert cli.main(["export", *law, "--format", "c", *arguments, "x" * 300]) == 2
+    assert "unexpected" not in capfd.readouterr().err
 
 
 # Floods.

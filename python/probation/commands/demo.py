@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from probation._files import write_whole
+from probation._files import kind_of, write_whole
 from probation.commands.delivery import said, tell
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -55,5 +55,5 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check_folder(folder: Path) -> None:
-    if folder.exists() and not folder.is_dir():
+    if kind_of(folder) not in (None, "a folder"):
         raise InputError(f"--out {folder}: found a file, expected a folder or a new name")

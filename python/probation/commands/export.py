@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
+from probation._files import make_folder, write_whole
 from probation.commands.campaign_options import add_control, campaign_at
 from probation.commands.delivery import said, tell, warn
 from probation.commands.law_options import add_law_options, law_from_options
@@ -92,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     elif options.output is not None:
         said("file", exports[0].save(options.output))
     elif options.folder is not None:
-        Path(options.folder).mkdir(parents=True, exist_ok=True)
+        make_folder(options.folder)
         for each in exports:
             said("file", each.save(options.folder))
     if options.json == "-":

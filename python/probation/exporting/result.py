@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from probation._files import write_whole
+from probation._files import kind_of, write_whole
 from probation.answers import json_answer
 from probation.law.answer import law_answer
 from probation.report.estimate import percentage
@@ -67,7 +67,7 @@ class Export:
         InputError
             If it cannot be written.
         """
-        target = Path(path) / self.file_name if Path(path).is_dir() else Path(path)
+        target = Path(path) / self.file_name if kind_of(path) == "a folder" else Path(path)
         write_whole(target, self.text)
         return target
 

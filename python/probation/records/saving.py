@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from probation._files import make_folder
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.record import Record
 
@@ -28,7 +29,7 @@ def save_campaign(folder: Path, name: str, law: LawSettings, records: Sequence[R
     Path
         The campaign.toml.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     file_names = _file_names([record.id for record in records])
     for record, file_name in zip(records, file_names, strict=True):
         write_atomically(folder / file_name, csv_text(record))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
+from probation._files import kind_of
 from probation.commands.delivery import add_delivery, deliver, deliver_report, said
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     if options.list:
         print("\n".join(entry.name for entry in EXHIBITS))
         return 0
-    if options.out and Path(options.out).exists() and not Path(options.out).is_dir():
+    if options.out and kind_of(options.out) not in (None, "a folder"):
         raise InputError(f"--out {options.out}: found a file, expected a folder or a new name")
     with shown("the paper") as advance:
         answer = reproduce(options.only, seed=options.seed, draws=options.draws, progress=advance)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
+from probation._files import make_folder, write_whole
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.report.figures import save_figure
@@ -135,7 +135,7 @@ class Reproduction:
     def save_figures(self, folder: str | PathLike[str]) -> tuple[Path, ...]:
         """Save every figure as PNG into `folder`, which is made if need be, and this answer as paper.json."""
         root = Path(folder)
-        root.mkdir(parents=True, exist_ok=True)
+        make_folder(root)
         written = []
         for exhibit in self.exhibits.values():
             for drawing in exhibit.drawings:
