@@ -224,3 +224,14 @@ def test_a_chance_near_one_is_no_number_with_an_exponent():
 )
 def test_a_parameter_is_said_to_follow_only_what_the_scatter_between_records_allows(by_noise, by_scatter, text):
     assert changes_with(Drift("tau_max_s", {}, {}, 1e-9, by_noise, by_scatter, {})) == text
+
+
+def test_an_explanation_that_leaves_something_is_not_said_to_leave_only_noise():
+    best = made_up.self_heating().best
+    beyond = replace(best, effects=("self_heating", "unknown"))
+    assert "what is left may be noise and the form's error" in checks_text(best)
+    assert "what is left may be noise and the form's error" not in checks_text(beyond)
+
+
+def test_ranges_have_no_negative_zero():
+    assert span_text((-1e-5, 0.22)) == "0.00 to 0.22"

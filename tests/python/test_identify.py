@@ -331,3 +331,27 @@ def test_units_that_were_assumed_are_told_with_the_fit(tmp_path):
     told = "no unit is stated for column 'true_stress' of bare.csv: MPa assumed"
     assert f"warning: bare: {told}" in answer.summary()
     assert any(told in warning for warning in json.loads(answer.to_json())["warnings"])
+
+
+def test_intervals_hold_no_value_that_the_law_cannot_take():
+    """400 samples of noise as large as the stress: a symmetric interval of tau_max would reach below zero."""
+    answer = fit(Campaign("x", (ramp_record(samples=400, noise=30.0),)))
+    tau = answer.parameters["tau_max"]
+    assert tau.value - 1.97 * tau.se < 0.0
+    assert tau.interval95[0] == 0.0
+
+
+def test_the_product_is_withdrawn_with_a_modulus_that_is_zero():
+    time = np.linspace(0.0, 1.0, 100)
+    stress = probation.haward_thackray_strain(time) ** 2
+    answer = fit(Campaign("x", (Record("a", time, time, stress, control="strain-rate"),)))
+    assert answer.law.unrelaxed_modulus == 0.0
+    assert (answer.product.se, answer.product.status) == (None, "not_identifiable")
+
+
+def test_the_residual_is_not_said_to_be_a_sum_that_it_is_not():
+    """Noise and bias add in squares, and an estimate of the noise may be above the rms of the residual."""
+    answer = fit(Campaign("x", (ramp_record(),)))
+    (line,) = [each for each in answer.summary().splitlines() if "fit residual" in each]
+    assert "=" not in line
+    assert "+" not in line

@@ -126,18 +126,16 @@ def notes_on(found: Calibration) -> list[str]:
     if fits is not None and fits.unrelaxed_modulus is not None:
         how = "held by the campaign" if fits.unrelaxed_modulus_se == 0.0 else "shared by all records"
         notes.append(
-            f"E_u = {fits.unrelaxed_modulus:.5g} ± {fits.unrelaxed_modulus_se:.2g} MPa, {how}: the errors of τ_max "
-            "at each "
-            "rate are those at this E_u; the product E_u·τ_max is what is known. The relation's errors include E_u's."
+            f"E_u = {plus_minus(fits.unrelaxed_modulus, fits.unrelaxed_modulus_se)} MPa, {how}: the errors of τ_max at "
+            "each rate are those at this E_u; the product E_u·τ_max is what is known. The relation's errors include "
+            "E_u's."
         )
     elif companion.unrelaxed_modulus is not None:
-        se = found.candidates[found.chosen].direct
-        error = (
-            "held by the campaign" if se is None or not se.unrelaxed_modulus_se else f"± {se.unrelaxed_modulus_se:.2g}"
-        )
-        notes.append(
-            f"E_u = {companion.unrelaxed_modulus:.5g} MPa ({error}), shared by all records; G {found.hardening}; α = 1."
-        )
+        direct = found.candidates[found.chosen].direct
+        error = 0.0 if direct is None else direct.unrelaxed_modulus_se
+        how = "shared by all records" if error else "held by the campaign"
+        hardening = "G is each record's own" if found.hardening == "by-record" else "G is one for all"
+        notes.append(f"E_u = {plus_minus(companion.unrelaxed_modulus, error)} MPa, {how}; {hardening}; α = 1.")
     if found.check is not None:
         notes.append(check_text(found))
     if found.table is not None and found.table.se is None:

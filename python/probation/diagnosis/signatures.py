@@ -62,9 +62,8 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
         for drift in parameter_drift(whitened, names, _covariates(base)):
             if drift.heterogeneity_p_value >= LEVEL:
                 continue
-            low, high = min(drift.change.values()), max(drift.change.values())
-            changes = f"changes {changes_with(drift)}, by {low:+.3g} to {high:+.3g}"
-            text = f"{drift.parameter}, refitted record by record, {changes}"
+            reach = max(drift.change.values()) - min(drift.change.values())
+            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {reach:.3g}"
             found.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(found)
 

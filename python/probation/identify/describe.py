@@ -156,7 +156,8 @@ def _parameter(name: str, value: float, se: float | None, relative_error: float,
     if se is None:
         return Parameter(name, value, None, None, "not_identifiable", unit)
     reach = float(stdtrit(degrees, 0.975)) * se
-    return Parameter(name, value, se, (value - reach, value + reach), status_of(relative_error), unit)
+    interval = (max(value - reach, 0.0), value + reach)  # no parameter of the law is negative
+    return Parameter(name, value, se, interval, status_of(relative_error), unit)
 
 
 def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, withdrawn: bool) -> Parameter:

@@ -60,13 +60,14 @@ def ends_of(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]
         if value <= low * (1.0 + 1e-6) or value >= high * (1.0 - 1e-6):
             withdrawn.add(name)
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {_with_unit(value, name, 6)}")
+    ended = not withdrawn.isdisjoint(names[:2])
     if problem.held[1] or names[1] in withdrawn:
-        return Ends(frozenset(withdrawn), names[1] in withdrawn, tuple(warnings))
+        return Ends(frozenset(withdrawn), ended, tuple(warnings))
     low, high = search_range(problem, limits)
     value = float(values[1])
     end = "lower" if value <= low * EDGE else "upper" if value >= high / EDGE else ""
     if not end:
-        return Ends(frozenset(withdrawn), False, tuple(warnings))
+        return Ends(frozenset(withdrawn), ended, tuple(warnings))
     beyond = project(problem, value / BEYOND if end == "lower" else value * BEYOND)[0].parameters
     moved = np.abs(beyond - values) > IDENTIFIABLE * np.abs(values)
     product = abs(beyond[0] * beyond[1] - values[0] * value) > IDENTIFIABLE * abs(values[0] * value)
@@ -75,7 +76,7 @@ def ends_of(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]
         f"{_with_unit(high, names[1], 3)}; these records do not bound it"
     )
     withdrawn.update(names[index] for index in problem.free if moved[index])
-    return Ends(frozenset(withdrawn), bool(product), tuple(warnings))
+    return Ends(frozenset(withdrawn), ended or bool(product), tuple(warnings))
 
 
 def _with_unit(value: float, name: str, digits: int) -> str:

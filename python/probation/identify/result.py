@@ -195,7 +195,7 @@ class Fit:
         lines.append(f"  condition number of the scaled Jacobian: {self.condition_number:.3g}")
         lines += [
             "",
-            f"  fit residual: rms {self.rms_MPa:.4g} MPa = noise {self.noise_MPa:.4g} + bias {self.bias_MPa:.4g} MPa",
+            f"  fit residual [MPa]: rms {self.rms_MPa:.4g}, noise {self.noise_MPa:.4g}, bias {self.bias_MPa:.4g}",
         ]
         for each in self.records.values():
             lines.append(
