@@ -10,7 +10,7 @@ from probation.records.header import without_brackets
 from probation.records.options import ReadOptions
 from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, normalised, role_of
 from probation.records.table import Column, Table
-from probation.records.units import measures, spelling
+from probation.records.units import is_percent, measures
 
 # Roles that a heading of nothing but a unit implies, where no column plays one of these already. A stress or
 # a strain may be true or engineering, so its unit alone does not tell.
@@ -90,7 +90,7 @@ def _with_unit_of_label(role: str, column: Column) -> Column:
     needed = ROLES[role].unit
     for text in (column.label, _WORD_END.split(column.label)[-1]):
         unit = without_brackets(text)
-        if spelling(unit) == "percent" if needed == "dimensionless" else measures(unit, needed):
+        if is_percent(unit) if needed == "dimensionless" else measures(unit, needed):
             return replace(column, unit=unit)
     return column
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from probation.records.grid import Grid, is_number
 from probation.records.roles import normalised, role_of, split_suffix
 from probation.records.table import Column
-from probation.records.units import is_unit, measures, spelling
+from probation.records.units import is_percent, is_unit, measures
 
 _SEARCHED_ROWS = 400
 _LABORATORY_UNITS = ("s", "mm", "N", "MPa", "1/s")
@@ -110,7 +110,7 @@ def _names_units_of(names: Sequence[str], units: Sequence[str]) -> bool:
 def _is_laboratory_unit(cell: str) -> bool:
     """The cell is a unit that a heading cannot be mistaken for: not "strain", "cycle" or "t"."""
     text = without_brackets(cell)
-    return spelling(text) == "percent" or any(measures(text, unit) for unit in _LABORATORY_UNITS)
+    return is_percent(text) or any(measures(text, unit) for unit in _LABORATORY_UNITS)
 
 
 def _columns(row: Sequence[str], units_row: Sequence[str]) -> tuple[Column, ...]:

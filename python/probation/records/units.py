@@ -169,7 +169,7 @@ def convert(values: FloatArray, unit: str, target: str) -> FloatArray:
 
 
 def measures(text: str, target: str) -> bool:
-    """Tell whether the text spells a unit of what `target`, a unit as pint spells it, is a unit of.
+    """Tell whether the text spells a unit of what `target` is a unit of.
 
     >>> measures("kN", "N"), measures("kN", "mm"), measures("Load", "N")
     (True, False, False)
@@ -179,6 +179,15 @@ def measures(text: str, target: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def is_percent(text: str) -> bool:
+    """Tell whether the text spells hundredths.
+
+    >>> [is_percent(text) for text in ("%", "pct", "mm", "-")]
+    [True, True, False, False]
+    """
+    return parse_unit(text) == Unit(Fraction(1, 100))
 
 
 def is_unit(text: str) -> bool:
