@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
 import stat
 import tempfile
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from probation.errors import InputError
 from probation.limits import FILE_BYTES, MEBIBYTE, NESTING, NUMBER_DIGITS
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_BAD_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EINVAL)
+"""What the caller can mend by another name; a full disk or a lacking permission is no fault of the name."""
+_SHOWN = 40  # characters of a name that its temporary file keeps: with all of them the name may become too long
 _KINDS = {
     stat.S_IFDIR: "a folder",
     stat.S_IFIFO: "a pipe",
@@ -100,21 +108,6 @@ def kind_of(path: str | os.PathLike[str]) -> str | None:
         return None
 
 
-def make_folder(path: str | os.PathLike[str]) -> None:
-    """Make a folder, and those it lies in, where they are not there yet.
-
-    Raises
-    ------
-    InputError
-        If it cannot be made.
-    """
-    try:
-        Path(path).mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as failure:
-        reason = getattr(failure, "strerror", None) or failure
-        raise InputError(f"{path}: cannot be made a folder: {reason}; name another") from None
-
-
 def write_whole(path: str | os.PathLike[str], content: str | bytes) -> None:
     """Write a temporary file beside `path` and rename it, so that nobody ever reads half a file.
 
@@ -123,26 +116,105 @@ def write_whole(path: str | os.PathLike[str], content: str | bytes) -> None:
     Raises
     ------
     InputError
-        If it cannot be written.
+        If no file can have that name: its folder does not exist, or it is a folder itself.
+    OSError
+        If the system refuses: a full disk, no permission. `filename` is the path; what stood there is unchanged.
     """
+    check_file_place(path)
     data = content.encode() if isinstance(content, str) else content
     target = Path(path)
-    try:
+    with written_to(target):
         if target.exists() and not target.is_file():
             target.write_bytes(data)
-            return
-        _replace(target.resolve(), data)
+        else:
+            _replace(_real(target), data)
+
+
+def make_folder(path: str | os.PathLike[str]) -> Path:
+    """Make a folder and those above it, if they do not exist.
+
+    Raises
+    ------
+    InputError, OSError
+        As `write_whole` does.
+    """
+    check_folder_place(path)
+    with written_to(path):
+        Path(path).mkdir(parents=True, exist_ok=True)
+    return Path(path)
+
+
+def check_file_place(path: str | os.PathLike[str]) -> None:
+    """Refuse a path to which no file can be written, before anything is computed for it.
+
+    Raises
+    ------
+    InputError, OSError
+        As `write_whole` does.
+    """
+    target = Path(path)
+    with written_to(target):
+        if target.is_dir():
+            raise InputError(f"{target}: cannot be written: found a folder, expected a file")
+        folder = _real(target).parent
+        if not folder.exists():
+            raise InputError(f"{target}: cannot be written: found no folder {folder}; make it first")
+        _check_folder(folder, folder if not target.exists() or target.is_file() else target)
+        if target.is_file() and not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
+def check_folder_place(path: str | os.PathLike[str]) -> None:
+    """Refuse a path that is no folder and cannot become one.
+
+    Raises
+    ------
+    InputError, OSError
+        As `write_whole` does.
+    """
+    target = Path(path)
+    with written_to(target):
+        there = next(each for each in (_real(target), *_real(target).parents) if each.exists())
+        _check_folder(there, there)
+
+
+def _check_folder(folder: Path, written: Path) -> None:
+    if not folder.is_dir():
+        raise InputError(f"{folder}: found a file, expected a folder or a new name")
+    if not os.access(written, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
+@contextmanager
+def written_to(target: str | os.PathLike[str]) -> Iterator[None]:
+    """Let what the system refuses within the block name the path that was asked for, not one inside or beside it.
+
+    Raises
+    ------
+    InputError, OSError
+        As `write_whole` does.
+    """
+    try:
+        yield
+    except InputError:
+        raise
     except OSError as failure:
-        raise InputError(f"{target}: cannot be written: {failure.strerror or failure}") from None
+        raise refusal(target, failure) from None
     except ValueError as failure:  # a zero byte in the name
         raise InputError(f"{target}: cannot be written: {failure}") from None
 
 
+def refusal(target: str | os.PathLike[str], failure: OSError) -> InputError | OSError:
+    """What the system says of something inside or beside `target`, said of `target`."""
+    said = f"cannot be written: {failure.strerror or failure}"
+    if failure.errno in _BAD_PLACE:
+        return InputError(f"{target}: {said}")
+    return OSError(failure.errno or errno.EIO, said, str(target))
+
+
 def _replace(target: Path, data: bytes) -> None:
-    if not target.parent.is_dir():
-        raise InputError(f"{target}: cannot be written: found no folder {target.parent}; make it first")
     mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}-")  # a name has 255 bytes
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:_SHOWN]}-")
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)
@@ -151,6 +223,11 @@ def _replace(target: Path, data: bytes) -> None:
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def _real(path: Path) -> Path:
+    """Without links; `Path.resolve` fails, by Python's version, where they lead to each other."""
+    return Path(os.path.realpath(path))
 
 
 def _umask() -> int:

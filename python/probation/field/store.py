@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from probation._files import refusal
 from probation.errors import InputError
 from probation.field.extra import load
 from probation.field.status import MEANINGS, Status
@@ -125,7 +126,7 @@ class MapStore:
             Path(part).rename(self.path)
         except OSError as failure:
             shutil.rmtree(part, ignore_errors=True)
-            raise InputError(f"{self.path}: cannot be written: {failure.strerror or failure}") from None
+            raise refusal(self.path, failure) from None
 
     def write(self, block: Block, maps: Mapping[str, NDArray[Any]], cpu_seconds: float) -> None:
         """One block of all maps, then its mark: killed in between, the block counts as not done.

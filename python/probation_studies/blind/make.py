@@ -9,7 +9,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import cast
 
-from probation._files import write_whole
+from probation._files import make_folder, write_whole
 from probation.errors import InputError
 from probation.origin import origin
 from probation.pool import Progress, run_all
@@ -62,8 +62,8 @@ def make_split(
     if seed < 0 or count < 1:
         raise InputError(f"seed, count: found {seed}, {count}, expected a seed of at least 0 and a count of at least 1")
     layout = Layout(Path(folder), None if truths is None else Path(truths))
-    layout.campaigns.mkdir(parents=True, exist_ok=True)
-    layout.truths.mkdir(parents=True, exist_ok=True)
+    make_folder(layout.campaigns)
+    make_folder(layout.truths)
     _check_plan(layout, {"split": split, "seed": seed, "count": count})
     for left in layout.campaigns.glob(f"{_MAKING}*"):  # of a run that was killed
         shutil.rmtree(left)

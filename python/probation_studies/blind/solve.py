@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 import probation
-from probation._files import read_whole, write_whole
+from probation._files import make_folder, read_whole, write_whole
 from probation.origin import origin
 from probation.pool import Progress, run_all
 from probation_studies.blind.layout import Layout
@@ -87,7 +87,7 @@ def solve_split(
     places: dict[Path, Solver] = {} if solve is None else {layout.answers: solve}
     places |= {layout.baseline(name).answers: solver_named(name) for name in baselines}
     for place in places:
-        place.mkdir(parents=True, exist_ok=True)
+        make_folder(place)
         for half_written in place.glob(".*.json-*"):  # by a run that was killed
             half_written.unlink()
     jobs: dict[str, tuple[object, ...]] = {}

@@ -134,8 +134,7 @@ class Reproduction:
 
     def save_figures(self, folder: str | PathLike[str]) -> tuple[Path, ...]:
         """Save every figure as PNG into `folder`, which is made if need be, and this answer as paper.json."""
-        root = Path(folder)
-        make_folder(root)
+        root = make_folder(folder)
         written = []
         for exhibit in self.exhibits.values():
             for drawing in exhibit.drawings:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation._files import make_folder, written_to
 from probation.errors import InputError
 from probation.field.example import specimen
 from probation.field.example.superposition import superpose
@@ -76,14 +77,13 @@ def make_example(
     grid = BlockGrid((size, size), (chunk, chunk))
     part = Path(folder) / f"field.zarr.{os.getpid()}.part"
     try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        _create(part, grid, times, seed)
-        jobs = {block: (str(part), grid, times, seed, block) for block in grid.blocks()}
-        run_all(make_block, jobs, processes=processes, executor=executor, progress=progress, on_done=None)
-        _write_truth(truth, size)
-        part.rename(field)
-    except OSError as failure:
-        raise InputError(f"{folder}: cannot be written: {failure.strerror or failure}") from None
+        make_folder(folder)
+        with written_to(folder):
+            _create(part, grid, times, seed)
+            jobs = {block: (str(part), grid, times, seed, block) for block in grid.blocks()}
+            run_all(make_block, jobs, processes=processes, executor=executor, progress=progress, on_done=None)
+            _write_truth(truth, size)
+            part.rename(field)
     finally:
         shutil.rmtree(part, ignore_errors=True)
     return field, truth

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.errors import InputError
+from probation._files import make_folder, write_whole
 
 if TYPE_CHECKING:
     from probation_studies.blind.laboratory.material import FloatArray
@@ -53,18 +53,14 @@ class SealedCampaign:
 
         Raises
         ------
-        InputError
+        InputError, OSError
             If the folder cannot be written.
         """
-        folder = Path(folder)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            for record in self.records:
-                (folder / f"{record.id}.csv").write_text(_csv(record), encoding="utf-8")
-            (folder / "campaign.toml").write_text(self._toml(), encoding="utf-8")
-        except OSError as failure:
-            raise InputError(f"{folder}: cannot be written: {failure.strerror or failure}") from None
-        return folder
+        place = make_folder(folder)
+        for record in self.records:
+            write_whole(place / f"{record.id}.csv", _csv(record))
+        write_whole(place / "campaign.toml", self._toml())
+        return place
 
     def _toml(self) -> str:
         lines = [f"name = {json.dumps(self.name)}", "", "[law]", "modes = 50", "decades = 6.0"]
