@@ -72,6 +72,18 @@ def test_a_study_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
         study(2, **options)
 
 
+def test_a_line_that_a_kill_cut_off_does_not_spoil_the_next(tmp_path, monkeypatch):
+    """The next one was appended to it: started a third time, the study refused its own file."""
+    state = tmp_path / "state.jsonl"
+    options = {"cases": (CASES[3],), "methods": ("plain",), "state": state}
+    study(1, **options)
+    with state.open("a") as file:
+        file.write('[0, "cut o')
+    second = study(2, **options)
+    monkeypatch.setattr(coverage, "_judge", None)  # nothing is left to do
+    assert study(2, **options) == second
+
+
 def test_the_command_tells_and_writes(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(coverage, "CASES", (CASES[3],))
     monkeypatch.setattr(coverage.study, "__kwdefaults__", {**coverage.study.__kwdefaults__, "cases": (CASES[3],)})

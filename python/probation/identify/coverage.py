@@ -7,10 +7,7 @@ strain and stress: no line of it is shared with the law, the schemes or the nois
 from __future__ import annotations
 
 import json
-import multiprocessing
-import os
 from collections import defaultdict
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,17 +16,18 @@ import numpy as np
 from scipy.special import betaincinv
 
 from probation._arrays import FloatArray, as_whole_number
-from probation._files import kind_of, read_whole
+from probation._files import kind_of, read_whole, write_whole, written_to
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
 from probation.inference.parameter import SYMBOLS
+from probation.pool import run_all
 from probation.records.campaign import Campaign
 from probation.records.record import Record
 from probation.report.table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
     from os import PathLike
 
     from matplotlib.figure import Figure
@@ -265,14 +263,21 @@ def study(
     total = len(cases) * draws
     if progress:
         progress(total - len(jobs), total, "")
-    for done, (case, draw, result) in enumerate(_run(jobs, methods, seed, processes)):
+    done = total - len(jobs)
+
+    def keep(job: tuple[int, int], result: Result) -> None:
+        nonlocal done
+        done += 1
+        case, draw = cases[job[0]], job[1]
         found[_key(case, draw, methods)] = result
         if state is not None:
-            line = json.dumps([seed, *_key(case, draw, methods), result])
-            with Path(state).open("a", encoding="utf-8") as file:
-                file.write(line + "\n")
+            with written_to(state), Path(state).open("a", encoding="utf-8") as file:
+                file.write(json.dumps([seed, *_key(case, draw, methods), result]) + "\n")
         if progress:
-            progress(total - len(jobs) + done + 1, total, case.name)
+            progress(done, total, case.name)
+
+    arguments = {(cases.index(case), draw): (case, draw, methods, seed) for case, draw in jobs}
+    run_all(_judge, arguments, processes=processes, executor=None, progress=None, on_done=keep)
     return Coverage(
         tuple(
             _count(case, method, [found[_key(case, draw, methods)][method] for draw in range(draws)])
@@ -326,21 +331,6 @@ def _judge(case: Case, draw: int, methods: Sequence[Weighting], seed: int) -> Re
     return result
 
 
-def _run(
-    jobs: Sequence[tuple[Case, int]], methods: Sequence[Weighting], seed: int, processes: int
-) -> Iterator[tuple[Case, int, Result]]:
-    if processes == 1:
-        for case, draw in jobs:
-            yield case, draw, _judge(case, draw, methods, seed)
-        return
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # one thread each: the processes share the cores
-        os.environ.setdefault(name, "1")
-    with ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn")) as pool:
-        waiting = {pool.submit(_judge, case, draw, methods, seed): (case, draw) for case, draw in jobs}
-        for future in as_completed(waiting):
-            yield *waiting[future], future.result()
-
-
 def _count(case: Case, method: str, results: Sequence[dict[str, tuple[float, bool]]]) -> Counted:
     values: dict[str, list[float]] = defaultdict(list)
     hits: dict[str, int] = dict.fromkeys(TRUTH, 0)
@@ -360,13 +350,14 @@ def _kept(state: str | PathLike[str] | None, seed: int) -> dict[tuple[str, int, 
     if state is None or kind_of(state) is None:
         return {}
     kept: dict[tuple[str, int, str], Any] = {}
-    lines = read_whole(state).decode(errors="replace").splitlines()
-    for number, line in enumerate(lines, 1):
+    text = read_whole(state).decode(errors="replace")
+    whole = text[: text.rfind("\n") + 1]
+    if whole != text:  # the last line was cut off while it was written; the next must not go on with it
+        write_whole(state, whole)
+    for number, line in enumerate(whole.splitlines(), 1):
         try:
             found_seed, case, draw, methods, result = json.loads(line)
         except (ValueError, TypeError, RecursionError):
-            if number == len(lines):
-                break  # cut off while it was written
             raise InputError(f"{state}, line {number}: found {line[:40]!r}, expected a line of this study") from None
         if found_seed == seed:
             kept[case, draw, methods] = result
