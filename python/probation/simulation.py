@@ -51,8 +51,8 @@ class Simulation:
     stress_imposed: bool
     warnings: tuple[str, ...]
 
-    def summary(self) -> str:
-        """What came out, with a plot for the terminal."""
+    def summary(self, *, picture: bool = True) -> str:
+        """What came out, with a plot for the terminal unless `picture` is off."""
         from probation.records.text_plot import text_plot  # noqa: PLC0415 - records need not be read to simulate
 
         strain = f"true strain from {_number(self.true_strain.min())} to {_number(self.true_strain.max())}"
@@ -60,16 +60,15 @@ class Simulation:
         found, imposed = (strain, stress) if self.stress_imposed else (stress, strain)
         parameters = ", ".join(f"{key} {value:g}" for key, value in law_answer(self.law)["parameters"].items())
         if self.stress_imposed:
-            plot = text_plot(self.time, self.true_strain, "time [s]", "true strain [–]")
+            curve = (self.time, self.true_strain, "time [s]", "true strain [–]")
         else:
-            plot = text_plot(self.true_strain, self.true_stress, "true strain [–]", "true stress [MPa]")
+            curve = (self.true_strain, self.true_stress, "true strain [–]", "true stress [MPa]")
         lines = [
             f"Simulated {self.name}: {found}.",
             f"  {len(self.time)} instants over {_number(self.time[-1] - self.time[0])} s, {imposed}; {self.how}",
             f"  {parameters}{self._companion()}",
-            plot,
         ]
-        return "\n".join(lines)
+        return "\n".join([*lines, text_plot(*curve)] if picture else lines)
 
     @property
     def how(self) -> str:

@@ -6,7 +6,7 @@ import argparse
 import math
 
 from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
+from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme
 
@@ -57,8 +57,7 @@ def run(options: argparse.Namespace) -> int:
             hold=held,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

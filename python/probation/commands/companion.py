@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation.commands.campaign_options import add_control, campaign_at, is_data_file
-from probation.commands.delivery import add_delivery, deliver_files, deliver_report, said, tell
+from probation.commands.delivery import Output, add_delivery, deliver, output_folder, outputs_with_report, text_output
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_scheme
 from probation.errors import InputError
@@ -76,7 +75,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_delivery(parser)
     group = parser.add_argument_group("use")
     group.add_argument("--toml", action="store_true", help="print [law.companion] alone, to paste into a campaign.toml")
-    group.add_argument("--apply", metavar="OUT_FOLDER", help="write the campaign with this relation there")
+    group.add_argument(
+        "--apply", metavar="OUT_FOLDER", type=output_folder, help="write the campaign with this relation there"
+    )
     return parser
 
 
@@ -102,13 +103,13 @@ def run(options: argparse.Namespace) -> int:
             progress=advance,
         )
         text = answer.summary()
-    tell(text, sys.stderr if options.toml or options.json == "-" else sys.stdout)
-    if options.toml:
-        sys.stdout.write(answer.toml())
-    deliver_files(answer, options)
-    deliver_report(answer, options)
-    if options.apply and not isinstance(source, RateTable):
-        said("campaign", answer.apply(source).save(options.apply))
+
+    def apply(place: str) -> str:
+        assert not isinstance(source, RateTable)
+        return f"campaign {answer.apply(source).save(place)}"
+
+    relation = text_output("[law.companion]", "-" if options.toml else None, answer.toml)
+    deliver(text, [relation, *outputs_with_report(answer, options), Output("campaign", options.apply, apply)])
     return 0
 
 

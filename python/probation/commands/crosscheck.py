@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from probation.commands.delivery import add_delivery, deliver, deliver_report, warn
+from probation.commands.delivery import add_delivery, deliver, outputs_with_report, warn
 from probation.commands.law_options import make_law, read_settings
 from probation.commands.progress import shown
 from probation.errors import InputError
@@ -60,8 +60,7 @@ def run(options: argparse.Namespace) -> int:
         records = [campaign.record(each) for each in options.record] if options.record else campaign.records
         with shown("cross-checking") as advance:
             answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
 from probation.commands.campaign_options import (
     add_campaign,
     add_control,
@@ -15,7 +13,14 @@ from probation.commands.campaign_options import (
     campaign_from,
     with_held_out,
 )
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, said
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    named_numbers,
+    outputs_with_report,
+    text_output,
+    usual_outputs,
+)
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
@@ -116,8 +121,7 @@ def run(options: argparse.Namespace) -> int:
             threads=options.threads,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 
@@ -140,7 +144,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
         answer = compare(
             campaign, reference, options.scheme, pairs=pairs or None, effects=names, threads=options.threads
         )
-    deliver(answer, options)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0
 
 
@@ -151,8 +155,7 @@ def _isolability(
 
     with shown(f"what {campaign.name} could tell apart"):
         answer = campaign_isolability(campaign, options.scheme, effects=names, hold=held, threads=options.threads)
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 
@@ -167,14 +170,12 @@ def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
     if options.campaign:
         raise InputError(f"found the campaign {options.campaign[0]!r} with --list-effects, expected none")
     chosen = effects(names)
-    text = json_answer("probation.effects/1", {"effects": catalogue_json(chosen)}) if options.json else ""
-    if options.json == "-":
-        sys.stdout.write(text)
-        return 0
-    print(catalogue_table(chosen).rstrip())
-    if options.json:
-        write_whole(options.json, text)
-        said("JSON", options.json)
+    table = "" if options.json == "-" else catalogue_table(chosen).rstrip()
+
+    def to_json() -> str:
+        return json_answer("probation.effects/1", {"effects": catalogue_json(chosen)})
+
+    deliver(table, [text_output("JSON", options.json, to_json)])
     return 0
 
 

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
 from probation.commands.campaign_options import campaign_at, is_data_file
-from probation.commands.delivery import add_delivery, deliver, deliver_report, said
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    output_file_or_stream,
+    outputs_with_report,
+    text_output,
+    usual_outputs,
+)
 from probation.commands.progress import shown
 from probation.errors import InputError
 from probation.smoothing.methods import DEFAULT, METHODS
@@ -44,7 +49,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--record", metavar="ID", action="append", help="only this record; may be repeated")
     parser.add_argument("--method", choices=METHODS, default="auto", help="how strain becomes strain and rate (auto)")
     parser.add_argument(
-        "--csv", metavar="OUT.csv", help="write time, strain, rate and standard errors; - is standard output"
+        "--csv",
+        metavar="OUT.csv",
+        type=output_file_or_stream,
+        help="write time, strain, rate and standard errors; - is standard output",
     )
     parser.add_argument(
         "--compare",
@@ -80,14 +88,10 @@ def _describe(options: argparse.Namespace) -> int:
         )
     with shown("excitation") as advance:
         answer = describe_excitation(records, options.method, source=Path(options.file).name, progress=advance)
-    if options.csv == "-":
-        sys.stdout.write(answer.to_csv())
-    else:
-        deliver(answer, options)
-    if options.csv not in (None, "-"):
-        write_whole(options.csv, answer.to_csv())
-        said("CSV", options.csv)
-    deliver_report(answer, options)
+    deliver(
+        "" if options.csv == "-" else answer.summary(),
+        [text_output("CSV", options.csv, answer.to_csv), *outputs_with_report(answer, options)],
+    )
     return 0
 
 
@@ -136,7 +140,7 @@ def _compare(options: argparse.Namespace) -> int:
         raise InputError(f"found {found} beside --compare, expected only --draws, --seed, --json and --plot")
     with shown("comparing") as advance:
         answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
-    deliver(answer, options)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0
 
 

@@ -6,7 +6,7 @@ import argparse
 from typing import Literal
 
 from probation.commands.campaign_options import add_campaign, add_control, campaign_from
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
+from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_start
 from probation.smoothing.methods import METHODS as EXCITATIONS
@@ -88,8 +88,7 @@ def run(options: argparse.Namespace) -> int:
             intervals=options.intervals,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from probation._text import printable, raw_stream
+from probation.commands.streams import say
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -50,6 +51,6 @@ def _tenths(title: str) -> Callable[[int, int, str], None]:
 
     def advance(done: int, total: int, what: str) -> None:
         if 10 * done // total > 10 * (done - 1) // total:
-            print(f"{title}: {done} of {total}", file=sys.stderr, flush=True)
+            say(f"{title}: {done} of {total}")
 
     return advance

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import cast
 
 from probation.commands.cluster import add_cluster, cluster
-from probation.commands.delivery import add_delivery, deliver, deliver_report, said, tell, warn
+from probation.commands.delivery import add_delivery, deliver, output_folder, outputs_with_report, said, tell, warn
 from probation.commands.progress import shown
+from probation.commands.streams import say
 from probation.errors import InputError
 
 NAME = "blind"
@@ -36,8 +36,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     make.add_argument(
         "--split", choices=("develop", "calibrate", "test"), default="develop", help="what it may be used for (develop)"
     )
-    make.add_argument("--out", metavar="DIR", required=True, help="folder for campaigns and seals")
-    make.add_argument("--truths", metavar="DIR", help="folder for the truths (truths/ in --out)")
+    make.add_argument("--out", metavar="DIR", type=output_folder, required=True, help="folder for campaigns and seals")
+    make.add_argument("--truths", metavar="DIR", type=output_folder, help="folder for the truths (truths/ in --out)")
     solve = steps.add_parser("solve", help="answer every campaign")
     solve.add_argument("folder", metavar="DIR", help="as make left it")
     solve.add_argument(
@@ -50,7 +50,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="store_true",
         help="answer by nearest-signature, bic-argmin and score-screen, too, into DIR/baselines",
     )
-    solve.add_argument("--answers", metavar="DIR", help="folder for the answers (answers/ in DIR)")
+    solve.add_argument("--answers", metavar="DIR", type=output_folder, help="folder for the answers (answers/ in DIR)")
     solve.add_argument("--again", action="store_true", help="answer anew what has an answer")
     for step in (make, solve):
         add_cluster(step)
@@ -120,9 +120,9 @@ def _solve(options: argparse.Namespace) -> int:
             progress=advance,
             again=options.again,
         )
-    tell(f"{solved.now} answered now, {solved.before} before, {len(solved.failed)} failed\n", sys.stdout)
     for name, failure in solved.failed.items():
         warn(f"{name}: {failure}")
+    tell(f"{solved.now} answered now, {solved.before} before, {len(solved.failed)} failed\n")
     return 0
 
 
@@ -146,13 +146,12 @@ def _score(options: argparse.Namespace) -> int:
         beside=beside,
         after_opening=options.after_opening,
     )
-    deliver(score, options)
-    deliver_report(score, options)
     if score.split == "test":
         for seed in cast("list[int]", score.content["seeds"]):
             if spend_seed(seed, cast("int", score.content["campaigns"])):
                 said(f"seed {seed}, which is spent: commit", SEEDS_FILE)
+    deliver(score.summary(), outputs_with_report(score, options))
     fallen_short = failures(score.content, thresholds)
     for failure in fallen_short:
-        print(f"failed: {failure}", file=sys.stderr)
+        say(f"failed: {failure}")
     return 1 if fallen_short else 0

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from probation._files import kind_of
-from probation.commands.delivery import add_delivery, deliver, deliver_report, said
+from probation.commands.delivery import Output, add_delivery, deliver, output_file, output_folder, outputs_with_report
 from probation.commands.progress import shown
-from probation.errors import InputError
+from probation.commands.streams import put
 
 NAME = "paper"
 
@@ -35,8 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--draws", metavar="N", type=_whole(1), default=100, help="how many draws of noise or bias (100)"
     )
     add_delivery(parser)
-    parser.set_defaults(report=PAGE)
-    parser.add_argument("--out", metavar="DIR", help="save every figure into this folder, as PNG")
+    parser.add_argument("--out", metavar="DIR", type=output_folder, help="save every figure into this folder, as PNG")
     return parser
 
 
@@ -46,17 +44,16 @@ def run(options: argparse.Namespace) -> int:
     from probation_studies.paper.reproduction import reproduce  # noqa: PLC0415
 
     if options.list:
-        print("\n".join(entry.name for entry in EXHIBITS))
+        put("".join(f"{entry.name}\n" for entry in EXHIBITS))
         return 0
-    if options.out and kind_of(options.out) not in (None, "a folder"):
-        raise InputError(f"--out {options.out}: found a file, expected a folder or a new name")
+    options.report = options.report or output_file(PAGE)
     with shown("the paper") as advance:
         answer = reproduce(options.only, seed=options.seed, draws=options.draws, progress=advance)
-    deliver(answer, options)
-    deliver_report(answer, options)
-    if options.out:
-        written = answer.save_figures(options.out)
-        said(f"{len(written)} files", f"into {options.out}")
+
+    def save_figures(folder: str) -> str:
+        return f"{len(answer.save_figures(folder))} files into {folder}"
+
+    deliver(answer.summary(), [*outputs_with_report(answer, options), Output("figures", options.out, save_figures)])
     return 0
 
 
