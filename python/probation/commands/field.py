@@ -9,7 +9,7 @@ import time
 from probation.commands.cluster import add_cluster, cluster
 from probation.commands.delivery import add_delivery, deliver, named_numbers, output_folder, said, tell, usual_outputs
 from probation.commands.progress import shown
-from probation.commands.scheme_options import add_hold, add_scheme
+from probation.commands.scheme_options import add_hold, add_scheme, add_substeps
 from probation.commands.streams import say
 from probation.errors import InputError
 
@@ -52,6 +52,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "force, initial_area) where it is not named for it; repeatable",
     )
     add_scheme(identify)
+    add_substeps(identify)
     identify.add_argument(
         "--method", choices=("variable-projection", "levenberg-marquardt"), default="variable-projection", help="search"
     )
@@ -61,6 +62,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_hold(identify)
     identify.add_argument(
         "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
+    )
+    identify.add_argument(
+        "--sparse",
+        action="store_true",
+        help="chunks that are not there hold no data: for a store whose writer leaves out chunks of nothing but NaN",
     )
     identify.add_argument("--pixels", type=int, default=4096, help="of a task, at most (4096)")
     identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
@@ -115,7 +121,7 @@ def _identify(options: argparse.Namespace) -> int:
     law = None
     if options.companion is not None:
         law = Law(unrelaxed_modulus=1000.0, hardening_modulus=1.0, companion=companion_from(options.companion))
-    source = open_field(options.field, columns)
+    source = open_field(options.field, columns, sparse=options.sparse)
     begun = time.perf_counter()
     try:
         with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
@@ -126,6 +132,7 @@ def _identify(options: argparse.Namespace) -> int:
                 options.scheme,
                 method=options.method.replace("variable-projection", "variable projection"),
                 smoothing=not options.raw_strain,
+                substeps=options.substeps,
                 hold=named_numbers(options.hold, "--hold"),
                 pixels=options.pixels,
                 processes=options.processes,
