@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from itertools import combinations
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, one_of
+from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, kept_apart, one_of
 from probation.errors import InputError
 from probation.law.history import Jumps, looks_for_jumps
 from probation.law.modal import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
@@ -125,7 +126,7 @@ def identify_many(
     threads : int
         0: all cores.
     out : BulkIdentification, optional
-        Where to write.
+        Where to write, each attribute in memory of its own; records that share it are copied first.
 
     Returns
     -------
@@ -160,6 +161,9 @@ def identify_many(
     if noise is not None:
         weights = _as_noise(noise, records, n_samples)
     answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
+    if out is not None:
+        arrays = {name: kept_apart(each, *_outputs(out)) for name, each in arrays.items()}
+        weights = None if weights is None else kept_apart(weights, *_outputs(out))
     _core.identify_many(
         engine,
         arrays["time"],
@@ -230,7 +234,16 @@ def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
     if not isinstance(out, BulkIdentification):
         raise InputError(f"out is {out!r}; expected a BulkIdentification, such as BulkIdentification.empty({records})")
     wanted = BulkIdentification.empty(0)
-    for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
-        like = getattr(wanted, name)
+    for name, like in zip(_OUTPUTS, _outputs(wanted), strict=True):
         check_output(getattr(out, name), f"out.{name}", (records, *like.shape[1:]), like.dtype)
+    for one, other in combinations(_OUTPUTS, 2):
+        if np.may_share_memory(getattr(out, one), getattr(out, other)):
+            raise InputError(f"out.{one} and out.{other} share memory; each needs an array of its own")
     return out
+
+
+_OUTPUTS = ("parameters", "standard_error", "rms_residual", "status", "iterations")
+
+
+def _outputs(out: BulkIdentification) -> tuple[NDArray[Any], ...]:
+    return tuple(getattr(out, name) for name in _OUTPUTS)

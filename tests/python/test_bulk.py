@@ -329,3 +329,22 @@ def test_an_argument_of_another_kind_is_named(arguments, named):
         identify_many(LAW, TIME, STRAIN, STRAIN, **arguments)
     with pytest.raises(probation.InputError, match="law"):
         identify_many(3, TIME, STRAIN, STRAIN)
+
+
+def test_records_in_the_memory_of_the_answer_are_read_first():
+    stress = noisy(300)
+    expected = identify_many(LAW, TIME, STRAIN, stress)
+    memory = np.empty(300 * len(TIME))
+    inside = memory.reshape(300, -1)
+    inside[:] = stress
+    out = replace(BulkIdentification.empty(300), parameters=memory[:900].reshape(300, 3), rms_residual=memory[900:1200])
+    identify_many(LAW, TIME, STRAIN, inside, threads=1, out=out)
+    assert_allclose(out.parameters, expected.parameters, rtol=0.0)
+    assert_allclose(out.rms_residual, expected.rms_residual, rtol=0.0)
+
+
+def test_answers_that_share_memory_are_refused():
+    memory = np.empty((6, 3))
+    out = replace(BulkIdentification.empty(6), parameters=memory, standard_error=memory)
+    with pytest.raises(probation.InputError, match=r"out\.parameters and out\.standard_error share memory"):
+        identify_many(LAW, TIME, STRAIN, noisy(), out=out)

@@ -74,9 +74,14 @@ class Companion:
         return np.asarray(self._engine().relaxation_time(seen), dtype=np.float64)
 
     def weissenberg_number(self, rate: ArrayLike) -> FloatArray:
-        """We = tau_max r, eq. (10); shape (n,) [-]."""
+        """We = tau_max r, eq. (10); shape (n,) [-]. Raises as `relaxation_time` does."""
         seen: FloatArray = np.maximum(np.abs(np.atleast_1d(rate)), self.rate_floor)
-        return self.relaxation_time(rate) * seen
+        with np.errstate(over="ignore"):
+            number: FloatArray = self.relaxation_time(rate) * seen
+        if not np.isfinite(number).all():
+            fastest = seen[~np.isfinite(number)][0]
+            raise InputError(f"rate is {fastest} 1/s; its Weissenberg number is beyond all numbers")
+        return number
 
     def outside(self, rate: ArrayLike) -> tuple[float, float] | None:
         """The range of the given rates [1/s] if it leaves the calibrated one, else None.

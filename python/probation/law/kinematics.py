@@ -28,7 +28,7 @@ def haward_thackray_strain(true_strain: ArrayLike) -> FloatArray:
     Raises
     ------
     InputError
-        If the input is not one-dimensional or has a sample that is not finite.
+        If the input is not one-dimensional, or has a sample that is not finite or whose stretch is beyond all numbers.
 
     References
     ----------

@@ -296,7 +296,8 @@ class Law:
         InputError
             Naming the argument, what was found and what was expected.
         ConvergenceError
-            If CVODE or the iteration of a feedback fails; it has `time` and `residual_norm`.
+            If CVODE or the iteration of a feedback fails, or the stress is not finite; it has `time` and
+            `residual_norm`.
         """
         options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
         changed = engine_change(change)
@@ -335,6 +336,11 @@ class Law:
         -------
         stress : ndarray, shape (n_times,) [MPa]
         sensitivity : ndarray, shape (n_times, n_directions) [MPa per unit]
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As `stress` does; also where a derivative is not finite.
         """
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
@@ -370,6 +376,11 @@ class Law:
         ndarray, shape (n_times, n_times) [MPa]
             Lower triangular but for the central differences of sa2 and sa3, which look one sample ahead where tau_max
             depends on the rate.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As `stress` does; also where a derivative is not finite.
         """
         solver = self.solver(
             time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction

@@ -31,7 +31,7 @@ def ramp_stress(law: Law, strain_rate: float, time: ArrayLike) -> FloatArray:
     Raises
     ------
     InputError
-        If a time is negative or the rate is not finite.
+        If a time is negative, the rate is not finite, or a stress is beyond all numbers; then with rate and time.
 
     References
     ----------
