@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/weissenberg.hpp"
 #include "probation/feedback/self_heating.hpp"
 #include "probation/feedback/stress_activation.hpp"
 #include "probation/solver.hpp"

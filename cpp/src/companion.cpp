@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <sstream>
 
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/weissenberg.hpp"
 
 namespace probation {
 

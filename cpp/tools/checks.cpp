@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "paths.hpp"
-#include "probation/law/modal/companion/exponential.hpp"
-#include "probation/law/modal/companion/power_law.hpp"
-#include "probation/law/modal/companion/table.hpp"
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/exponential.hpp"
+#include "probation/companion/power_law.hpp"
+#include "probation/companion/table.hpp"
+#include "probation/companion/weissenberg.hpp"
 #include "probation/material/measures.hpp"
 #include "probation/material/uniaxial.hpp"
 #include "probation/solver.hpp"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/weissenberg.hpp"
 #include "probation/feedback/self_heating.hpp"
 #include "probation/feedback/stress_activation.hpp"
 #include "probation/solver.hpp"

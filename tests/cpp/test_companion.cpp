@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "probation/law/modal/companion/exponential.hpp"
-#include "probation/law/modal/companion/power_law.hpp"
-#include "probation/law/modal/companion/rate_shift.hpp"
-#include "probation/law/modal/companion/table.hpp"
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/exponential.hpp"
+#include "probation/companion/power_law.hpp"
+#include "probation/companion/rate_shift.hpp"
+#include "probation/companion/table.hpp"
+#include "probation/companion/weissenberg.hpp"
 
 using namespace probation;
 

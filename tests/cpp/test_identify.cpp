@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "identify/box_fit.hpp"
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/weissenberg.hpp"
 #include "probation/identify/identify.hpp"
 #include "unit_solves.hpp"
 

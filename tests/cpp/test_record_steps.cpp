@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kernel_runs.hpp"
-#include "probation/law/modal/companion/power_law.hpp"
-#include "probation/law/modal/companion/weissenberg.hpp"
+#include "probation/companion/power_law.hpp"
+#include "probation/companion/weissenberg.hpp"
 
 using namespace probation;
 using Eigen::ArrayXd;

@@ -2,7 +2,7 @@
 // Companion relation: a power of the rate.
 
 #include "probation/companion.hpp"
-#include "probation/law/modal/companion/forms.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "probation/companion.hpp"
-#include "probation/law/modal/companion/forms.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 

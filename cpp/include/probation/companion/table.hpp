@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "probation/companion.hpp"
-#include "probation/law/modal/companion/forms.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 

@@ -2,7 +2,7 @@
 // Companion relation, eq. (11): the Weissenberg number is linear in log10(rate).
 
 #include "probation/companion.hpp"
-#include "probation/law/modal/companion/forms.hpp"
+#include "probation/companion/forms.hpp"
 
 namespace probation {
 

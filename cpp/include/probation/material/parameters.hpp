@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "probation/law/modal/companion/forms.hpp"
+#include "probation/companion/forms.hpp"
 #include "probation/log_spaced.hpp"
 
 namespace probation::material {
