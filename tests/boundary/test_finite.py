@@ -134,7 +134,7 @@ def test_ramps(law, rate, time):
 @thorough
 @given(laws(), histories(), st.lists(st.floats(0.0, 100.0) | finite, min_size=8, max_size=8))
 def test_creep(law, history, stress):
-    finite_or_refused(lambda: probation.law.creep(law, history[0], np.array(stress)[: len(history[0])]))
+    finite_or_refused(lambda: probation.creep(law, history[0], np.array(stress)[: len(history[0])]))
 
 
 @thorough

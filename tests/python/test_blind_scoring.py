@@ -330,7 +330,7 @@ def test_made_solved_and_scored_on_the_command_line(tmp_path, capsys):
     score = ["blind", "score", str(folder), "--truths", str(tmp_path / "kept"), "--report", str(page)]
     assert main([*score, "--json", "-"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["schema"] == "probation_studies.blind.score/1"
+    assert told["schema"] == "probation.blind.score/1"
     assert told["scores"]["answers"]["by_stratum"]["none"]["top1"]["rate"] == 1.0
     assert told["seeds"] == [1]
     assert told["aims"][0]["aim"] == "false alarms on nulls"

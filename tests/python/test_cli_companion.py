@@ -47,7 +47,7 @@ def test_table_2_tells_its_verdict_first_and_the_findings_after(tmp_path, capsys
     assert "+7.2, +4.4, +3.9 %" in out
     assert "1.196 and 1.222" in out
     told = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
-    assert told["schema"] == "probation.law.companion/1"
+    assert told["schema"] == "probation.companion/1"
     assert told["relations"]["weissenberg"]["parameters"]["intercept"]["value"] == pytest.approx(0.0406, abs=5e-5)
     assert told["paper"]["alpha_ratios"][0]["as_printed"] == pytest.approx(1.196, abs=0.01)
     page = (tmp_path / "a.html").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from probation.schemes.steps import observed_order
 
 @pytest.fixture(scope="module")
 def answer():
-    return probation.schemes.crosscheck()
+    return probation.crosscheck()
 
 
 def schemes(answer, record):
@@ -51,7 +51,7 @@ def test_the_verdict_comes_first_and_says_the_largest_difference(answer):
 
 def test_the_answer_as_json_carries_every_scheme(answer):
     told = json.loads(answer.to_json())
-    assert told["schema"] == "probation.schemes.crosscheck/1"
+    assert told["schema"] == "probation.crosscheck/1"
     first = told["records"][0]
     assert {check["name"] for check in first["schemes"]} == set(schemes(answer, 0))
     assert first["schemes"][4]["order"] is None
@@ -69,7 +69,7 @@ def test_progress_is_told():
     told = []
     twin = experiment_1()
     record = Record(id="r", time=twin.time[:50], true_strain=twin.true_strain[:50], true_stress=twin.true_stress[:50])
-    probation.schemes.crosscheck([record, replace(record, id="s")], RAMP_LAW, progress=lambda *what: told.append(what))
+    probation.crosscheck([record, replace(record, id="s")], RAMP_LAW, progress=lambda *what: told.append(what))
     assert told[0][:2] == (0, 2)
     assert told[-1] == (1, 2, "s by eq. (7)")
 
@@ -85,7 +85,7 @@ def test_on_a_rough_record_cvode_still_agrees_with_exact():
     record = Record(
         id="rough", time=twin.time[:300], true_strain=twin.true_strain[:300], true_stress=twin.true_stress[:300]
     )
-    found = schemes(probation.schemes.crosscheck([record], RAMP_LAW), 0)
+    found = schemes(probation.crosscheck([record], RAMP_LAW), 0)
     assert found["cvode"].failure == ""
     assert found["cvode"].largest_error_MPa < 1e-6
 
@@ -101,7 +101,7 @@ def test_a_scheme_that_fails_is_told_and_the_others_go_on(monkeypatch):
         return solver(law, time, true_strain, scheme, **options)
 
     monkeypatch.setattr(probation.Law, "solver", refuse)
-    answer = probation.schemes.crosscheck([twin.record()], twin.truth)
+    answer = probation.crosscheck([twin.record()], twin.truth)
     assert schemes(answer, 0)["cvode"].failure == "stopped at t = 3 s"
     assert answer.verdict.startswith("All schemes but cvode, which failed, agree within")
     assert "cvode failed: stopped at t = 3 s" in answer.summary()
@@ -114,7 +114,7 @@ def test_an_order_is_not_observed_below_round_off():
 
 def test_records_need_a_law():
     with pytest.raises(probation.InputError, match="expected both or neither"):
-        probation.schemes.crosscheck([experiment_1().record()])
+        probation.crosscheck([experiment_1().record()])
 
 
 def test_the_command_takes_a_campaign_and_a_law(tmp_path, capsys):

@@ -52,7 +52,7 @@ def test_csv_json_plot_and_page_are_written(jump_file, tmp_path, capsys):
     assert rows.shape == (1501, 5)
     assert np.quantile(np.abs(rows[:740, 2] / 1.7e-3 - 1.0), 0.95) < 0.005
     answer = json.loads((tmp_path / "out.json").read_text())
-    assert answer["schema"] == "probation.smoothing/1"
+    assert answer["schema"] == "probation.excitation/1"
     found = answer["records"]["jump"]
     assert found["method"] == "spline"
     assert found["rate_jumps_s"] == [pytest.approx(40.0, abs=0.1)]
@@ -140,7 +140,7 @@ def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypa
     assert main(["excitation", "--compare", *arguments]) == 0
     assert capsys.readouterr().out.startswith("Default quintic-spline: 95 % of the rates are within 0.0")
     answer = json.loads((tmp_path / "c.json").read_text())
-    assert answer["schema"] == "probation.smoothing-comparison/1"
+    assert answer["schema"] == "probation.excitation-comparison/1"
     assert {row["method"] for row in answer["results"]} == {"raw", "quintic-spline"}
 
 

@@ -62,7 +62,7 @@ USES = {
     "certify": lambda odd: certify(Campaign("x", (usual(), odd))),
     "companion": lambda odd: calibrate_companion(Campaign("x", (odd, usual()))),
     "diagnose": lambda odd: diagnose(Campaign("x", (odd,))),
-    "crosscheck": lambda odd: probation.schemes.crosscheck(
+    "crosscheck": lambda odd: probation.crosscheck(
         [odd], Law(unrelaxed_modulus=3000.0, tau_max=5.0, hardening_modulus=2.5)
     ),
 }

@@ -102,7 +102,7 @@ def material(tmp_path_factory):
     law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
     records = []
     for name, rate in (("a", 0.005), ("b", 0.01), ("c", 0.02)):
-        made = probation.simulation(law, probation.named_history("ramp", rate=rate, strain=0.5, samples=60))
+        made = probation.simulate(law, probation.named_history("ramp", rate=rate, strain=0.5, samples=60))
         noise = probation.Noise(stress_MPa=0.05)
         records.append(
             probation.Record(name, made.time, made.true_strain, made.true_stress, control="strain-rate", noise=noise)

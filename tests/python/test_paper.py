@@ -285,7 +285,7 @@ def test_every_axis_is_labelled(paper):
 
 def test_the_json_holds_every_number_and_where_it_came_from(paper):
     answer = json.loads(paper.to_json())
-    assert answer["schema"] == "probation_studies.paper/1"
+    assert answer["schema"] == "probation.paper/1"
     assert answer["seed"] == 0
     assert answer["version"]
     assert len(answer["data_sha256"]) == 64

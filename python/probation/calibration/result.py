@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from probation.calibration.record_fits import RecordFits, RecordRate
     from probation.records.campaign import Campaign
 
-SCHEMA = "probation.law.companion/1"
+SCHEMA = "probation.companion/1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -311,7 +311,7 @@ class Calibration:
         ]
 
     def to_json(self) -> str:
-        """The answer as JSON text, schema "probation.law.companion/1"."""
+        """The answer as JSON text, schema "probation.companion/1"."""
         return json_answer(SCHEMA, self.to_dict())
 
     def plot(self) -> Figure:

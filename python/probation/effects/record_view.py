@@ -189,7 +189,7 @@ def view_of(
     ----------
     record : Record
     excitation : Excitation
-        From `probation.smoothing.excite`, at the samples.
+        From `probation.excite`, at the samples.
     index, count, reference_rate, scheme
         As in `RecordView`.
     substeps : int

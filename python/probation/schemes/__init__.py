@@ -1,1 +1,1 @@
-"""The schemes side by side: what `probation.schemes.crosscheck` is made of."""
+"""The schemes side by side: what `probation.crosscheck` is made of."""

@@ -155,9 +155,9 @@ class CrossCheck:
         return crosscheck_plot([record.steps for record in self.records if record.steps is not None])
 
     def to_json(self) -> str:
-        """The answer, schema "probation.schemes.crosscheck/1"."""
+        """The answer, schema "probation.crosscheck/1"."""
         return json_answer(
-            "probation.schemes.crosscheck/1",
+            "probation.crosscheck/1",
             {
                 "verdict": self.verdict,
                 "agreement_MPa": self.agreement_MPa,

@@ -267,9 +267,9 @@ class ExcitationAnswer:
         return "\n\n".join(parts)
 
     def to_json(self) -> str:
-        """As JSON, schema "probation.smoothing/1"."""
+        """As JSON, schema "probation.excitation/1"."""
         content = {"source": self.source, "records": {each.id: each.content() for each in self.records}}
-        return json_answer("probation.smoothing/1", content)
+        return json_answer("probation.excitation/1", content)
 
     def to_csv(self) -> str:
         """Strain and rate with their standard errors at the samples.

@@ -119,7 +119,7 @@ class Comparison:
         return comparison_figure(self)
 
     def to_json(self) -> str:
-        """The comparison as JSON, schema "probation.smoothing-comparison/1"."""
+        """The comparison as JSON, schema "probation.excitation-comparison/1"."""
         rows = []
         for (history, noise, method), each in self.results.items():
             row: dict[str, object] = {"history": history, "strain_noise": noise, "method": method}
@@ -129,7 +129,7 @@ class Comparison:
                 row |= {"p95": each.p95, "median": each.median, "coverage95": each.coverage}
             rows.append(row)
         content = {"default": DEFAULT, "verdict": self.verdict, "draws": self.draws, "seed": self.seed, "results": rows}
-        return json_answer("probation.smoothing-comparison/1", content)
+        return json_answer("probation.excitation-comparison/1", content)
 
     def _table(self, caption: str, cell: Callable[[Closeness], str]) -> Table:
         rows = []

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from probation_studies.blind.scores.answer import Answer
     from probation_studies.blind.scores.case import Case
 
-SCORE_SCHEMA = "probation_studies.blind.score/1"
+SCORE_SCHEMA = "probation.blind.score/1"
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 from probation._files import read_json, write_whole
 from probation.errors import InputError
 
-SEALS_SCHEMA = "probation_studies.blind.seals/1"
+SEALS_SCHEMA = "probation.blind.seals/1"
 SEALS_FILE = "seals.json"
 _SALT_BYTES = 32
 

@@ -23,7 +23,7 @@ from probation_studies.blind.solvers import solver_named
 Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
 """From a campaign's folder to the answer of ``probation diagnose --json``."""
 
-ANSWER_SCHEMA = "probation_studies.blind.answer/1"
+ANSWER_SCHEMA = "probation.blind.answer/1"
 
 
 @dataclass(frozen=True)

@@ -110,9 +110,9 @@ class Reproduction:
         raise InputError(f"plot: found no figure in {', '.join(self.exhibits)}, expected an exhibit with one")
 
     def to_json(self) -> str:
-        """The answer, schema "probation_studies.paper/1"."""
+        """The answer, schema "probation.paper/1"."""
         return json_answer(
-            "probation_studies.paper/1",
+            "probation.paper/1",
             {
                 "verdict": self.verdict,
                 "reproduced": self.count("reproduced"),

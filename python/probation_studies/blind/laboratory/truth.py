@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, field
 
-SCHEMA = "probation_studies.blind.truth/1"
+SCHEMA = "probation.blind.truth/1"
 _OUTSIDE_NAMES = {
     "noise_level": "noise_MPa",
     "added_stress": "added_MPa",
