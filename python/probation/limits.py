@@ -41,7 +41,6 @@ NUMBER_DIGITS = 100
 
 LARGEST = {
     "time": 1e12,
-    "true_strain": 300.0,
     "engineering_strain": 1e6,
     "stretch": 1e6,
     "displacement": 1e9,
@@ -54,9 +53,9 @@ LARGEST = {
 }
 """Largest magnitude of a measured quantity, in its internal unit (s, -, mm, MPa, N, 1/s, °C).
 
-30 000 years; e^300 = 1e130 times the length, so that 300 % without a unit is still warned of; a million times it;
-1000 km; a million times the strength of steel (1 PN on 1 mm²); faster than light crosses an atom. Squares and products
-of such numbers stay below the largest float, 1e308.
+30 000 years; a million times the length (a true strain has a limit of its own, `records.strain_limits`); 1000 km; a
+million times the strength of steel (1 PN on 1 mm²); faster than light crosses an atom. Squares and products of such
+numbers stay below the largest float, 1e308.
 """
 
 SMALLEST = {"true_strain": 1e-30, "true_stress": 1e-30}

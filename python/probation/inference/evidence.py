@@ -24,6 +24,7 @@ from scipy.special import logsumexp
 
 from probation.inference.laplace import Linearised
 from probation.inference.unknown import log_evidence_of_unknown
+from probation.noise.span import span_of, without
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -81,6 +82,10 @@ def evidence(
     unknown : bool
         Whether an unknown effect beside it is looked for, too; else its evidence is -inf.
     """
+    if forms is not None:
+        # What the parameters follow is theirs. Left in, it would let the prior draw a large effect back to nothing
+        # while the errors of its form, which are part of the effect, stay as large as they were.
+        forms = without(forms, span_of(found.jacobian))
     problem = Linearised.of(found, discrepancy, forms)
     done = discrepancy.energy(found.residual - base.residual)
     errors, weights = (FORM_ERRORS, FORM_WEIGHTS) if done.any() else ((0.0,), (1.0,))

@@ -22,11 +22,7 @@ UNKNOWN = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class Linearised:
-    """The linearised problem in the few numbers that the integral needs.
-
-    The priors stand around the optimum, as broad as they are, and cost what they say of it. What a form may err by is
-    part of the effect there: were the prior to pull a large effect back to nothing, its form's errors would stay.
-    """
+    """The linearised problem in the few numbers that the integral needs."""
 
     square: float
     gradient: FloatArray
@@ -34,6 +30,7 @@ class Linearised:
     waves_of_residual: FloatArray
     waves_of_jacobian: FloatArray
     drift: FloatArray
+    away: FloatArray
     precision: FloatArray
     log_prior: float
     bound_factor: float
@@ -58,7 +55,9 @@ class Linearised:
             np.where(effects, np.where(period > 0.0, 0.5 * period, room), np.inf) for room in (below, above)
         )
         flat = effects & (coordinates.precision == 0.0)
+        centre = np.where(flat, x, coordinates.centre)
         precision = np.where(flat, (below + above) ** -2.0, coordinates.precision)
+        normal_part = -0.5 * coordinates.precision * (x - coordinates.centre) ** 2
         # Beside the parameters stand the errors of their forms, standard normal; their integral is a marginal density.
         more = np.zeros((len(residual), 0)) if forms is None else forms
         count = more.shape[1]
@@ -70,8 +69,12 @@ class Linearised:
             waves_of_residual=-discrepancy.of_columns(residual),
             waves_of_jacobian=discrepancy.of_columns(inside),
             drift=discrepancy.drift,
+            away=np.append((centre - x)[free], np.zeros(count)),
             precision=np.append(precision[free], np.ones(count)),
-            log_prior=model.log_prior(found.parameters) - 0.5 * count * float(np.log(2.0 * np.pi)),
+            # Normalisation of the priors and, held at a bound, their value there.
+            log_prior=model.log_prior(found.parameters)
+            - float(np.sum(normal_part[free]))
+            - 0.5 * count * float(np.log(2.0 * np.pi)),
             bound_factor=_at_bounds(jacobian, precision, np.abs(gradient), free, below + above),
             free=free,
             below=np.append(below[free], np.full(count, np.inf)),
@@ -89,13 +92,14 @@ class Linearised:
         gradient = self.gradient - taken[:-1, -1]
         square = self.square - float(taken[-1, -1])
         total = normal + np.diag(self.precision)
+        pull = gradient + self.precision * self.away
         size = np.sqrt(np.maximum(np.diag(total), 1e-300))
         values, vectors = np.linalg.eigh(total / np.outer(size, size))
         # A direction that neither data nor priors know is left where it is: its slope is rounding.
-        turned = np.where(values > UNKNOWN, vectors.T @ (gradient / size), 0.0)
+        turned = np.where(values > UNKNOWN, vectors.T @ (pull / size), 0.0)
         values = np.maximum(values, UNKNOWN)
         step = (vectors @ (turned / values)) / size
-        quadratic = square - float(turned @ (turned / values))
+        quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
         deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
         cut = float(np.sum(_log_inside(-(self.below + step) / deviation, (self.above - step) / deviation)))
         log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))

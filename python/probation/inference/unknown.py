@@ -34,13 +34,13 @@ RECORDS = 2
 
 
 def log_evidence_of_unknown(
-    problem: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
+    told: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
 ) -> float:
     """Log evidence of an explanation with an unknown effect beside it.
 
     Parameters
     ----------
-    problem : Linearised
+    told : Linearised
         The explanation, its forms' errors included.
     found : Refit
         The same as it was found.
@@ -48,6 +48,8 @@ def log_evidence_of_unknown(
     forms : ndarray, shape (N, m), optional
         Ways in which its forms may be wrong.
     """
+    nothing = np.zeros(len(discrepancy))
+    problem = _where_it_is(told)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual
     left = np.array(
@@ -63,7 +65,13 @@ def log_evidence_of_unknown(
         np.log(IN_ONE / count) + float(logsumexp(one)),
         np.log(IN_EACH) + _in_each(problem, discrepancy, left),
     ]
-    return float(logsumexp(scores))
+    return float(logsumexp(scores)) + told.log_integral(nothing) - problem.log_integral(nothing)
+
+
+def _where_it_is(problem: Linearised) -> Linearised:
+    """The same with priors as broad as they are, but around the optimum."""
+    # An unknown effect must earn by what it describes, not by making a large effect beside it small.
+    return replace(problem, away=np.zeros_like(problem.away))
 
 
 def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArray) -> float:
@@ -80,7 +88,7 @@ def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, col
     # What the law's own parameters, of flat priors, can follow is free; left in, it would cost digits.
     columns = without(columns, span_of(found.jacobian[:, : found.model.base_count]))
     together = columns if forms is None else np.hstack([forms, columns])
-    beside = Linearised.of(found, discrepancy, together)
+    beside = _where_it_is(Linearised.of(found, discrepancy, together))
     nothing = np.zeros(len(beside.waves_of_residual))
     scores = []
     for size in SIZES:

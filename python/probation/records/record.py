@@ -38,7 +38,7 @@ class Noise:
         for name, value in (("stress_MPa", self.stress_MPa), ("strain", self.strain)):
             if value is not None and not 0.0 <= value < np.inf:
                 raise InputError(f"noise.{name}: found {value!r}, expected a number of at least 0")
-            largest = LARGEST["true_stress" if name == "stress_MPa" else "true_strain"]
+            largest = LARGEST["true_stress"] if name == "stress_MPa" else LARGEST_TRUE_STRAIN
             if value is not None and value != 0.0 and not SMALLEST_PARAMETER <= value <= largest:
                 raise InputError(
                     f"noise.{name}: found {value!r}, expected 0 or a number from {SMALLEST_PARAMETER:g} to {largest:g}"
