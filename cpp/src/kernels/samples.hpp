@@ -20,17 +20,4 @@ struct SamplePasses {
   bool (*secant_changes)(const double* time, const double* values, std::int64_t count, double least);
 };
 
-/// In the build of the kernels that runs.
-const SamplePasses& sample_passes();
-
-namespace portable {
-extern const SamplePasses sample_passes;
-}
-namespace baseline {
-extern const SamplePasses sample_passes;
-}
-namespace v3 {
-extern const SamplePasses sample_passes;
-}
-
 }  // namespace probation::kernels
