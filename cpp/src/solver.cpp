@@ -16,8 +16,6 @@ namespace probation {
 
 using Eigen::Index;
 
-namespace {
-
 /// One direction's states and outputs while a tangent is swept.
 struct TangentState {
   Eigen::ArrayXd state, before, log_inverse, weight, stress;
@@ -64,8 +62,6 @@ struct TangentState {
             stress.data() + first + 1};
   }
 };
-
-}  // namespace
 
 struct Solver::Workspace {
   RecordRates rates;
