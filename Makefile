@@ -38,7 +38,7 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 	@$(BIN)/ctest --test-dir build/editable --output-on-failure --no-tests=error
 	@# A process per core, files kept together: what a file computes once, it computes once.
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
-	    --cov=probation --cov-report=term:skip-covered --cov-fail-under=90
+	    --cov=probation --cov=probation_studies --cov-report=term:skip-covered --cov-fail-under=90
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py
@@ -83,7 +83,7 @@ sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verifica
 	@$(BIN)/cmake --build build/sanitize
 	@$(BIN)/ctest --test-dir build/sanitize --output-on-failure --no-tests=error
 	@rm -rf build/sanitize/site && mkdir -p build/sanitize/site
-	@cp -r python/probation build/sanitize/site/
+	@cp -r python/probation python/probation_studies build/sanitize/site/
 	@$(BIN)/cmake --install build/sanitize --prefix build/sanitize/site >/dev/null
 	@# -S: without the hook of the editable installation, which would find the ordinary extension first.
 	@site=$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))'); \

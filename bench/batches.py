@@ -13,7 +13,7 @@ from bench.python import engine
 from bench.rows import Findings, Progress
 from bench.timing import take_turns
 from probation import _core, batch
-from probation.history import make_history
+from probation.law.history import make_history
 
 SOLVES = 10_000
 SCHEMES = (("be2", "bE2"), ("sa3", "SA3"))

@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.blind.layout import Layout
-from probation.blind.scores.answer import read_answer
-from probation.blind.scores.case import Case
-from probation.blind.seal import open_truth, read_json
 from probation.diagnosis.probabilities import SHY, TEMPERED, TINY, log_prior
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.answer import read_answer
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.seal import open_truth, read_object
 
 POWERS = (1.0, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 SHYNESSES = (0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)
@@ -31,7 +31,7 @@ def cases(folder):
     layout = Layout(folder)
     for name, seal in layout.published()[1].items():
         path = layout.answers / f"{name}.json"
-        diagnosis = read_json(path)["diagnosis"]
+        diagnosis = read_object(path)["diagnosis"]
         answer = read_answer(diagnosis, str(path))
         case = Case(name, open_truth(layout.truths / f"{name}.json", seal), answer)
         if case.stratum != "mimic":

@@ -14,11 +14,15 @@ from scipy.optimize import least_squares
 from tests.campaigns.gap_noise import campaign
 
 import probation
-from probation import gap
-from probation.gap.isolability import isolability
-from probation.gap.next_test import next_test
-from probation.gap.planned_record import white_noise
-from probation.records import Record
+from probation.design.isolability import isolability
+from probation.design.next_test import next_test
+from probation.design.planned_record import white_noise
+from probation.effects.cause import cause
+from probation.effects.record_view import views_of
+from probation.effects.registry import effect, effects
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.records.record import Record
 
 PAIRS = 40
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
@@ -31,7 +35,7 @@ def model_of(names=None):
         for test in campaign()
         if names is None or test.name in names
     ]
-    return gap.CampaignModel(gap.DnlrLaw(LAW), gap.views_of(probation.Campaign(name="six", records=tuple(records))))
+    return CampaignModel(DnlrLaw(LAW), views_of(probation.Campaign(name="six", records=tuple(records))))
 
 
 def nearest(model, truth, rival):
@@ -40,7 +44,7 @@ def nearest(model, truth, rival):
     for form in rival.forms:
         if "all" not in rival.placements(form):
             continue
-        extended = model.with_causes([gap.cause(rival, form)])
+        extended = model.with_causes([cause(rival, form)])
         lower, upper = extended.bounds
         scale = np.append(np.abs(model.start), np.maximum(np.abs(form.typical), 1e-6))
         signs = (1.0,) if 0.0 in (form.amplitude.lower, form.amplitude.upper) else (1.0, -1.0)
@@ -66,7 +70,7 @@ def nearest(model, truth, rival):
 def refits():
     """Print pairs with the distance foretold and the one found."""
     model = model_of(("slow", "fast"))
-    found = isolability(model, model.start, white_noise(model.views, 1.0), gap.effects())
+    found = isolability(model, model.start, white_noise(model.views, 1.0), effects())
     known = [
         (row, column)
         for row, each in enumerate(found.effects)
@@ -77,9 +81,9 @@ def refits():
     ratios = []
     print(f"{'there':27}{'rival':27}{'angle':>6}{'foretold':>10}{'refitted':>10}")
     for row, column in known[:PAIRS]:
-        each, rival = found.effects[row], gap.effect(found.names[column])
-        cause = gap.cause(each.name, each.form, each.records)
-        there = model.with_causes([cause])
+        each, rival = found.effects[row], effect(found.names[column])
+        acting = cause(each.name, each.form, each.records)
+        there = model.with_causes([acting])
         amplitude, *shapes = each.values.values()
         left = min(
             nearest(model, there.residual(there.parameters(model.start, (sign * amplitude, *shapes))), rival)
@@ -98,11 +102,11 @@ def timings():
     noises = white_noise(model.views, 0.04)
     explanations = []
     for name in ("rate_dependent_relaxation", "self_heating", "damage", "delayed_hardening"):
-        extended = model.with_causes([gap.cause(name)])
+        extended = model.with_causes([cause(name)])
         parameters = extended.parameters(model.start, extended.causes[0].form.typical)
         explanations.append((extended, parameters, 0.25, (name,)))
     for what, run in (
-        ("isolability, 6 x 1000, 22 effects", lambda: isolability(model, model.start, noises, gap.effects())),
+        ("isolability, 6 x 1000, 22 effects", lambda: isolability(model, model.start, noises, effects())),
         ("next test, 6 x 1000, 4 explanations", lambda: next_test(model, explanations, noises=noises)),
     ):
         walls, processors = [], []

@@ -15,8 +15,8 @@ from scipy.stats import beta
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from campaigns import gap_noise
-from probation.gap.gap_test import GapTester
-from probation.gap.whitening import Whitened
+from probation.detection.gap_test import GapTester
+from probation.noise.whitening import Whitened
 
 STRENGTHS = (3.0, 5.0, 8.0)
 

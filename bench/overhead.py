@@ -12,7 +12,7 @@ from bench.python import engine
 from bench.rows import Findings, Progress, Row
 from bench.timing import Timing, take_turns
 from probation import _core
-from probation.history import make_history
+from probation.law.history import make_history
 
 
 def run(found: Findings, progress: Progress, quick: bool) -> None:

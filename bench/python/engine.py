@@ -8,7 +8,7 @@ import probation
 from bench.cases import COMPANION, Case
 from bench.spectrum import Array
 from probation import _core
-from probation.change import engine_change
+from probation.law.change import engine_change
 
 
 def law_of(case: Case) -> probation.Law:

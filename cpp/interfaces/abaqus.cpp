@@ -3,9 +3,11 @@
 //
 // PROPS are the constants of probation/material/constants.hpp, STATEV has 10 + 6 N entries (3 + N for
 // trusses), all zero at the start. No *ORIENTATION: the state lives in the reference configuration, DROT is
-// not used. PNEWDT becomes 0.25 where a smaller increment may help, and on constants that cannot be; those
-// are also said in the message file, through Abaqus' own STDB_ABQERR, which ends the analysis. Where that is
-// not there (another host), probation_umat_message says what is wrong.
+// not used. PNEWDT becomes 0.25 where a smaller increment may help, and on constants that cannot be: STRESS,
+// STATEV and DDSDDE are then left as they were. Constants that cannot be are also said in the message file,
+// through Abaqus' own STDB_ABQERR, which ends the analysis. Where that is not there (another host),
+// probation_umat_message says what is wrong. Where the estimated error is above the stress tolerance, the
+// update is made and PNEWDT becomes 0.25 to 0.9: Abaqus discards it and tries again.
 
 #include <cstddef>
 
@@ -21,6 +23,7 @@ Outcome truss(const Parameters& parameters, double strain_increment, double dt, 
               double* tangent) noexcept {
   UniaxialStress out;
   const Outcome outcome = uniaxial_update(parameters, strain_increment, dt, state, state, out);
+  if (!outcome.ok()) return outcome;
   *stress = out.true_stress;
   *tangent = out.tangent;
   return outcome;
@@ -32,7 +35,7 @@ Outcome solid(const Parameters& parameters, const double* deformation_gradient, 
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) f[i][j] = deformation_gradient[i + 3 * j];
   PointStress point;
-  if (!(determinant(f) > 0.0)) return {Status::cut_step};
+  if (!possible_volume(f)) return {Status::cut_step};
   const Outcome outcome = point_update(parameters, right_cauchy_green(f), dt, state, state, point);
   if (!outcome.ok()) return outcome;
   const PointStress out = cauchy_jaumann(point, f);
@@ -89,8 +92,9 @@ extern "C" {
   Parameters parameters;
   const Outcome outcome = update(props, *nprops, *ndi, *nshr, *nstatv, dstran, dfgrd1, *dtime, statev, stress,
                                  ddsdde, parameters);
+  if (outcome.step_factor < 1.0) *pnewdt = outcome.step_factor;
   if (outcome.ok()) return;
-  *pnewdt = 0.25;
+  *pnewdt = smallest_cut;
   if (outcome.status == Status::cut_step || stdb_abqerr_ == nullptr) return;
   char text[400];
   describe(outcome, parameters.form, text, sizeof text);

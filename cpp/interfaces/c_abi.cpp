@@ -12,7 +12,9 @@ namespace {
 
 using namespace probation::material;
 
-int code(Outcome outcome) noexcept { return static_cast<int>(outcome.status); }
+int code(Outcome outcome) noexcept {
+  return outcome.step_factor < 1.0 ? PROBATION_COARSE_STEP : static_cast<int>(outcome.status);
+}
 
 Matrix3 matrix(const double* row_by_row) noexcept {
   Matrix3 f;
@@ -24,7 +26,7 @@ Matrix3 matrix(const double* row_by_row) noexcept {
 /// The update, unless F turns the material inside out.
 Outcome update(const Parameters& parameters, const Matrix3& f, double dt, const double* before, double* after,
                PointStress& out, bool with_tangent) noexcept {
-  if (!(determinant(f) > 0.0)) return {Status::cut_step};
+  if (!possible_volume(f)) return {Status::cut_step};
   return point_update(parameters, right_cauchy_green(f), dt, before, after, out, with_tangent);
 }
 
@@ -63,6 +65,7 @@ int probation_uniaxial(const double* constants, int count, double strain_increme
   Outcome outcome = read_constants(constants, count, parameters);
   UniaxialStress out;
   if (outcome.ok()) outcome = uniaxial_update(parameters, strain_increment, dt, before, after, out);
+  if (!outcome.ok()) return code(outcome);
   *true_stress = out.true_stress;
   *tangent = out.tangent;
   return code(outcome);
@@ -96,17 +99,28 @@ int probation_first_piola(const double* constants, int count, int points, const 
                           int* failed) {
   if (failed != nullptr) *failed = -1;
   Parameters parameters;
-  Outcome outcome = read_constants(constants, count, parameters);
-  const int size = outcome.ok() ? point_state_size(parameters.modes) : 0;
-  for (int point = 0; point < points && outcome.ok(); ++point) {
+  const Outcome constants_read = read_constants(constants, count, parameters);
+  if (!constants_read.ok()) return code(constants_read);
+  const long size = point_state_size(parameters.modes);
+  const auto step = [&](int point, double* state_after, const Matrix3& f, PointStress& out) {
+    return update(parameters, f, dt, before + size * point, state_after, out, tangent != nullptr);
+  };
+  const auto stopped = [&](Outcome outcome, int point) {
+    if (failed != nullptr) *failed = point;
+    return code(outcome);
+  };
+  PointStress out;
+  // In place, the states of the first points would be gone once a later one fails: all are tried before.
+  for (int point = 0; before == after && point < points; ++point) {
+    const Outcome outcome = step(point, nullptr, matrix(deformation_gradients + 9L * point), out);
+    if (!outcome.ok()) return stopped(outcome, point);
+  }
+  int coarse = -1;
+  for (int point = 0; point < points; ++point) {
     const Matrix3 f = matrix(deformation_gradients + 9L * point);
-    const long first = static_cast<long>(size) * point;
-    PointStress out;
-    outcome = update(parameters, f, dt, before + first, after + first, out, tangent != nullptr);
-    if (!outcome.ok()) {
-      if (failed != nullptr) *failed = point;
-      break;
-    }
+    const Outcome outcome = step(point, after + size * point, f, out);
+    if (!outcome.ok()) return stopped(outcome, point);
+    if (coarse < 0 && outcome.step_factor < 1.0) coarse = point;
     const FirstPiola piola = first_piola(out, f, tangent != nullptr);
     for (int r = 0; r < 9; ++r) {
       stress[9L * point + r] = piola.stress[r / 3][r % 3];
@@ -114,7 +128,9 @@ int probation_first_piola(const double* constants, int count, int points, const 
       for (int c = 0; c < 9; ++c) tangent[81L * point + 9L * r + c] = piola.tangent[r][c];
     }
   }
-  return code(outcome);
+  if (coarse < 0) return PROBATION_OK;
+  if (failed != nullptr) *failed = coarse;
+  return PROBATION_COARSE_STEP;
 }
 
 }  // extern "C"

@@ -1,12 +1,15 @@
 // CalculiX native external behaviour: *MATERIAL, NAME=@PROBATION_DNLR with libPROBATION.so on the library
 // path.
 //
-// *USER MATERIAL, CONSTANTS=11 holds the constants of probation/material/constants.hpp, *DEPVAR 10 + 6 N.
-// CalculiX passes at most 21 constants; longer lists (a kernel of one's own) are compiled in:
-// -DPROBATION_CONSTANTS='"FILE"' names a file of numbers separated by commas, and those of the deck are then
-// not looked at. Native means: Green-Lagrange strain in, second Piola-Kirchhoff stress and the 21 terms of
-// dS/dE (symmetrised) out. CalculiX offers no way to say more than pnewdt < 1: on constants that cannot be it
-// cuts its increment until it gives up. probation_point_check says what is wrong with them.
+// *USER MATERIAL, CONSTANTS=11 (12 with a stress tolerance) holds the constants of
+// probation/material/constants.hpp, *DEPVAR 10 + 6 N. CalculiX passes at most 21 constants; longer lists (a
+// kernel of one's own) are compiled in: -DPROBATION_CONSTANTS='"FILE"' names a file of numbers separated by
+// commas, and those of the deck are then not looked at. Native means: Green-Lagrange strain in, second
+// Piola-Kirchhoff stress and the 21 terms of dS/dE (symmetrised) out. CalculiX offers no way to say more than
+// pnewdt < 1: on constants that cannot be it cuts its increment until it gives up. probation_point_check says
+// what is wrong with them. Where the increment is cut because there is no update, state, stress and stiffness
+// are left as they were; where the estimated error is above the stress tolerance, the update is made and
+// pnewdt is 0.25 to 0.9.
 
 #include "probation/material/constants.hpp"
 #include "probation/material/point.hpp"
@@ -46,20 +49,21 @@ extern "C" [[gnu::visibility("default")]] void DNLR(
     int /*amat_length*/) noexcept {
   Parameters parameters;
   const Outcome read = constants(props, *nprops, parameters);
-  if (!read.ok() || *nstatv < point_state_size(parameters.modes)) {
-    *pnewdt = 0.25;
-    return;
-  }
+  // Points share pnewdt, which is negative as long as none has cut: the smallest factor counts.
+  const auto cut = [&](double factor) {
+    if (!(*pnewdt > 0.0 && *pnewdt < factor)) *pnewdt = factor;
+  };
+  if (!read.ok() || *nstatv < point_state_size(parameters.modes)) return cut(smallest_cut);
   Symmetric c{};
   for (int k = 0; k < 6; ++k) c[k] = (k < 3 ? 1.0 : 0.0) + 2.0 * green_lagrange[k];
   // The arrays of states are those of the whole model: state variables, integration points, elements.
   const long first = static_cast<long>(*nstatv) * ((*iint - 1) + static_cast<long>(mi[0]) * (*iel - 1));
   PointStress out;
   const bool with_tangent = *icmd != 3;
-  if (!point_update(parameters, c, *dtime, statev0 + first, statev1 + first, out, with_tangent).ok()) {
-    *pnewdt = 0.25;
-    return;
-  }
+  const Outcome outcome =
+      point_update(parameters, c, *dtime, statev0 + first, statev1 + first, out, with_tangent);
+  if (!outcome.ok()) return cut(smallest_cut);
+  if (outcome.step_factor < 1.0) cut(outcome.step_factor);
   for (int k = 0; k < 6; ++k) stress[k] = out.stress[k];
   if (!with_tangent) return;
   for (int column = 0, term = 0; column < 6; ++column)

@@ -3,11 +3,13 @@
 //
 // Material properties are the constants of probation/material/constants.hpp. Their number and that of the
 // state variables are part of what the library declares: -DPROBATION_MGIS_MODES=N (50) is the largest number
-// of modes, and -DPROBATION_MGIS_CONSTANTS=M (11) makes room for a kernel of one's own (11 + 2 N). Returns -1
-// (with a text in error_message where the host has one), 0 is never used, 1 on success; rdt is 0.25 where a
-// smaller increment may help. K[0] asks for the operator, K[1] for the stress, K[2] for the tangent, as MGIS
-// documents.
+// of modes, and -DPROBATION_MGIS_CONSTANTS=M (11) makes room for a kernel of one's own (11 + 2 N), and for
+// the stress tolerance where M is even. Returns -1 (with a text in error_message where the host has one) with
+// nothing written and rdt 0.25 where a smaller increment may help; 0 where the update is made, but its
+// estimated error is above the stress tolerance, with rdt 0.25 to 0.9; 1 on success. K[0] asks for the
+// operator, K[1] for the stress, K[2] for the tangent, as MGIS documents.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -52,6 +54,8 @@ using namespace probation::material;
 
 constexpr int modes = PROBATION_MGIS_MODES;
 constexpr int constants = PROBATION_MGIS_CONSTANTS;
+/// Ratios and weights, rates and times come in pairs: an odd one is the stress tolerance.
+constexpr bool with_tolerance = (constants - fixed_constants) % 2 == 1;
 constexpr int state_size = point_state_size(modes);
 static_assert(modes >= 1 && modes <= most_modes && constants >= fixed_constants &&
               constants <= most_constants);
@@ -103,26 +107,32 @@ void store_tangent(const PointStress& point, const FirstPiola& piola, const Matr
 Outcome integrate(ProbationMgisData& data, Parameters& parameters) noexcept {
   // What is asked for stands where the tangent goes.
   const double operation = data.K[0], stress_measure = data.K[1], tangent_measure = data.K[2];
-  // Properties beyond the end of a shorter list are declared, but not part of it.
+  const double* given = data.s1.material_properties;
+  double shorter[fixed_constants + 1];
   int count = constants;
   if constexpr (constants > fixed_constants) {
-    const double* given = data.s1.material_properties;
-    if (given[10] > 0.0 && given[3] != static_cast<double>(Form::table)) count = fixed_constants;
+    // Kernel properties of log-spaced modes are declared, but not part of the list.
+    if (given[10] > 0.0 && given[3] != static_cast<double>(Form::table)) {
+      std::copy(given, given + fixed_constants, shorter);
+      shorter[fixed_constants] = given[constants - 1];
+      count = with_tolerance ? fixed_constants + 1 : fixed_constants;
+      given = shorter;
+    }
   }
-  Outcome outcome = read_constants(data.s1.material_properties, count, parameters);
+  Outcome outcome = read_constants(given, count, parameters);
   if (!outcome.ok()) return outcome;
   if (parameters.modes > modes) return {Status::short_state};
 
   const bool prediction = operation < -0.5, with_tangent = prediction || operation > 0.5;
   const Matrix3 f = matrix(prediction ? data.s0.gradients : data.s1.gradients);
-  if (!(determinant(f) > 0.0)) return {Status::cut_step};
+  if (!possible_volume(f)) return {Status::cut_step};
   PointStress point;
-  std::array<double, static_cast<std::size_t>(state_size)> unused;
-  double* after = prediction ? unused.data() : data.s1.internal_state_variables;
+  double* after = prediction ? nullptr : data.s1.internal_state_variables;
   outcome = point_update(parameters, right_cauchy_green(f), data.dt, data.s0.internal_state_variables, after,
                          point, with_tangent);
   if (!outcome.ok()) return outcome;
   const FirstPiola piola = first_piola(point, f, with_tangent);
+  if (prediction) outcome.step_factor = 1.0;  // nothing was deformed
   if (!prediction) store_stress(point, piola, f, stress_measure, data.s1.thermodynamic_forces);
   if (with_tangent) store_tangent(point, piola, f, tangent_measure, data.K);
   return outcome;
@@ -164,6 +174,7 @@ constexpr Pointers<sizeof...(Is)> state_pointers(std::index_sequence<Is...> /*in
   return {{state_names.text[Is]...}};
 }
 constexpr const char* constant_name(std::size_t k) {
+  if (with_tolerance && k + 1 == constants) return "StressTolerance";
   return k < fixed_constants ? constant_names[k] : kernel_names.text[k - fixed_constants];
 }
 template <std::size_t... Is>
@@ -180,8 +191,9 @@ extern "C" {
 int ProbationDNLR_Tridimensional(ProbationMgisData* data) noexcept {
   Parameters parameters;
   const Outcome outcome = integrate(*data, parameters);
-  if (outcome.ok()) return 1;
-  if (data->rdt != nullptr) *data->rdt = 0.25;
+  if (outcome.ok() && !(outcome.step_factor < 1.0)) return 1;
+  if (data->rdt != nullptr) *data->rdt = outcome.ok() ? outcome.step_factor : smallest_cut;
+  if (outcome.ok()) return 0;
   describe(outcome, parameters.form, data->error_message, 512);
   return -1;
 }

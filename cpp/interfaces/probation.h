@@ -5,7 +5,12 @@
 
    `constants` is the list of probation/material/constants.hpp. Deformation gradients are row by row, F[3 i +
    J]; symmetric tensors 11, 22, 33, 12, 13, 23. States are zero at the start; `before` and `after` may be the
-   same. */
+   same.
+
+   Where there is no update (any status but OK and COARSE_STEP), nothing is written; of many points, nothing in
+   `before`. COARSE_STEP comes only with a stress_tolerance among the constants: the update is made and written,
+   but its estimated error is larger. Who wants to repeat it with a smaller increment needs `before` apart from
+   `after`. */
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,7 +20,8 @@ enum {
   PROBATION_OK = 0,
   PROBATION_CUT_STEP = 1,     /* no update at this increment: try a smaller one */
   PROBATION_BAD_CONSTANT = 2, /* probation_message says which */
-  PROBATION_SHORT_STATE = 3
+  PROBATION_SHORT_STATE = 3,
+  PROBATION_COARSE_STEP = 5 /* made, but with an error above the stress_tolerance */
 };
 
 /* Status of a list of constants; a text closed by a zero, empty if all is well, goes into message (may be
@@ -39,7 +45,8 @@ int probation_cauchy(const double* constants, int count, const double* deformati
                      const double* before, double* after, double* stress, double* tangent);
 
 /* First Piola-Kirchhoff stress [9] and dP/dF [81] (or NULL) of many points, one after the other in every
-   array. Stops at the first point that fails; *failed (may be NULL) is its index, else -1. */
+   array. Stops at the first point that fails; *failed (may be NULL) is its index, or that of the first coarse
+   one, else -1. */
 int probation_first_piola(const double* constants, int count, int points, const double* deformation_gradients,
                           double dt, const double* before, double* after, double* stress, double* tangent,
                           int* failed);

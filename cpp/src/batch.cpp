@@ -5,6 +5,7 @@
 #include <string>
 
 #include "probation/errors.hpp"
+#include "require_finite.hpp"
 #include "unit_solves.hpp"
 
 namespace probation {
@@ -30,7 +31,7 @@ bool by_steps(Scheme scheme) { return scheme != Scheme::exact && scheme != Schem
 class RepeatedSolve {
  public:
   RepeatedSolve(const Law& law, const History& history, const LawChange& change, const SolverOptions& options)
-      : law_(law), change_(change) {
+      : law_(law), time_(history.time()), change_(change) {
     if (by_steps(options.scheme) && changes_nothing(change)) {
       solves_.set_modes(law.spectrum);
       solves_.take(law, history, options.scheme, options.start);
@@ -43,7 +44,9 @@ class RepeatedSolve {
   void stress(const Eigen::Array3d& parameters, bool again, Eigen::Ref<Eigen::ArrayXd> out) {
     if (solver_) {
       solver_->stress(with_parameters(law_, parameters), change_, out);
-    } else if (parameters[1] == solved_) {
+      return;
+    }
+    if (parameters[1] == solved_) {
       out = parameters[0] * solves_.u() + parameters[2] * solves_.v();
     } else if (again) {
       solves_.solve(parameters[1]);
@@ -52,10 +55,12 @@ class RepeatedSolve {
     } else {
       solves_.stress(parameters[0], parameters[1], parameters[2], out);
     }
+    require_finite(out, time_, "the stress");
   }
 
  private:
   const Law& law_;
+  const Eigen::ArrayXd& time_;
   const LawChange& change_;
   UnitSolves solves_;
   std::unique_ptr<Solver> solver_;
@@ -99,6 +104,20 @@ void require_records(const std::vector<BatchRecord>& records, const Law& law) {
     record.change.validate(record.history.size(), law.spectrum.modes());
   }
 }
+
+/// Does the work; what it throws begins with a name, "parameters[3]" say.
+template <class Name, class Work>
+void named(Name name, Work work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    throw InputError(name() + ": " + error.what());
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(name() + ": " + error.what(), error.time(), error.residual_norm());
+  }
+}
+
+std::string name_of(const char* what, Index index) { return what + ("[" + std::to_string(index) + "]"); }
 
 /// Scratch of each worker, made when the worker takes its first task.
 template <class Scratch>
@@ -148,7 +167,10 @@ void batch_stress(const Law& law, const Parameters& parameters, const History& h
       parameters.rows(), run, [&] { return std::make_unique<RepeatedSolve>(law, history, change, options); },
       [&](RepeatedSolve& solve, Index set) {
         Eigen::Map<Eigen::ArrayXd> stress(out.row(set).data(), out.cols());
-        solve.stress(parameters.row(set).transpose().array(), shares_time(parameters, set), stress);
+        named([&] { return name_of("parameters", set); },
+              [&] {
+                solve.stress(parameters.row(set).transpose().array(), shares_time(parameters, set), stress);
+              });
       });
 }
 
@@ -176,18 +198,18 @@ void field_stress(const Law& law, const Parameters& parameters, const Samples& t
     true_strain.read(pixel, s.true_strain);
     const Eigen::Array3d p = parameters.row(parameters.rows() == 1 ? 0 : pixel).transpose().array();
     Eigen::Map<Eigen::ArrayXd> stress(out.row(pixel).data(), out.cols());
-    try {
+    const auto solve = [&] {
       const History history =
           find_jumps ? History(FindJumps{}, time, s.true_strain) : History(time, s.true_strain);
       if (by_steps(options.scheme)) {
         s.solves.take(law, history, options.scheme, options.start);
         s.solves.stress(p[0], p[1], p[2], stress);
+        require_finite(stress, history.time(), "the stress");
       } else {
         Solver(history, options).stress(with_parameters(law, p), {}, stress);
       }
-    } catch (const InputError& error) {
-      throw InputError("pixel " + std::to_string(pixel) + ": " + error.what());
-    }
+    };
+    named([&] { return "pixel " + std::to_string(pixel); }, solve);
   });
 }
 
@@ -212,9 +234,14 @@ void batch_sum_of_squares(const Law& law, const Parameters& parameters,
     for (Index k = 0; k < count; ++k) {
       const BatchRecord& record = records[static_cast<std::size_t>(k)];
       scratch.stress.resize(record.history.size());
-      scratch.solves[static_cast<std::size_t>(k)]->stress(parameters.row(set).transpose().array(),
-                                                          shares_time(parameters, set), scratch.stress);
-      out(set, k) = (scratch.stress - record.true_stress).square().sum();
+      const auto solve = [&] {
+        scratch.solves[static_cast<std::size_t>(k)]->stress(parameters.row(set).transpose().array(),
+                                                            shares_time(parameters, set), scratch.stress);
+        out(set, k) = (scratch.stress - record.true_stress).square().sum();
+        if (!std::isfinite(out(set, k)))
+          throw InputError("the stress is so far from true_stress that the sum of squares is not finite");
+      };
+      named([&] { return name_of("parameters", set) + ", " + name_of("records", k); }, solve);
     }
   });
 }
@@ -236,8 +263,12 @@ void batch_normal_equations(const Law& law, const Parameters& parameters,
     const Law one = with_parameters(law, parameters.row(set).transpose().array());
     for (Index k = 0; k < count; ++k) {
       const BatchRecord& record = records[static_cast<std::size_t>(k)];
-      const NormalEquations found =
-          normal_equations(solvers[static_cast<std::size_t>(k)], one, record.change, record.true_stress);
+      NormalEquations found;
+      named([&] { return name_of("parameters", set) + ", " + name_of("records", k); },
+            [&] {
+              found = normal_equations(solvers[static_cast<std::size_t>(k)], one, record.change,
+                                       record.true_stress);
+            });
       auto row = out.row(set * count + k);
       for (Index i = 0; i < 3; ++i) row.segment(3 * i, 3) = found.matrix.row(i);
       row.segment(9, 3) = found.gradient.transpose();
@@ -257,7 +288,11 @@ NormalEquations normal_equations(Solver& solver, const Law& law, const LawChange
   RowMajorMatrix sensitivity(n, static_cast<Index>(directions.size()));
   solver.tangent(law, change, directions, stress, sensitivity);
   const Eigen::VectorXd residual = (stress - true_stress).matrix();
-  return {sensitivity.transpose() * sensitivity, sensitivity.transpose() * residual, residual.squaredNorm()};
+  NormalEquations found{sensitivity.transpose() * sensitivity, sensitivity.transpose() * residual,
+                        residual.squaredNorm()};
+  if (!found.matrix.allFinite() || !found.gradient.allFinite() || !std::isfinite(found.sum_of_squares))
+    throw InputError("the stress or its derivatives are so large that their squares are not finite");
+  return found;
 }
 
 }  // namespace probation

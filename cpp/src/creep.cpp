@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "kernels/kernels.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
 #include "record_steps.hpp"
+#include "require_finite.hpp"
 
 namespace probation {
 namespace {
@@ -100,6 +102,12 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
   const double loaded = true_stress[0] / area[0] / in.unrelaxed_modulus[0].value / total_weight;
   in.true_strain[0] = loaded;
   in.relaxed_stress[0] = relaxed_stress(0, loaded).value;
+  if (!std::isfinite(in.relaxed_stress[0].value)) {
+    std::ostringstream message;
+    message << "true_stress[0] is " << true_stress[0] << " MPa; put on at once it strains by " << loaded
+            << ", which is no strain";
+    throw InputError(message.str());
+  }
   ModalGroup modes;
   modes.set(law.spectrum.relaxation_ratio, law.spectrum.modal_weight);
   modes.state = modes.weight * (in.unrelaxed_modulus[0].value * loaded - in.relaxed_stress[0].value);
@@ -147,6 +155,7 @@ Eigen::ArrayXd creep_strain(const Law& law, const LawChange& change, const Sampl
     if (grid.fresh(m)) in.fluidity_begin[i] = in.fluidity_begin[i].value;
     if (m + 1 < n - 1 && !grid.fresh(m + 1)) in.fluidity_begin[i + 1] = in.fluidity_end[i];
   }
+  require_finite(strain, grid.time(), "the strain");
   return strain;
 }
 

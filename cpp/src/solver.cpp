@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <string>
 
 #include "coupled.hpp"
 #include "flush_subnormals.hpp"
@@ -11,6 +12,7 @@
 #include "probation/errors.hpp"
 #include "probation/schemes/exact.hpp"
 #include "record_steps.hpp"
+#include "require_finite.hpp"
 
 namespace probation {
 
@@ -29,7 +31,8 @@ struct TangentState {
     for (std::size_t i = 0; i < n; ++i) {
       forcing[i] = steps.forcing[i].slope;
       curvature[i] = steps.curvature[i].slope;
-      log_scale[i] = steps.scale[i].slope / steps.scale[i].value;
+      // A step so short that it moves no mode moves none along the direction either.
+      log_scale[i] = steps.scale[i].value > 0.0 ? steps.scale[i].slope / steps.scale[i].value : 0.0;
     }
   }
   /// A direction in which the steps are linear: their forcing for the inputs' own slopes, taken away from
@@ -140,6 +143,11 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
     throw InputError("out has " + std::to_string(stress.size()) + " entries; " +
                      std::to_string(history_.size()) + " are needed");
   const std::lock_guard<std::mutex> lock(work_->busy);
+  solve(law, change, stress);
+  require_finite(stress, history_.time(), "the stress");
+}
+
+void Solver::solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -184,8 +192,22 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
     throw InputError("out does not have the shape (n_times) and (n_times, directions)");
   if (options_.scheme == Scheme::exact || options_.scheme == Scheme::cvode)
     throw InputError("sensitivities are made by the schemes be2, sa2 and sa3 only");
+  const std::lock_guard<std::mutex> lock(work_->busy);
+  solve_tangent(law, change, directions, stress, derivatives);
+  require_finite(stress, history_.time(), "the stress");
+  // By columns only if there is something to name.
+  const bool packed = derivatives.outerStride() == count;
+  if (packed && kernels::best().samples.all_finite(derivatives.data(), derivatives.size())) return;
+  for (Index k = 0; k < count; ++k) {
+    const std::string name = "the derivative of the stress along direction " + std::to_string(k);
+    require_finite(derivatives.col(k).array().eval(), history_.time(), name.c_str());
+  }
+}
+
+void Solver::solve_tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
+                           Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives) {
+  const Index n = history_.size();
   Workspace& w = *work_;
-  const std::lock_guard<std::mutex> lock(w.busy);
   const FlushSubnormals flushing;
   w.prepare(law, change, history_, options_);
   for (const Direction& direction : directions)

@@ -21,10 +21,11 @@ void bind_identify(py::module_& m) {
       .finalize();
   py::class_<IdentifyOptions>(m, "IdentifyOptions")
       .def(py::init([](Scheme scheme, Start start, IdentifyMethod method, const std::array<bool, 3>& held,
-                       const Eigen::Array3d& lower, const Eigen::Array3d& upper, bool find_jumps) {
-             return IdentifyOptions{scheme, start, method, held, lower, upper, find_jumps};
+                       const Eigen::Array3d& lower, const Eigen::Array3d& upper, bool find_jumps,
+                       int substeps) {
+             return IdentifyOptions{scheme, start, method, held, lower, upper, find_jumps, substeps};
            }),
-           "scheme"_a, "start"_a, "method"_a, "held"_a, "lower"_a, "upper"_a, "find_jumps"_a);
+           "scheme"_a, "start"_a, "method"_a, "held"_a, "lower"_a, "upper"_a, "find_jumps"_a, "substeps"_a);
   m.def(
       "identify_many",
       [](const Law& law, const py::array& time, const py::array& true_strain, const py::array& true_stress,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -147,6 +147,15 @@ def one_of(value: str, name: str, choices: Sequence[str]) -> str:
     if value not in choices:
         raise InputError(f"{name} is {value!r}; expected one of {', '.join(choices)}")
     return value
+
+
+Array = TypeVar("Array", bound=NDArray[Any])
+
+
+def kept_apart(values: Array, *outputs: NDArray[Any] | None) -> Array:
+    """`values`, or a copy where an output may share its memory: all is read before anything is written, as in NumPy."""
+    overlap = any(out is not None and np.may_share_memory(values, out) for out in outputs)
+    return values.copy() if overlap else values
 
 
 def as_output(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:

@@ -344,4 +344,5 @@ class IdentifyOptions:
         lower: _Array,
         upper: _Array,
         find_jumps: bool,
+        substeps: int,
     ) -> None: ...

@@ -11,6 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from probation._core import __version__
+from probation._text import printable_lines
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
 
@@ -38,10 +39,10 @@ def json_answer(schema: str, content: Mapping[str, object]) -> str:
     Returns
     -------
     str
-        With the version after the schema; ends in a newline.
+        With the version after the schema; ends in a newline. Characters that do not print are escaped.
     """
     answer = {"schema": schema, "version": __version__, **content}
-    text = json.dumps(plain(answer), ensure_ascii=False, allow_nan=False, indent=1)
+    text = printable_lines(json.dumps(plain(answer), ensure_ascii=False, allow_nan=False, indent=1))
     return _LIST_OF_NUMBERS.sub(lambda numbers: " ".join(numbers[0].split()), text) + "\n"
 
 

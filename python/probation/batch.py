@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads
-from probation.change import Change, engine_change
+from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, kept_apart
 from probation.errors import InputError
-from probation.history import Jumps, looks_for_jumps
-from probation.law import Law, Scheme, Start, engine_law, make_solver, solver_options
+from probation.law.change import Change, engine_change
+from probation.law.history import Jumps, looks_for_jumps
+from probation.law.modal import Law, Scheme, Start, engine_law, make_solver, solver_options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +27,7 @@ class Observed:
     Parameters
     ----------
     history : History
-        From `probation.history.make_history`.
+        From `probation.law.history.make_history`.
     true_stress : array_like, shape (n_times,) [MPa]
     change : Change
         What an effect changes in the law along this record.
@@ -62,18 +62,26 @@ def stresses(
     parameters : array_like, shape (sets, 3)
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
     history : History
-        From `probation.history.make_history`.
+        From `probation.law.history.make_history`.
     threads : int
         0: all cores.
     out : ndarray, shape (sets, n_times), optional
-        Where to write the stresses.
+        Where to write the stresses; what else it shares memory with is copied first, as everywhere in this module.
 
     Returns
     -------
     ndarray, shape (sets, n_times) [MPa]
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what was found and what was expected.
+    ConvergenceError
+        Where a stress is not finite, with the set and the `time`.
     """
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(history)))
+    sets = kept_apart(sets, out)
     _core.batch_stress(
         engine_law(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
     )
@@ -116,6 +124,8 @@ def field_stresses(
     ------
     InputError
         Naming the pixel, what was found and what was expected.
+    ConvergenceError
+        Where a stress is not finite, with the pixel and the `time`.
     """
     times = as_samples(time, "time")
     strains = as_rows(true_strain, "true_strain")
@@ -124,6 +134,7 @@ def field_stresses(
     engine = engine_law(law)
     sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
     found = as_output(out, strains.shape)
+    times, strains, sets = kept_apart(times, out), kept_apart(strains, out), kept_apart(sets, out)
     options = solver_options(scheme, start)
     _core.field_stress(engine, sets, times, strains, looks_for_jumps(jumps), options, as_threads(threads), found)
     return found
@@ -151,9 +162,17 @@ def sums_of_squares(
     Returns
     -------
     ndarray, shape (sets, records) [MPa^2]
+
+    Raises
+    ------
+    InputError
+        Naming the argument, or the set and the record whose squares are beyond all numbers.
+    ConvergenceError
+        Where a stress is not finite, with the set, the record and the `time`.
     """
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(records)))
+    sets = kept_apart(sets, out)
     engine_records = [record._engine() for record in records]
     _core.batch_sum_of_squares(
         engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
@@ -185,9 +204,17 @@ def many_normal_equations(
     matrix : ndarray, shape (sets, records, 3, 3)
     gradient : ndarray, shape (sets, records, 3)
     sum_of_squares : ndarray, shape (sets, records) [MPa^2]
+
+    Raises
+    ------
+    InputError
+        Naming the argument, or the set and the record whose squares are beyond all numbers.
+    ConvergenceError
+        Where a stress is not finite, with the set, the record and the `time`.
     """
     sets = _as_parameters(parameters)
     found = as_output(out, (len(sets), len(records), 13))
+    sets = kept_apart(sets, out)
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
     _core.batch_normal_equations(

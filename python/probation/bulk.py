@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from itertools import combinations
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from probation import _core
-from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, one_of
+from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, kept_apart, one_of
 from probation.errors import InputError
-from probation.history import Jumps, looks_for_jumps
-from probation.law import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
+from probation.law.history import Jumps, looks_for_jumps
+from probation.law.modal import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
+
+SUBSTEPS_LIMIT = 10_000
+"""Most steps of the scheme from sample to sample."""
 
 STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
 """What the entries of `BulkIdentification.status` mean, by number."""
@@ -83,28 +87,30 @@ def identify_many(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     start: Start = "exponential",
     jumps: Jumps | None = "auto",
+    substeps: int = 1,
     threads: int = 0,
     out: BulkIdentification | None = None,
 ) -> BulkIdentification:
     """Identify the law on many records, each by itself.
 
-    The estimates are those of `fit` with white noise and one step of the scheme from sample to sample. A record that is
-    bad gets a status and NaN; the others go on.
+    The estimates are those of `fit` with white noise and as many steps of the scheme from sample to sample. A record
+    that is bad gets a status and NaN; the others go on.
 
     Parameters
     ----------
     law : Law
         Gives the spectrum, the companion relation, and the values of the parameters that are held.
     time : array_like, shape (n_times,) or (records, n_times) [s]
+        With `substeps`, at each of them: n_times is (n_samples - 1) * substeps + 1.
     true_strain : array_like, shape (n_times,) or (records, n_times) [-]
-    true_stress : array_like, shape (n_times,) or (records, n_times) [MPa]
+    true_stress : array_like, shape (n_samples,) or (records, n_samples) [MPa]
         These three in float32 or float64, rows contiguous, are read where they are; other types are copied. One row is
         shared by all records.
     scheme : {"be2", "sa2", "sa3"}
     method : {"variable projection", "levenberg-marquardt"}
         Both find the same minimum, after the same coarse search over all of tau_max (or alpha).
     noise : array_like, optional
-        Standard deviation of the stress [MPa], as NumPy spreads it to (records, n_times). Only its ratios within a
+        Standard deviation of the stress [MPa], as NumPy spreads it to (records, n_samples). Only its ratios within a
         record matter: what a record's residuals scatter says how large it is.
     held : collection of str
         Names of the law's parameters that keep their values.
@@ -113,11 +119,14 @@ def identify_many(
     start : {"exponential", "backward_euler"}
         bE2's first step.
     jumps : "auto" or None
-        Whether each record is searched for jumps of its strain rate, as `Law.stress` does.
+        Whether each record is searched for jumps of its strain rate, as `Law.stress` does; at samples only.
+    substeps : int
+        Steps of the scheme from sample to sample. More than one make the error of the scheme smaller, by the square
+        of their number with be2 and sa2, where the strain between the samples is known.
     threads : int
         0: all cores.
     out : BulkIdentification, optional
-        Where to write.
+        Where to write, each attribute in memory of its own; records that share it are copied first.
 
     Returns
     -------
@@ -134,23 +143,34 @@ def identify_many(
         "true_strain": as_rows(true_strain, "true_strain"),
         "true_stress": as_rows(true_stress, "true_stress"),
     }
+    if not isinstance(substeps, int | np.integer) or isinstance(substeps, bool) or not 1 <= substeps <= SUBSTEPS_LIMIT:
+        raise InputError(f"substeps is {substeps!r}; expected a whole number from 1 to {SUBSTEPS_LIMIT}")
     n_times = arrays["time"].shape[-1]
+    n_samples = (n_times - 1) // substeps + 1
+    lengths = {"time": n_times, "true_strain": n_times, "true_stress": n_samples}
     shapes = {len(each) for each in arrays.values() if each.ndim == 2}
     records = max(shapes) if len(shapes) == 1 else 1
-    if len(shapes) > 1 or any(each.shape[-1] != n_times for each in arrays.values()):
+    whole = (n_samples - 1) * substeps + 1 == n_times
+    if len(shapes) > 1 or not whole or any(each.shape[-1] != lengths[name] for name, each in arrays.items()):
         found = ", ".join(f"{name} {each.shape}" for name, each in arrays.items())
-        raise InputError(f"found {found}; expected (n_times,) or (records, n_times) each, the same for all")
+        expected = "(n_times,) or (records, n_times) each, the same for all"
+        if substeps > 1:
+            expected += f", n_times of time and true_strain (n_samples - 1) * {substeps} + 1, of true_stress n_samples"
+        raise InputError(f"found {found}; expected {expected}")
     weights = None
     if noise is not None:
-        weights = _as_noise(noise, records, n_times)
+        weights = _as_noise(noise, records, n_samples)
     answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
+    if out is not None:
+        arrays = {name: kept_apart(each, *_outputs(out)) for name, each in arrays.items()}
+        weights = None if weights is None else kept_apart(weights, *_outputs(out))
     _core.identify_many(
         engine,
         arrays["time"],
         arrays["true_strain"],
         arrays["true_stress"],
         weights,
-        _options(law, scheme, method, held, bounds or {}, start, jumps),
+        _options(law, scheme, method, held, bounds or {}, start, jumps, int(substeps)),
         as_threads(threads),
         answer.parameters,
         answer.standard_error,
@@ -169,6 +189,7 @@ def _options(
     bounds: Mapping[str, tuple[float, float]],
     start: Start,
     jumps: Jumps | None,
+    substeps: int,
 ) -> _core.IdentifyOptions:
     names = law.parameter_names
     if isinstance(held, str) or not isinstance(held, Collection):
@@ -190,21 +211,22 @@ def _options(
         lower,
         upper,
         looks_for_jumps(jumps),
+        substeps,
     )
 
 
-def _as_noise(noise: ArrayLike, records: int, n_times: int) -> Rows:
+def _as_noise(noise: ArrayLike, records: int, n_samples: int) -> Rows:
     try:
         shape = np.shape(noise)
     except ValueError as error:
         raise InputError(f"noise is not an array of numbers: {error}") from None
-    if shape in ((n_times,), (records, n_times)):
+    if shape in ((n_samples,), (records, n_samples)):
         return as_rows(noise, "noise")
     try:
-        return np.ascontiguousarray(np.broadcast_to(np.asarray(noise, dtype=np.float64), (records, n_times)))
+        return np.ascontiguousarray(np.broadcast_to(np.asarray(noise, dtype=np.float64), (records, n_samples)))
     except (TypeError, ValueError):
         raise InputError(
-            f"noise has the shape {shape}; expected one that spreads to (records, n_times), {(records, n_times)}"
+            f"noise has the shape {shape}; expected one that spreads to (records, n_samples), {(records, n_samples)}"
         ) from None
 
 
@@ -212,7 +234,16 @@ def _as_output(out: BulkIdentification, records: int) -> BulkIdentification:
     if not isinstance(out, BulkIdentification):
         raise InputError(f"out is {out!r}; expected a BulkIdentification, such as BulkIdentification.empty({records})")
     wanted = BulkIdentification.empty(0)
-    for name in ("parameters", "standard_error", "rms_residual", "status", "iterations"):
-        like = getattr(wanted, name)
+    for name, like in zip(_OUTPUTS, _outputs(wanted), strict=True):
         check_output(getattr(out, name), f"out.{name}", (records, *like.shape[1:]), like.dtype)
+    for one, other in combinations(_OUTPUTS, 2):
+        if np.may_share_memory(getattr(out, one), getattr(out, other)):
+            raise InputError(f"out.{one} and out.{other} share memory; each needs an array of its own")
     return out
+
+
+_OUTPUTS = ("parameters", "standard_error", "rms_residual", "status", "iterations")
+
+
+def _outputs(out: BulkIdentification) -> tuple[NDArray[Any], ...]:
+    return tuple(getattr(out, name) for name in _OUTPUTS)

@@ -8,11 +8,15 @@ import shlex
 import sys
 import traceback
 import warnings
+from functools import cache
+from importlib.metadata import entry_points
+from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
+from probation import _interrupt
 from probation._core import __version__
+from probation._text import printed_escaped
 from probation.commands import (
-    blind,
     certify,
     companion,
     coverage,
@@ -23,10 +27,11 @@ from probation.commands import (
     export,
     field,
     fit,
-    paper,
     preview,
     simulate,
+    streams,
 )
+from probation.commands.delivery import described
 from probation.errors import ConvergenceError, InputError
 from probation.histories.named import nearest
 from probation.report.provenance import running
@@ -34,11 +39,15 @@ from probation.report.provenance import running
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from _typeshed import SupportsWrite
+
 COMMANDS = (
-    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, paper, blind,
-    field,
+    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, field,
 )  # fmt: skip
-"""One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here."""
+"""One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here.
+
+Packages beside this one add theirs by an entry point of the group `probation.commands`.
+"""
 
 _DESCRIPTION = """\
 Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline polymers, on your records.
@@ -63,14 +72,25 @@ Exit status: 0 done, whatever the verdict; 2 bad input, said in one line; 1 anyt
 PROBATION_DEBUG=1 shows where in the program an error arose.
 """
 
-_DONE, _FAILED, _BAD_INPUT, _INTERRUPTED, _PIPE_CLOSED = 0, 1, 2, 130, 141
+_DONE, _FAILED, _BAD_INPUT, _PIPE_CLOSED = 0, 1, 2, 141
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong with the arguments in one line."""
+    """Says what is wrong with the arguments in one line; fails where its help cannot be written."""
+
+    def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
+        """Its own takes no notice of a full disk; what it writes is the help and the version."""
+        streams.put(message)
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}; see {self.prog} --help")
+
+
+@cache
+def commands() -> tuple[ModuleType, ...]:
+    """The modules of all commands: those of this package, then those of others by name."""
+    others = sorted(entry_points(group="probation.commands"), key=lambda entry: entry.name)
+    return (*COMMANDS, *(entry.load() for entry in others))
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -84,13 +104,14 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"probation {__version__}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", parser_class=_Parser)
-    for command in COMMANDS:
+    for command in commands():
         own = command.add_parser(subparsers)
         own.set_defaults(run=command.run)
         own.formatter_class = argparse.RawDescriptionHelpFormatter
     return parser
 
 
+@printed_escaped()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command.
 
@@ -105,30 +126,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status: 0 done, 2 bad input, 1 otherwise; 130 interrupted, 141 where the reader of a pipe went away.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
+    streams.open_closed()
     _tolerate_plain_terminals()
+    os.environ["MPLBACKEND"] = "agg"  # pictures go to files; matplotlib cannot be loaded with a name it does not know
     try:
+        _interrupt.loaded()
         with running(shlex.join(["probation", *arguments])), warnings.catch_warnings():
             warnings.showwarning = _show_warning
             status = _run(arguments)
-            sys.stdout.flush()
-    except InputError as error:
-        return _tell(error, str(error), _BAD_INPUT)
-    except ConvergenceError as error:
-        return _tell(error, f"did not converge: {error}", _FAILED)
-    except BrokenPipeError:
-        _silence_stdout()
-        return _PIPE_CLOSED
+            streams.put()
+            return status
     except KeyboardInterrupt:
-        print("probation: interrupted", file=sys.stderr)
-        return _INTERRUPTED
+        streams.say("probation: interrupted")
+        return _interrupt.INTERRUPTED
     except Exception as error:
-        hint = "" if _debugging() else "; PROBATION_DEBUG=1 shows where"
-        return _tell(error, f"unexpected {type(error).__name__}: {error}{hint}", _FAILED)
-    return status
+        return _failed(error)
+
+
+def _failed(error: Exception) -> int:
+    """Say in one line what went wrong; the exit status."""
+    match error:
+        case InputError():
+            return _tell(error, str(error), _BAD_INPUT)
+        case ConvergenceError():
+            return _tell(error, f"did not converge: {error}", _FAILED)
+        case BrokenPipeError(filename=None):  # of standard output
+            return _PIPE_CLOSED
+        case OSError():
+            return _tell(error, described(error), _FAILED)
+    hint = "" if _debugging() else "; PROBATION_DEBUG=1 shows where"
+    return _tell(error, f"unexpected {type(error).__name__}: {error}{hint}", _FAILED)
 
 
 def _run(arguments: list[str]) -> int:
-    names = [command.NAME for command in COMMANDS]
+    names = [command.NAME for command in commands()]
     parser = build_parser()
     if not arguments:
         parser.print_help()
@@ -148,7 +179,7 @@ def _run(arguments: list[str]) -> int:
 def _tell(error: Exception, message: str, status: int) -> int:
     if _debugging():
         traceback.print_exception(error)
-    print(f"probation: {' '.join(message.split())}", file=sys.stderr)
+    streams.say(f"probation: {' '.join(message.split())}")
     return status
 
 
@@ -165,7 +196,7 @@ def _show_warning(
     line: str | None = None,
 ) -> None:
     where = f" ({filename}:{lineno})" if _debugging() else ""
-    print(f"warning: {message}{where}", file=sys.stderr)
+    streams.say(f"warning: {message}{where}")
 
 
 def _tolerate_plain_terminals() -> None:
@@ -174,14 +205,6 @@ def _tolerate_plain_terminals() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(errors="replace")
-
-
-def _silence_stdout() -> None:
-    """Let the interpreter flush into nothing at exit, instead of failing once more."""
-    try:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (OSError, ValueError):  # not a real file, as under a test
-        return
 
 
 if __name__ == "__main__":

@@ -10,22 +10,22 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from probation._files import write_whole
+from probation._files import make_folder, write_whole
 from probation.answers import PARAMETER_KEYS, json_answer
-from probation.certificate import certify
-from probation.crosscheck import crosscheck
-from probation.diagnosis import diagnose
+from probation.certificate.certify import certify
+from probation.diagnosis.diagnose import diagnose
 from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
-from probation.identify import fit
-from probation.paper.published import UNRELAXED_MODULUS
-from probation.paper.twins import Twin, experiment, twin_campaign
-from probation.records import LawSettings
+from probation.identify.fit import fit
+from probation.law.settings import LawSettings
+from probation.published.experiments import Twin, experiment, twin_campaign
+from probation.published.numbers import UNRELAXED_MODULUS
 from probation.report.estimate import plus_minus
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
 from probation.report.provenance import provenance, samples_sha256
 from probation.report.table import Table
+from probation.schemes.crosscheck import crosscheck
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.diagnosis import Diagnosis
-    from probation.records import Campaign
+    from probation.diagnosis.result import Diagnosis
+    from probation.records.campaign import Campaign
 
 SEED = 0
 _EXPERIMENTS: tuple[Literal[1, 2, 3], ...] = (1, 2, 3)
@@ -247,7 +247,7 @@ class Demo:
             What was written, for people.
         """
         root = Path(folder)
-        (root / "plots").mkdir(parents=True, exist_ok=True)
+        make_folder(root / "plots")
         self.report(root / "report.html")
         write_whole(root / "demo.json", self.to_json())
         written = ["report.html"]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-from collections.abc import Callable, Hashable, Mapping
+import signal
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager, nullcontext
 from threading import Thread
 from typing import TypeAlias, TypeVar
 
@@ -85,29 +87,42 @@ def run_all(
         return
     for name in _THREADS:  # the jobs are many; processes that are started from here have one thread each
         os.environ.setdefault(name, "1")
-    own = executor or ProcessPoolExecutor(
-        min(count, len(arguments) or 1), multiprocessing.get_context("spawn"), initializer=_end_with_parent
-    )
     left, order = iter(arguments.items()), {key: number for number, key in enumerate(arguments)}
     waiting: dict[Future[Result], Key] = {}
     most = len(arguments) if executor is not None else _WAITING * count
+    with _workers(min(count, len(arguments) or 1)) if executor is None else nullcontext(executor) as own:
+        try:
+            while True:
+                while len(waiting) < most and (item := next(left, None)) is not None:
+                    with _interrupts_held():
+                        waiting[own.submit(job, *item[1])] = item[0]
+                if not waiting:
+                    return
+                ended = wait(waiting, return_when=FIRST_COMPLETED).done
+                for future in sorted(
+                    ended, key=lambda each: order[waiting[each]]
+                ):  # the one that ran before those behind
+                    finish(waiting[future], _result(future, waiting[future]))
+                    del waiting[future]
+        except BrokenExecutor as failure:
+            raise WorkersLostError(tuple(waiting.values())) from failure
+        finally:
+            for future in waiting:
+                future.cancel()
+
+
+@contextmanager
+def _workers(count: int) -> Iterator[Executor]:
+    """Processes of one's own; where the block fails, what they are still at is given up at once."""
+    own = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
     try:
-        while True:
-            while len(waiting) < most and (item := next(left, None)) is not None:
-                waiting[own.submit(job, *item[1])] = item[0]
-            if not waiting:
-                return
-            ended = wait(waiting, return_when=FIRST_COMPLETED).done
-            for future in sorted(ended, key=lambda each: order[waiting[each]]):  # the one that ran before those behind
-                finish(waiting[future], _result(future, waiting[future]))
-                del waiting[future]
-    except BrokenExecutor as failure:
-        raise WorkersLostError(tuple(waiting.values())) from failure
+        yield own
+    except BaseException:
+        for process in list((own._processes or {}).values()):  # kill_workers() from Python 3.14 on
+            process.kill()
+        raise
     finally:
-        for future in waiting:
-            future.cancel()
-        if executor is None:
-            own.shutdown(wait=True, cancel_futures=True)
+        own.shutdown(wait=True, cancel_futures=True)
 
 
 def _result(future: Future[Result], key: Hashable) -> Result:
@@ -130,6 +145,23 @@ def _end_with_parent() -> None:
         os._exit(1)
 
     Thread(target=watch, daemon=True).start()
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold Ctrl-C back within the block; a process that is started there never gets one.
+
+    The terminal sends it to all processes of a command. The one that started the others ends them; each of them would
+    show a stack.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _processors() -> int:

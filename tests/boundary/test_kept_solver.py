@@ -7,7 +7,7 @@ import pytest
 
 import probation
 from probation import Change, Law, StressActivation, Weissenberg
-from probation.change import engine_change
+from probation.law.change import engine_change
 
 EVEN = np.linspace(0.0, 100.0, 301)
 UNEVEN = np.cumsum(np.random.default_rng(5).uniform(0.05, 0.6, 173))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import probation
-from probation.records import Noise, Record
+from probation.records.record import Noise, Record
 
 NOISE = 0.04
 COUNT = 150

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal import butter, lfilter
 
 import probation
-from probation.gap.record_residual import RecordResidual
+from probation.noise.record_residual import RecordResidual
 
 SIGMA = 0.04
 KINDS = ("white", "ar1", "slow", "sum", "filter", "drift", "bursts", "heavy", "force", "digits")

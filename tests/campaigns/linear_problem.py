@@ -7,24 +7,26 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 import probation
-from probation import gap
-from probation.diagnosis.refit import Refit, refit
-from probation.gap.arma import Arma
-from probation.gap.effect import Effect, EffectParameter, Form
-from probation.gap.noise_model import NoiseModel
-from probation.gap.record_residual import RecordResidual
-from probation.gap.whitener import Whitener
-from probation.gap.whitening import Whitened
-from probation.records import Noise, Record
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.record_view import RecordView, views_of
+from probation.inference.callable_law import CallableLaw
+from probation.inference.model import CampaignModel
+from probation.inference.refit import Refit, refit
+from probation.noise.arma import Arma
+from probation.noise.model import NoiseModel
+from probation.noise.record_residual import RecordResidual
+from probation.noise.whitener import Whitener
+from probation.noise.whitening import Whitened
+from probation.records.record import Noise, Record
 
 SIGMA = 0.5
 MODULUS = 100.0
 
 
-def bar(function=None, names=("modulus_MPa",), starts=(80.0,), lower=(0.0,), upper=(1e4,)) -> gap.CallableLaw:
+def bar(function=None, names=("modulus_MPa",), starts=(80.0,), lower=(0.0,), upper=(1e4,)) -> CallableLaw:
     """True stress = modulus times true strain, or another function of strain and parameters."""
     chosen = function or (lambda strain, parameters: parameters[0] * strain)
-    return gap.CallableLaw(
+    return CallableLaw(
         lambda time, strain, parameters, alteration: chosen(strain, parameters), names, starts, lower, upper
     )
 
@@ -43,7 +45,7 @@ def effect(shape: Callable, *parameters: EffectParameter, name="added", kind="ri
     return Effect(name, name, "For a test.\nNothing more.", "none", "all", kind, forms)
 
 
-def views(stresses: Sequence[np.ndarray], strains: Sequence[float] | None = None) -> tuple[gap.RecordView, ...]:
+def views(stresses: Sequence[np.ndarray], strains: Sequence[float] | None = None) -> tuple[RecordView, ...]:
     """Ramps of 100 s to a strain of 1, or to those of `strains`, on which these stresses were recorded."""
     ends = [1.0] * len(stresses) if strains is None else strains
     records = []
@@ -51,7 +53,7 @@ def views(stresses: Sequence[np.ndarray], strains: Sequence[float] | None = None
         time = np.linspace(0.0, 100.0, len(stress))
         strain = end * time / 100.0
         records.append(Record(f"r{index + 1}", time, strain, stress, noise=Noise(SIGMA, 0.0)))
-    return gap.views_of(probation.Campaign(name="bar", records=tuple(records)))
+    return views_of(probation.Campaign(name="bar", records=tuple(records)))
 
 
 def white(count: int, name: str = "r1", sigma: float = SIGMA) -> NoiseModel:
@@ -62,7 +64,7 @@ def white(count: int, name: str = "r1", sigma: float = SIGMA) -> NoiseModel:
     )
 
 
-def whitener(seen: Sequence[gap.RecordView]) -> Whitener:
+def whitener(seen: Sequence[RecordView]) -> Whitener:
     return Whitener(tuple(white(len(view.data), view.id) for view in seen))
 
 
@@ -81,6 +83,6 @@ def whitened(found: Refit) -> Whitened:
 
 def solved(law, seen, causes=(), start=None, **options) -> Refit:
     """A refit to the last digit."""
-    model = gap.CampaignModel(law, seen, causes)
+    model = CampaignModel(law, seen, causes)
     begin = model.start if start is None else np.asarray(start, dtype=np.float64)
     return refit(model, begin, whitener(seen), **{"most_steps": 200, "settled": 1e-11, **options})

@@ -12,20 +12,22 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import probation
-from probation.diagnosis import Closure, Diagnosis, Explanation
+from probation.detection.gap_test import gap_test
+from probation.detection.where import locate
+from probation.diagnosis.closure import Closure
 from probation.diagnosis.result import (
     BaseParameter,
     CauseParameter,
     Checks,
+    Diagnosis,
+    Explanation,
     NextTest,
     RecordCurves,
     Shrink,
     Signature,
 )
-from probation.gap.gap_test import gap_test
-from probation.gap.record_residual import RecordResidual
-from probation.gap.where import locate
-from probation.gap.whitening import Whitened
+from probation.noise.record_residual import RecordResidual
+from probation.noise.whitening import Whitened
 
 NOISE = 0.04
 COUNT = 240

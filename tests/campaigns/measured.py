@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from probation import Campaign
-from probation.blind.inject import Injection, inject
+from probation_studies.blind.inject import Injection, inject
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data"
 
@@ -52,7 +52,7 @@ SIZES = {
         "machine_compliance": (0.001, 0.005, 0.02),
     },
 }
-"""Small but detectable, medium and plain, by material and fault; units as `probation.blind.inject.UNITS`."""
+"""Small but detectable, medium and plain, by material and fault; units as `probation_studies.blind.inject.UNITS`."""
 
 EFFECT = {"slack": "strain_offset"}
 """The fault's name in the catalogue, where it is another."""

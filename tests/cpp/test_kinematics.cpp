@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "probation/errors.hpp"
 
@@ -67,9 +68,16 @@ TEST_CASE("samples in one pass keep every digit, near zero and far from it") {
   CHECK(worst < 1e-15);
 }
 
-TEST_CASE("a stretch beyond all numbers has no strain that is one") {
-  const Eigen::ArrayXd strain = Eigen::Array4d(360.0, 800.0, -720.0, -1e300);
-  const Eigen::ArrayXd result = haward_thackray_strain(strain);
-  CHECK((result.head(2) == std::numeric_limits<double>::infinity()).all());
-  CHECK((result.tail(2) == -std::numeric_limits<double>::infinity()).all());
+TEST_CASE("a stretch beyond all numbers is the caller's mistake, with its sample") {
+  for (const double strain : {360.0, 800.0, -720.0, -1e300}) {
+    CAPTURE(strain);
+    std::string said;
+    try {
+      haward_thackray_strain(Eigen::Array3d(0.1, strain, 400.0));
+    } catch (const probation::InputError& error) {
+      said = error.what();
+    }
+    CHECK(said.find("true_strain[1] is ") == 0);
+    CHECK(said.find("beyond all numbers") != std::string::npos);
+  }
 }

@@ -176,3 +176,171 @@ TEST_CASE("the filtered rate follows a jump over the filter's strain") {
   for (int i = 0; i < 10; ++i) REQUIRE(uniaxial_update(p, 0.002, 0.2, state, state, stress).ok());
   CHECK(state[0] == doctest::Approx(1e-2 - 9e-3 * std::exp(-2.0)).epsilon(1e-12));
 }
+
+TEST_CASE("an update that fails late leaves state, stress and tangent as they were") {
+  Parameters p = one_mode();
+  REQUIRE(p.set_log_spaced(3, 2.0));
+  // The last mode is no number: the first two were stepped when it shows.
+  std::vector<double> state(most_point_state, 0.25);
+  state[0] = state[1] = 1.0;
+  state[point_state_header + 2 * 6] = std::numeric_limits<double>::infinity();
+  const std::vector<double> untouched = state;
+  PointStress out;
+  out.stress.fill(7.0);
+  out.tangent[0][0] = 7.0;
+  CHECK(point_update(p, {1.1, 1.0, 1.0, 0.0, 0.0, 0.0}, 1.0, state.data(), state.data(), out).status ==
+        Status::cut_step);
+  CHECK(state == untouched);
+  CHECK(out.stress[0] == 7.0);
+  CHECK(out.tangent[0][0] == 7.0);
+
+  std::vector<double> line(most_uniaxial_state, 0.25);
+  line[5] = std::numeric_limits<double>::infinity();
+  const std::vector<double> as_before = line;
+  UniaxialStress stress{7.0, 7.0};
+  CHECK(uniaxial_update(p, 0.1, 1.0, line.data(), line.data(), stress).status == Status::cut_step);
+  CHECK(line == as_before);
+  CHECK(stress.true_stress == 7.0);
+  CHECK(stress.tangent == 7.0);
+}
+
+TEST_CASE("a tangent that is not finite cuts the increment, though the stress is finite") {
+  // S = T / c is 4e306 MPa, dS / dE about E_u / c^2 = 7e311 MPa.
+  Parameters p = one_mode();
+  p.unrelaxed_modulus = 1e300;
+  std::vector<double> state(most_point_state);
+  PointStress out;
+  const Symmetric squeezed{1e-6, 1.0, 1.0, 0.0, 0.0, 0.0};
+  CHECK(point_update(p, squeezed, 1.0, state.data(), state.data(), out, false).ok());
+  state.assign(most_point_state, 0.0);
+  CHECK(point_update(p, squeezed, 1.0, state.data(), state.data(), out).status == Status::cut_step);
+}
+
+TEST_CASE("modes that relax at once have a finite tangent") {
+  // The ratio 10^-30 with a long increment: x = 1e60 and more; e^-x times x came out as 0 times inf at
+  // 10^-400.
+  Parameters p = one_mode();
+  REQUIRE(p.set_log_spaced(5, most_decades));
+  p.form = Form::power;
+  p.coefficients[0] = 0.02;
+  p.coefficients[1] = -0.9;
+  p.relaxation_ratio[0] = 0.0;
+  std::vector<double> state(most_point_state);
+  PointStress out;
+  REQUIRE(point_update(p, {1.1, 1.0, 1.0, 0.0, 0.0, 0.0}, 1e20, state.data(), state.data(), out).ok());
+  CHECK(all_finite(out.tangent));
+}
+
+TEST_CASE("constants have ranges within which nothing overflows") {
+  const auto bad = [](int constant, double value) {
+    double constants[] = {900.0, 3.0, 1000.0, 1.0, 1.0, 0.00464, 0.0367, 1e-7, 0.0, 50.0, 6.0, 0.1};
+    constants[constant - 1] = value;
+    Parameters p;
+    return read_constants(constants, 12, p).constant;
+  };
+  for (const int constant : {1, 2, 3}) CHECK(bad(constant, 1.1e12) == constant);
+  for (const int constant : {3, 5, 8}) CHECK(bad(constant, 0.9e-30) == constant);
+  for (const int constant : {5, 6, 7, 9}) CHECK(bad(constant, 1.1e30) == constant);
+  for (const double decades : {400.0, 31.0, -1.0}) CHECK(bad(11, decades) == 11);
+  CHECK(bad(12, -1.0) == 12);
+  CHECK(bad(12, 0.0) == 0);
+  CHECK(bad(1, 1e12) == 0);
+}
+
+namespace {
+
+/// The paper's law; stress_tolerance [MPa] in the last place.
+Parameters paper_law(double stress_tolerance) {
+  Parameters p;
+  const double constants[] = {3220.0, 1.8,  2e4, 1.0,  1.0, 0.00464,
+                              0.0367, 1e-7, 0.0, 50.0, 6.0, stress_tolerance};
+  REQUIRE(read_constants(constants, 12, p).ok());
+  return p;
+}
+
+/// Loading at a rate that varies between 0 and 0.01 1/s, ending on the way back.
+double path(double t) { return 0.2 * std::sin(t / 40.0) + 0.05 * (1.0 - std::cos(t / 10.0)); }
+constexpr double path_end = 90.0;
+
+/// One increment of the path in tension, in one dimension or three; the stress is the axial one less the
+/// others.
+struct Bar {
+  bool three_dimensional;
+  std::vector<double> state = std::vector<double>(most_point_state);
+  double stress = 0.0;
+
+  Outcome step(const Parameters& p, double from, double to) {
+    if (!three_dimensional) {
+      UniaxialStress out;
+      const Outcome outcome =
+          uniaxial_update(p, path(to) - path(from), to - from, state.data(), state.data(), out);
+      stress = out.true_stress;
+      return outcome;
+    }
+    const double e = path(to);
+    PointStress out;
+    const Symmetric c{std::exp(2.0 * e), std::exp(-e), std::exp(-e), 0.0, 0.0, 0.0};
+    const Outcome outcome = point_update(p, c, to - from, state.data(), state.data(), out);
+    stress = c[0] * out.stress[0] - c[1] * out.stress[1];
+    return outcome;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a coarse increment asks for a smaller one and is made all the same, a fine one does not") {
+  for (const bool three_dimensional : {false, true}) {
+    CAPTURE(three_dimensional);
+    Bar coarse{three_dimensional}, unwatched{three_dimensional}, fine{three_dimensional};
+    const Outcome found = coarse.step(paper_law(0.1), 0.0, 5.0);
+    CHECK(found.ok());
+    CHECK(found.step_factor < 1.0);
+    CHECK(found.step_factor >= smallest_cut);
+    CHECK(unwatched.step(paper_law(0.0), 0.0, 5.0).step_factor == 1.0);
+    CHECK(coarse.stress == unwatched.stress);
+    CHECK(coarse.state == unwatched.state);
+    CHECK(fine.step(paper_law(0.1), 0.0, 0.01).step_factor == 1.0);
+  }
+}
+
+TEST_CASE("an increment at once, which relaxes nothing, is exact") {
+  Parameters p = paper_law(1e-6);
+  std::vector<double> state(most_uniaxial_state);
+  UniaxialStress out;
+  CHECK(uniaxial_update(p, 0.01, 0.0, state.data(), state.data(), out).step_factor == 1.0);
+}
+
+TEST_CASE("increments chosen by their factors keep the stress within the tolerance") {
+  for (const bool three_dimensional : {false, true})
+    for (const double tolerance : {1.0, 0.1, 0.02}) {
+      const Parameters p = paper_law(tolerance);
+      Bar bar{three_dimensional}, reference{three_dimensional};
+      double t = 0.0, h = 5.0, worst = 0.0;
+      int increments = 0;
+      while (t < path_end) {
+        Bar tried = bar;
+        const double end = std::min(t + h, path_end);
+        const Outcome outcome = tried.step(p, t, end);
+        REQUIRE(outcome.ok());
+        if (outcome.step_factor < 1.0) {
+          h = outcome.step_factor * (end - t);
+          continue;
+        }
+        constexpr int parts = 40;
+        for (int k = 0; k < parts; ++k)
+          REQUIRE(
+              reference
+                  .step(p, t + (end - t) * k / parts, k + 1 == parts ? end : t + (end - t) * (k + 1) / parts)
+                  .ok());
+        bar = tried;
+        worst = std::max(worst, std::abs(bar.stress - reference.stress));
+        t = end;
+        h *= 1.5;
+        ++increments;
+      }
+      MESSAGE((three_dimensional ? "3D" : "1D"), ", tolerance ", tolerance, " MPa: ", increments,
+              " increments, largest error ", worst, " MPa");
+      CHECK(worst < tolerance);
+      CHECK(worst > 0.02 * tolerance);  // not by far too many
+    }
+}

@@ -5,8 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Law, PowerLaw, Weissenberg, batch, creep
-from probation.history import make_history
+from probation import Change, Law, PowerLaw, Weissenberg, batch
+from probation.law.creep import creep
+from probation.law.history import make_history
 
 TIME = np.linspace(0.0, 100.0, 201)
 STRAIN = 0.005 * TIME
@@ -24,6 +25,50 @@ def test_a_batch_is_many_single_solves(threads):
 def test_a_batch_writes_where_it_is_told():
     out = np.empty((3, 201))
     assert batch.stresses(LAW, SETS, make_history(TIME, STRAIN), out=out) is out
+
+
+def test_what_an_output_shares_memory_with_is_read_first():
+    """Every function with out=: parameters, times, strains that lie in the memory of the answer."""
+    history, records = make_history(TIME, STRAIN), [batch.Observed(make_history(TIME, STRAIN), 0.3 * TIME)]
+    sets = np.tile(SETS, (7, 1)) * np.linspace(0.9, 1.1, 21)[:, None]
+
+    def inside(out, values, offset=0):
+        view = out.reshape(-1)[offset : offset + values.size].reshape(values.shape)
+        view[...] = values
+        return view
+
+    out = np.empty((21, 201))
+    found = batch.stresses(LAW, inside(out, sets), history, threads=1, out=out)
+    assert_allclose(found, batch.stresses(LAW, sets, history), rtol=0.0)
+    out = np.empty((21, 1, 13))
+    batch.many_normal_equations(LAW, inside(out, sets), records, threads=1, out=out)
+    assert_allclose(out[..., :9].reshape(21, 1, 3, 3), batch.many_normal_equations(LAW, sets, records)[0], rtol=0.0)
+    both = np.empty(63)
+    found = batch.sums_of_squares(LAW, inside(both, sets), records, threads=1, out=both[:21].reshape(21, 1))
+    assert_allclose(found, batch.sums_of_squares(LAW, sets, records), rtol=0.0)
+
+    strains = STRAIN * np.linspace(0.5, 1.5, 21)[:, None]
+    expected = batch.field_stresses(LAW, TIME, strains, sets)
+    whole = np.empty(22 * 201)
+    shifted = inside(whole, strains, 100)
+    found = batch.field_stresses(LAW, TIME, shifted, sets, threads=1, out=whole[: 21 * 201].reshape(21, 201))
+    assert_allclose(found, expected, rtol=0.0)
+    out = np.empty((21, 201))
+    found = batch.field_stresses(LAW, inside(out, TIME), strains, inside(out, sets, 300), threads=1, out=out)
+    assert_allclose(found, expected, rtol=0.0)
+
+
+@pytest.mark.parametrize("scheme", ["be2", "sa2", "sa3", "exact", "cvode"])
+def test_a_stress_may_be_written_over_its_own_times_or_strains(scheme):
+    expected = LAW.stress(TIME, STRAIN, scheme)
+    for which in (0, 1):
+        arrays = [TIME.copy(), STRAIN.copy()]
+        assert_allclose(LAW.stress(*arrays, scheme, out=arrays[which]), expected, rtol=0.0)
+        memory = np.empty(202)
+        memory[1:] = arrays[which] = (TIME, STRAIN)[which]
+        arrays = [TIME, STRAIN]
+        arrays[which] = memory[1:]
+        assert_allclose(LAW.stress(*arrays, scheme, out=memory[:-1]), expected, rtol=0.0)
 
 
 def test_sums_of_squares_are_those_of_the_stresses():
@@ -99,6 +144,13 @@ def test_creep_of_one_mode_without_hardening_is_maxwells():
     """One mode, G = 0: e = (s / E_u) (1 + t / tau)."""
     law = Law(unrelaxed_modulus=1000.0, tau_max=10.0, hardening_modulus=0.0, modes=1)
     assert_allclose(creep(law, TIME, np.full(201, 5.0)), 5e-3 * (1.0 + TIME / 10.0), rtol=1e-9)
+
+
+def test_a_stress_that_strains_beyond_all_numbers_at_once_is_refused():
+    with pytest.raises(
+        probation.InputError, match=r"true_stress\[0\] is 1e\+06 MPa; put on at once it strains by 1e\+06"
+    ):
+        creep(Law(unrelaxed_modulus=1.0, tau_max=1.0, hardening_modulus=1.0), TIME, np.full(201, 1e6))
 
 
 def test_creep_refuses_what_it_cannot_do():

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from probation.blind.scores.aims import LEAST, Aim, aims
-from probation.blind.scores.answer import Answer, Shrink
-from probation.blind.scores.board import board
-from probation.blind.scores.case import Case
-from probation.blind.scores.closure import closure
-from probation.blind.scores.confusion import confusion_matrix
-from probation.blind.scores.held import amplitudes
-from probation.blind.scores.intervals import Average
-from probation.blind.scores.probabilities import reliability
-from probation.blind.thresholds import failures, read_thresholds
 from probation.errors import InputError
+from probation_studies.blind.scores.aims import LEAST, Aim, aims
+from probation_studies.blind.scores.answer import Answer, Shrink
+from probation_studies.blind.scores.board import board
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.scores.closure import closure
+from probation_studies.blind.scores.confusion import confusion_matrix
+from probation_studies.blind.scores.held import amplitudes
+from probation_studies.blind.scores.intervals import Average
+from probation_studies.blind.scores.probabilities import reliability
+from probation_studies.blind.thresholds import failures, read_thresholds
 
 CAUSE = {
     "effect": "damage",

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from campaigns.few_records import few_records, offset
-from probation.blind.layout import Layout
-from probation.blind.score import score_split
-from probation.blind.scores.answer import read_answer
-from probation.blind.seal import seal_truth
-from probation.blind.solve import solve_split
-from probation.blind.solvers import BASELINES, solver_named
-from probation.blind.solvers.survey import answer, survey
 from probation.cli import main
 from probation.errors import InputError
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.score import score_split
+from probation_studies.blind.scores.answer import read_answer
+from probation_studies.blind.seal import seal_truth
+from probation_studies.blind.solve import solve_split
+from probation_studies.blind.solvers import BASELINES, solver_named
+from probation_studies.blind.solvers.survey import answer, survey
 
 
 def _written(folder, campaign):

@@ -9,11 +9,11 @@ import dask
 import distributed
 import pytest
 
-from probation.blind import laboratory
-from probation.blind.layout import Layout
-from probation.blind.solve import solve_split
 from probation.cli import main
 from probation.pool import run_all
+from probation_studies.blind import laboratory
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.solve import solve_split
 
 COUNT = 12
 

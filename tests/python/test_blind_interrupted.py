@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from probation.blind.layout import Layout
+from probation_studies.blind.layout import Layout
 
 COUNT = 12
 MAKE = """
 import time
 import numpy as np
-from probation.blind import laboratory
-from probation.blind.laboratory.campaign import SealedCampaign, WrittenRecord
-from probation.blind.make import make_split
+from probation_studies.blind import laboratory
+from probation_studies.blind.laboratory.campaign import SealedCampaign, WrittenRecord
+from probation_studies.blind.make import make_split
 
 class Truth:
     def __init__(self, name):
@@ -37,7 +37,7 @@ make_split("split", seed=3, count=12, processes=1)
 """
 SOLVE = """
 import sys
-from probation.blind.solve import solve_split
+from probation_studies.blind.solve import solve_split
 sys.path.insert(0, ".")
 import solver
 print("begun", flush=True)

@@ -12,17 +12,26 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import least_squares
 
 import probation
-from probation.blind import laboratory
-from probation.blind.laboratory.bank import Bank
-from probation.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
-from probation.blind.laboratory.design import draw_design
-from probation.blind.laboratory.material import TIME_RATIO, WEIGHT, Activation, BaseLaw, Heating, Specimen, integrate
-from probation.blind.laboratory.noise import Noise, draw_record_noise
-from probation.blind.laboratory.rig import REFINEMENT
-from probation.blind.laboratory.trial import Acting, recorded_stress
-from probation.blind.laboratory.withheld import shortest_window
+import probation_studies
+from probation_studies.blind import laboratory
+from probation_studies.blind.laboratory.bank import Bank
+from probation_studies.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
+from probation_studies.blind.laboratory.design import draw_design
+from probation_studies.blind.laboratory.material import (
+    TIME_RATIO,
+    WEIGHT,
+    Activation,
+    BaseLaw,
+    Heating,
+    Specimen,
+    integrate,
+)
+from probation_studies.blind.laboratory.noise import Noise, draw_record_noise
+from probation_studies.blind.laboratory.rig import REFINEMENT
+from probation_studies.blind.laboratory.trial import Acting, recorded_stress
+from probation_studies.blind.laboratory.withheld import shortest_window
 
-SOURCE = Path(probation.__file__).parent
+SOURCE = Path(probation_studies.__file__).parent
 SHARED = {"probation.errors"}
 CONTRACT = {
     "rate_dependent_relaxation", "rate_dependent_hardening", "finite_extensibility", "spectrum_shape",
@@ -66,17 +75,23 @@ def test_making_data_shares_nothing_with_what_is_tested():
         path.relative_to(SOURCE.parent).with_suffix("") for path in (SOURCE / "blind" / "laboratory").rglob("*.py")
     )
     waiting = {".".join(path.parts) for path in paths if path.name != "__init__"}
-    waiting |= {"probation.blind.laboratory", "probation.blind.laboratory.causes", "probation.blind"}
+    waiting |= {
+        "probation_studies.blind.laboratory",
+        "probation_studies.blind.laboratory.causes",
+        "probation_studies.blind",
+    }
     seen: set[str] = set()
     while waiting:
         name = waiting.pop()
         seen.add(name)
         path = _module_file(name)
         if path is not None and name not in SHARED and name != "probation":
-            waiting |= {each for each in _imports(path) if each.split(".")[0] == "probation"} - seen
-    own = {name for name in seen if name.startswith("probation.blind")}
+            waiting |= {each for each in _imports(path) if each.split(".")[0].startswith("probation")} - seen
+    own = {name for name in seen if name.startswith("probation_studies.blind")}
     assert seen - own <= SHARED
-    assert {name for name in own if not name.startswith("probation.blind.laboratory")} == {"probation.blind"}
+    assert {name for name in own if not name.startswith("probation_studies.blind.laboratory")} == {
+        "probation_studies.blind"
+    }
 
 
 def test_only_numpy_and_scipy_are_used_beside_the_standard_library():

@@ -4,15 +4,15 @@ import json
 
 import pytest
 
-from probation.blind import make as making
-from probation.blind import release
-from probation.blind.make import make_split
-from probation.blind.release import check_seed, shortfall, spend_seed, spent_seeds
-from probation.blind.score import score_split
-from probation.blind.seal import seal_truth
-from probation.blind.solve import solve_split
 from probation.cli import main
 from probation.errors import InputError
+from probation_studies.blind import make as making
+from probation_studies.blind import release
+from probation_studies.blind.make import make_split
+from probation_studies.blind.release import check_seed, shortfall, spend_seed, spent_seeds
+from probation_studies.blind.score import score_split
+from probation_studies.blind.seal import seal_truth
+from probation_studies.blind.solve import solve_split
 
 
 @pytest.mark.parametrize(("campaigns", "nulls", "enough"), [(600, 250, True), (599, 270, False), (700, 249, False)])

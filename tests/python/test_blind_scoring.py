@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from probation.blind.layout import Layout
-from probation.blind.make import make_split
-from probation.blind.score import score_split
-from probation.blind.scores.answer import NO_ANSWER, Answer, Region, read_answer
-from probation.blind.scores.baselines import majority, shuffled
-from probation.blind.scores.board import board
-from probation.blind.scores.case import Case
-from probation.blind.scores.intervals import Rate
-from probation.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
-from probation.blind.scores.where import overlap
-from probation.blind.seal import open_truth, read_truth, seal_truth
-from probation.blind.solve import solve_split
-from probation.blind.solvers import solver_named
 from probation.cli import main
 from probation.errors import InputError
 from probation.pool import run_all
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.make import make_split
+from probation_studies.blind.score import score_split
+from probation_studies.blind.scores.answer import NO_ANSWER, Answer, Region, read_answer
+from probation_studies.blind.scores.baselines import majority, shuffled
+from probation_studies.blind.scores.board import board
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.scores.intervals import Rate
+from probation_studies.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
+from probation_studies.blind.scores.where import overlap
+from probation_studies.blind.seal import open_truth, read_truth, seal_truth
+from probation_studies.blind.solve import solve_split
+from probation_studies.blind.solvers import solver_named
 
 
 def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localised=False, everywhere=True):
@@ -323,7 +323,7 @@ def test_made_solved_and_scored_on_the_command_line(tmp_path, capsys):
     before = (folder / "seals.json").read_text()
     assert main([*make, "--processes", "1"]) == 0  # all there: the seals stay
     assert json.loads((folder / "seals.json").read_text())["seals"] == json.loads(before)["seals"]
-    solver = "probation.blind.example:no_gap"
+    solver = "probation_studies.blind.example:no_gap"
     assert main(["blind", "solve", str(folder), "--solver", solver, "--processes", "1"]) == 0
     capsys.readouterr()
     page = tmp_path / "score.html"

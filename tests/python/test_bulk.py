@@ -13,10 +13,10 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import BulkIdentification, Law, PowerLaw, Record, Weissenberg, bulk, identify_many
-from probation.excitation import excite
 from probation.identify.covariance import covariance
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, first_guess
+from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
 TIME = np.linspace(0.0, 100.0, 201)
@@ -92,6 +92,35 @@ def test_both_methods_give_what_scipy_gives(seed):
             assert_allclose(found.parameters[0], expected, rtol=1e-6)
             if not known.correlated:
                 assert_allclose(found.standard_error[0] / expected, known.relative_error, rtol=1e-3)
+
+
+@pytest.mark.parametrize(("scheme", "order"), [("be2", 2), ("sa2", 2)])
+@pytest.mark.parametrize("method", bulk.METHODS)
+def test_substeps_take_the_error_of_the_scheme_out(scheme, order, method):
+    """A record of 51 instants, its stress by SA3 on 64 steps between them: four times the steps, a sixteenth of it."""
+    time = np.linspace(0.0, 100.0, 50 * 64 + 1)
+    strain = 0.4 * (time / 100.0) ** 2
+    stress = LAW.stress(time, strain, "sa3")[::64]
+    shifts = []
+    for substeps in (4, 16):
+        every = 64 // substeps
+        found = identify_many(
+            LAW, time[::every], strain[::every], stress, scheme, method=method, substeps=substeps, noise=0.1
+        )
+        assert found.converged.all()
+        shifts.append(np.abs(found.parameters[0] / LAW.parameters - 1.0).max())
+    assert shifts[1] < 1e-3
+    assert shifts[0] / shifts[1] == pytest.approx(4.0**order, rel=0.25)
+
+
+def test_a_sampled_record_with_substeps_is_as_long_as_its_samples_say():
+    with pytest.raises(probation.InputError, match=r"true_stress \(6, 201\); expected .* \(n_samples - 1\) \* 2 \+ 1"):
+        identify_many(LAW, TIME, STRAIN, noisy(), substeps=2)
+    with pytest.raises(probation.InputError, match=r"true_stress \(6, 67\)"):
+        identify_many(LAW, TIME, STRAIN, noisy()[:, ::3], substeps=3)
+    for wrong in (0, 1.5, True, "auto"):
+        with pytest.raises(probation.InputError, match=r"substeps is .*; expected a whole number from 1 to"):
+            identify_many(LAW, TIME, STRAIN, noisy(), substeps=wrong)
 
 
 def test_held_parameters_stay_and_the_others_are_those_of_scipy():
@@ -300,3 +329,22 @@ def test_an_argument_of_another_kind_is_named(arguments, named):
         identify_many(LAW, TIME, STRAIN, STRAIN, **arguments)
     with pytest.raises(probation.InputError, match="law"):
         identify_many(3, TIME, STRAIN, STRAIN)
+
+
+def test_records_in_the_memory_of_the_answer_are_read_first():
+    stress = noisy(300)
+    expected = identify_many(LAW, TIME, STRAIN, stress)
+    memory = np.empty(300 * len(TIME))
+    inside = memory.reshape(300, -1)
+    inside[:] = stress
+    out = replace(BulkIdentification.empty(300), parameters=memory[:900].reshape(300, 3), rms_residual=memory[900:1200])
+    identify_many(LAW, TIME, STRAIN, inside, threads=1, out=out)
+    assert_allclose(out.parameters, expected.parameters, rtol=0.0)
+    assert_allclose(out.rms_residual, expected.rms_residual, rtol=0.0)
+
+
+def test_answers_that_share_memory_are_refused():
+    memory = np.empty((6, 3))
+    out = replace(BulkIdentification.empty(6), parameters=memory, standard_error=memory)
+    with pytest.raises(probation.InputError, match=r"out\.parameters and out\.standard_error share memory"):
+        identify_many(LAW, TIME, STRAIN, noisy(), out=out)

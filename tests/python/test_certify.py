@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import probation
-from probation.certificate import Estimate, regress_hardening
 from probation.certificate.bias import model_bias
-from probation.certificate.consistency import judge
+from probation.certificate.consistency import Estimate, judge
+from probation.certificate.hardening import regress_hardening
 from probation.certificate.verdict import decide
-from probation.companion import WEISSENBERG_AS_PRINTED
-from probation.paper.twins import experiment, twin_campaign
-from probation.records import LawSettings
+from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.settings import LawSettings
+from probation.published.experiments import experiment, twin_campaign
 
 NOISE = 0.04
 QUICK = "sa2"  # as good as be2 on these smooth histories, with fewer substeps

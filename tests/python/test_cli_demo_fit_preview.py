@@ -1,19 +1,25 @@
 """``probation demo``, ``fit`` and ``preview``."""
 
 import json
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
 
 import pytest
 
 from probation.cli import main
 from probation.demo import STEPS
-from probation.paper.twins import twin_campaign
+from probation.published.experiments import twin_campaign
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """What the demonstration wrote."""
+    """What the demonstration wrote; beside it what it printed."""
     folder = tmp_path_factory.mktemp("demo") / "out"
-    assert main(["demo", "--out", str(folder)]) == 0
+    printed = StringIO()
+    with redirect_stdout(printed):
+        assert main(["demo", "--out", str(folder)]) == 0
+    (folder.parent / "printed.txt").write_text(printed.getvalue(), encoding="utf-8")
     return folder
 
 
@@ -25,6 +31,15 @@ def test_the_demonstration_identifies_every_twin_within_three_standard_errors(fo
         found = told["identification"]["parameters"]["experiment-1"][name]
         assert abs(found["value"] - value) < 3 * found["se"]
     assert told["seed"] == 0
+
+
+def test_the_readme_shows_what_the_demonstration_prints(folder):
+    """Each line of its block, up to … where it is cut there, begins a line of the demonstration."""
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    block = readme.split("```text\n")[1].split("```")[0].splitlines()
+    printed = (folder.parent / "printed.txt").read_text(encoding="utf-8").splitlines()
+    for line in block:
+        assert any(each.startswith(line.removesuffix("…").rstrip()) for each in printed), line
 
 
 def test_the_page_of_the_demonstration_holds_every_step(folder):

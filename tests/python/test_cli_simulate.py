@@ -103,7 +103,7 @@ def test_extrapolating_the_companion_relation_is_warned_of(capsys):
     assert main(["simulate", *arguments]) == 0
     err = capsys.readouterr().err
     assert err.startswith("warning: ")
-    assert "asked between 0.1 and 0.1 1/s" in err
+    assert "strain rates 0.1 to 0.1 1/s leave the range" in err
 
 
 def test_without_output_a_picture_goes_to_the_terminal(capsys):
@@ -248,3 +248,12 @@ def test_an_answer_that_cannot_be_written_is_bad_input(history, tmp_path, capsys
     path, *_ = history
     assert main(["simulate", str(path), *LAW, "-o", str(tmp_path / "missing" / "o.csv")]) == 2
     assert "cannot be written: found no folder" in capsys.readouterr().err
+
+
+def test_a_strain_history_in_percent_is_refused_with_the_way_to_say_so(tmp_path, capsys):
+    """25 % read as 25 is a stretch of 7e10."""
+    (tmp_path / "percent.csv").write_text("time_s,true_strain\n0,0\n1,4\n2,25\n", encoding="utf-8")
+    assert main(["simulate", str(tmp_path / "percent.csv"), *LAW, "-o", str(tmp_path / "out.csv")]) == 2
+    told = capsys.readouterr().err
+    assert "row 4, column 'true_strain': found true strain 25 without a unit, expected at most 5" in told
+    assert 'head the column "true_strain (%)"' in told

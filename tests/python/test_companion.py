@@ -2,12 +2,16 @@
 
 import copy
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import probation
 from probation import Exponential, PowerLaw, RateFunction, Table, Weissenberg
+from probation.histories import history_from
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.simulation import simulate
 from reference import paper
 
 FORMS = {
@@ -75,6 +79,8 @@ def test_a_function_is_as_good_as_the_form_it_states():
         ([1e-5], (1e-5, 1e-5)),
         ([0.0], None),
         ([0.0, 1e-3], None),
+        ([1e-9, 1e-3], None),
+        ([0.0, 1e-9, 2e-9], (1e-9, 2e-9)),
     ],
 )
 def test_rates_outside_the_calibrated_range_are_told(rates, outside):
@@ -113,3 +119,48 @@ def test_relations_are_values(companion):
 def test_a_relation_that_cannot_be_is_refused(make, message):
     with pytest.raises(probation.InputError, match=message):
         make()
+
+
+SLOWED = 1e-6
+"""A record whose times were read a million times too long: 1e-3 1/s becomes 1e-9, below the floor of 1e-7 1/s."""
+
+
+def slowed_record(name="slow", role="identify"):
+    law = probation.Law(
+        unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=probation.Weissenberg(0.00464, 0.0367)
+    )
+    time = np.linspace(0.0, 300.0, 60)
+    stress = law.stress(time, 1e-3 * time, scheme="sa3")
+    return probation.Record(name, time / SLOWED, 1e-3 * time, stress, control="strain-rate", role=role)
+
+
+def campaign_of(*records):
+    companion = CompanionSettings("weissenberg", {"slope": 0.00464, "intercept": 0.0367})
+    return probation.Campaign("x", records, LawSettings(companion=companion))
+
+
+def test_records_wholly_below_the_calibrated_range_are_warned_about():
+    warnings = probation.fit(campaign_of(slowed_record())).warnings
+    assert any(each.startswith("slow: strain rates 1e-09 to 1e-09 1/s leave the range") for each in warnings)
+
+
+def test_a_held_out_record_outside_the_calibrated_range_is_warned_about():
+    record = slowed_record()
+    at_rate = replace(record, id="right", time=record.time * SLOWED, sha256="")
+    warnings = probation.certify(campaign_of(at_rate, slowed_record(role="held-out"))).warnings
+    assert any(each.startswith("slow: strain rates 1e-09 to 1e-09 1/s leave the range") for each in warnings)
+
+
+def test_a_history_below_the_calibrated_range_is_warned_about():
+    law = probation.Law(
+        unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=probation.Weissenberg(0.00464, 0.0367)
+    )
+    (warning,) = simulate(law, history_from("ramp:rate=1e-9,strain=0.1")).warnings
+    assert "leave the range" in warning
+
+
+def test_a_users_relation_that_raises_is_named_with_the_rates_it_was_asked_for():
+    with pytest.raises(
+        probation.InputError, match=r"function\(rates\) raised KeyError: 'tau'; .* from 1e-08 to 1000 1/s"
+    ):
+        RateFunction(lambda rates: {}["tau"])

@@ -8,12 +8,12 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
-from probation.calibration import TABLE_2
 from probation.calibration.forms import FORMS
 from probation.calibration.paper_relations import paper_relations
 from probation.calibration.regression import excess_scatter, regress
-from probation.paper.twins import necking_history
-from probation.records import CompanionSettings, LawSettings
+from probation.calibration.table_2 import TABLE_2
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.published.experiments import necking_history
 
 TRUTH = (0.0046, 0.0406)
 RELATION = Weissenberg(*TRUTH)
@@ -414,3 +414,40 @@ def test_etfe_at_one_grip_speed_gives_a_relation_and_the_warning_that_it_is_conf
 def test_what_cannot_be_calibrated_is_refused_by_name(make, message):
     with pytest.raises(probation.InputError, match=message):
         make()
+
+
+# A material of constant tau_max
+
+
+def constant_time_ramps(seed=0):
+    """We = 5 s times the rate: a line through it over log10 of the rate is negative at the slowest."""
+    random = np.random.default_rng(seed)
+    records = []
+    for rate in (1e-3, 5e-3, 2e-2):
+        law = Law(unrelaxed_modulus=3000.0, tau_max=5.0, hardening_modulus=2.5)
+        time = np.linspace(0.0, 2.0 / rate, 200)
+        stress = probation.ramp_stress(law, rate, time) + 0.05 * random.normal(size=200)
+        records.append(Record(f"ramp-{rate:g}", time, rate * time, stress, control="strain-rate"))
+    return Campaign("constant", tuple(records))
+
+
+@pytest.mark.parametrize("route", ["auto", "direct"])
+def test_a_constant_time_is_told_to_be_enough(route):
+    found = calibrate_companion(constant_time_ramps(), route=route)
+    assert found.verdict.startswith("A constant τ_max of 5.0")
+    assert "no companion relation is needed" in found.verdict
+    assert "gives no positive time" in found.verdict  # eq. (11), at the slowest rate left out
+    assert found.to_dict()["constant_is_enough"] is True
+
+
+def test_a_time_that_depends_on_the_rate_is_not_told_to_be_constant():
+    for source in (TABLE_2, ramps()):
+        found = calibrate_companion(source)
+        assert found.why_constant is None
+        assert found.verdict.startswith("τ_max follows")
+
+
+def test_a_form_that_suits_the_material_ill_is_fitted_where_it_is_asked_for():
+    found = calibrate_companion(constant_time_ramps(), form="weissenberg")
+    assert np.all(found.companion.relation.relaxation_time([1e-3, 5e-3, 2e-2]) > 0.0)
+    assert np.max(np.abs(found.candidates["weissenberg"].percent_residual)) > 20.0

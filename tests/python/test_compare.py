@@ -9,8 +9,8 @@ import pytest
 import probation
 from campaigns import measured
 from probation import Campaign, InputError, Law, Record, Reference, compare
-from probation.blind.inject import Injection
 from probation.cli import main
+from probation_studies.blind.inject import Injection
 
 GRID = {"slow": 0.002, "fast": 0.02}
 

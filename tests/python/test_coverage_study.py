@@ -72,6 +72,18 @@ def test_a_study_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
         study(2, **options)
 
 
+def test_a_line_that_a_kill_cut_off_does_not_spoil_the_next(tmp_path, monkeypatch):
+    """The next one was appended to it: started a third time, the study refused its own file."""
+    state = tmp_path / "state.jsonl"
+    options = {"cases": (CASES[3],), "methods": ("plain",), "state": state}
+    study(1, **options)
+    with state.open("a") as file:
+        file.write('[0, "cut o')
+    second = study(2, **options)
+    monkeypatch.setattr(coverage, "_judge", None)  # nothing is left to do
+    assert study(2, **options) == second
+
+
 def test_the_command_tells_and_writes(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(coverage, "CASES", (CASES[3],))
     monkeypatch.setattr(coverage.study, "__kwdefaults__", {**coverage.study.__kwdefaults__, "cases": (CASES[3],)})
@@ -82,3 +94,24 @@ def test_the_command_tells_and_writes(tmp_path, monkeypatch, capsys):
     answer = json.loads((tmp_path / "c.json").read_text())
     assert (answer["schema"], answer["seed"]) == ("probation.coverage/1", 0)
     assert main(["coverage", "--draws", "0"]) == 2
+
+
+def counted(hits, draws):
+    names = dict.fromkeys(coverage.TRUTH, hits)
+    return coverage.Coverage((coverage.Counted("noise", "auto", draws, names, dict.fromkeys(names, 0.0)),), 0)
+
+
+def test_few_draws_do_not_tell_that_intervals_hold():
+    """3 of 3: the exact interval begins at 0.005^(1/3) = 17 %, and nothing is said to hold."""
+    found = counted(3, 3)
+    assert found.verdict.startswith("3 draws are too few to tell")
+    assert "a coverage of 17 %" in found.verdict
+    assert json.loads(found.to_json())["rows"][0]["parameters"]["tau_max"]["holds"] is None
+
+
+def test_enough_draws_tell_whether_intervals_hold():
+    """190 of 200: the interval begins at 89.5 %. None of 3: it ends at 83 %, and holds at no number of draws."""
+    assert " hold: over 200 draws" in counted(190, 200).verdict
+    assert "do not hold" in counted(0, 3).verdict
+    needed = int(counted(3, 3).verdict.split("%. ")[1].split()[0])
+    assert exact_interval(round(0.95 * needed), needed)[0] >= 0.85

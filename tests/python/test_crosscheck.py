@@ -8,8 +8,8 @@ import pytest
 
 import probation
 from probation.cli import main
-from probation.paper.twins import RAMP_LAW, experiment_1, experiment_3, twin_campaign
-from probation.records import Record
+from probation.published.experiments import RAMP_LAW, experiment_1, experiment_3, twin_campaign
+from probation.records.record import Record
 from probation.schemes.steps import observed_order
 
 

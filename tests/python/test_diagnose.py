@@ -9,7 +9,7 @@ import pytest
 from campaigns.few_records import CORNERS, NOISE, damage, few_records, offset
 from probation import InputError
 from probation.diagnosis.diagnose import diagnose
-from probation.records import LawSettings
+from probation.law.settings import LawSettings
 
 EFFECTS = ["force_offset", "damage", "machine_compliance", "slow_process"]
 UNEVEN = {"slow": 0.02, "middle": 0.04, "fast": 0.4, "unloading": 0.1}

@@ -8,8 +8,8 @@ import pytest
 
 from campaigns import made_up_diagnosis as made_up
 from probation import cli
-from probation.gap import effects
-from probation.paper.twins import twin_campaign
+from probation.effects.registry import effects
+from probation.published.experiments import twin_campaign
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 import probation
-from probation import gap
-from probation.records import Campaign, Record
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.registry import register, unregister
+from probation.inference.callable_law import CallableLaw, maxwell_bar
+from probation.records.campaign import Campaign
+from probation.records.record import Record
 
 MODULUS, TIME = 1200.0, 8.0  # MPa, s
 
@@ -28,7 +31,7 @@ def campaign(fault=None):
 
 
 def test_a_maxwell_bar_that_is_one_has_no_gap():
-    found = probation.diagnose(campaign(), law=gap.maxwell_bar(), design=False)
+    found = probation.diagnose(campaign(), law=maxwell_bar(), design=False)
     assert found.verdict == "no_gap"
     values = {each.name: each for each in found.base}
     assert values["modulus_MPa"].value == pytest.approx(MODULUS, abs=4.0 * values["modulus_MPa"].se)
@@ -37,7 +40,7 @@ def test_a_maxwell_bar_that_is_one_has_no_gap():
 
 def test_an_offset_in_one_record_of_a_maxwell_bar_is_named_with_its_record():
     shifted = campaign(lambda name, time, strain, stress: stress + 0.4 * np.exp(strain) * (name == "middle"))
-    found = probation.diagnose(shifted, law=gap.maxwell_bar(), design=False)
+    found = probation.diagnose(shifted, law=maxwell_bar(), design=False)
     assert found.verdict == "explained"
     assert found.best.effects == ("force_offset",)
     assert found.best.records == ("middle",)
@@ -46,24 +49,40 @@ def test_an_offset_in_one_record_of_a_maxwell_bar_is_named_with_its_record():
 
 
 def test_effects_that_a_law_does_not_understand_are_not_considered():
-    found = probation.diagnose(campaign(), law=gap.maxwell_bar(), design=False)
+    found = probation.diagnose(campaign(), law=maxwell_bar(), design=False)
     assert all("rate_dependent_relaxation" not in each.effects for each in found.explanations)
 
 
 def test_a_users_own_effect_is_found_once_it_is_registered():
-    amplitude = gap.EffectParameter("bend_MPa", "MPa", -5.0, 5.0, 0.5, "some tenths of a MPa")
-    bend = gap.Form("bend", (amplitude,), recorded_stress=lambda view, values, stress: stress + values[0] * _bend(view))
-    gap.register(
-        gap.Effect("bent_grip", "bent grip", "A grip bends.\nAmplitude: of the bend.", "none", "all", "rig", (bend,))
-    )
+    amplitude = EffectParameter("bend_MPa", "MPa", -5.0, 5.0, 0.5, "some tenths of a MPa")
+    bend = Form("bend", (amplitude,), recorded_stress=lambda view, values, stress: stress + values[0] * _bend(view))
+    register(Effect("bent_grip", "bent grip", "A grip bends.\nAmplitude: of the bend.", "none", "all", "rig", (bend,)))
     try:
         bent = campaign(lambda name, time, strain, stress: stress + 0.3 * np.sin(3.0 * np.pi * strain / 0.4))
-        found = probation.diagnose(bent, law=gap.maxwell_bar(), design=False)
+        found = probation.diagnose(bent, law=maxwell_bar(), design=False)
     finally:
-        gap.unregister("bent_grip")
+        unregister("bent_grip")
     assert found.best.effects == ("bent_grip",)
     assert found.best.parameters[0].value == pytest.approx(0.3, abs=0.03)
 
 
 def _bend(view):
     return np.sin(3.0 * np.pi * view.recorded_strain / 0.4)
+
+
+def test_a_law_that_raises_is_named_with_its_record_and_parameters():
+    def broken(time, true_strain, parameters, alteration):
+        if time[-1] < 50.0:
+            raise ZeroDivisionError("float division by zero")
+        return parameters[0] * true_strain
+
+    law = CallableLaw(broken, ("modulus_MPa",), (1000.0,), (0.0,), (1e5,))
+    said = r"record 'fast': .* modulus_MPa = \d.*; it raised ZeroDivisionError: float division by zero"
+    with pytest.raises(probation.InputError, match=said):
+        probation.diagnose(campaign(), law=law, design=False)
+
+
+def test_a_law_that_gives_no_numbers_is_named_with_its_record_and_parameters():
+    law = CallableLaw(lambda *_: np.full(160, np.nan), ("modulus_MPa",), (1000.0,), (0.0,), (1e5,))
+    with pytest.raises(probation.InputError, match=r"record 'slow': .* at modulus_MPa = 1000; it raised function\("):
+        probation.diagnose(campaign(), law=law, design=False)

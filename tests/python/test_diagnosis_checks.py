@@ -6,14 +6,14 @@ from numpy.testing import assert_allclose
 from scipy.stats import chi2
 
 from campaigns import linear_problem as problem
-from probation import gap
 from probation.diagnosis.checks import amplitude_consistency, checks, left_out_squares
 from probation.diagnosis.closure import Closure
-from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.remaining import leaves_too_much
 from probation.diagnosis.result import Shrink
-from probation.gap import Cause
+from probation.effects.cause import Cause
+from probation.inference.evidence import Evidence
+from probation.inference.model import CampaignModel
 
 COUNT = 80
 TIME = np.linspace(0.0, 100.0, COUNT)
@@ -75,7 +75,7 @@ def test_of_a_law_that_is_not_linear_it_is_what_a_refit_foretells_to_a_few_perce
     foretold = left_out_squares(found, problem.whitened(found))
     for out, view in enumerate(views):
         rest = problem.solved(law, [each for each in views if each is not view], start=found.parameters)
-        residual = gap.CampaignModel(law, [view]).residual(rest.parameters) / problem.SIGMA
+        residual = CampaignModel(law, [view]).residual(rest.parameters) / problem.SIGMA
         assert foretold[out] == pytest.approx(residual @ residual, rel=0.02)
 
 

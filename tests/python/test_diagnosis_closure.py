@@ -7,7 +7,7 @@ import pytest
 
 from campaigns import linear_problem as problem
 from probation.diagnosis.closure import Piece, closure_of
-from probation.gap.arma import Arma
+from probation.noise.arma import Arma
 
 SIGMA = problem.SIGMA
 

@@ -8,10 +8,10 @@ from scipy.special import logsumexp
 from scipy.stats import truncnorm
 
 from campaigns import linear_problem as problem
-from probation.diagnosis import evidence as module
-from probation.diagnosis.discrepancy import Discrepancy
-from probation.diagnosis.evidence import evidence
-from probation.gap import Cause
+from probation.effects.cause import Cause
+from probation.inference import evidence as module
+from probation.inference.discrepancy import Discrepancy
+from probation.inference.evidence import evidence
 
 COUNT = 60
 STRAIN = np.linspace(0.0, 1.0, COUNT)

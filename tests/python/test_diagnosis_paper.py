@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from probation import Campaign, Law, Weissenberg, diagnose
-from probation.paper.twins import SAMPLES, experiment_2, experiment_3, necking_history, twin_campaign
-from probation.paper.wavy_bias import drawn_wave
-from probation.records import LawSettings
+from probation.law.settings import LawSettings
+from probation.published.experiments import SAMPLES, experiment_2, experiment_3, necking_history, twin_campaign
+from probation_studies.paper.wavy_bias import drawn_wave
 
 MISSING, UNKNOWN = "rate_dependent_relaxation", "unknown"
 NOISE = 0.04  # MPa

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation import gap
-from probation.diagnosis.evidence import Evidence
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
     AGAIN,
@@ -21,7 +19,9 @@ from probation.diagnosis.probabilities import (
     weigh,
     with_unseen,
 )
-from probation.gap import Cause
+from probation.effects.cause import Cause
+from probation.inference.evidence import Evidence
+from probation.inference.model import CampaignModel
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
 BASE = problem.solved(problem.bar(), VIEWS)
@@ -39,7 +39,7 @@ def made(name, kind="material", more_forms=()):
 
 
 def hypothesis(*causes, log_evidence=0.0, unknown=-np.inf):
-    model = gap.CampaignModel(problem.bar(), VIEWS, causes)
+    model = CampaignModel(problem.bar(), VIEWS, causes)
     found = replace(BASE, model=model, parameters=model.start)
     return Hypothesis(found, Evidence(log_evidence, 0.0, unknown, np.zeros((0, 0))))
 

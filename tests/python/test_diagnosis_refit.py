@@ -6,8 +6,10 @@ from numpy.testing import assert_allclose
 from scipy.optimize import least_squares
 
 from campaigns import linear_problem as problem
-from probation import ConvergenceError
-from probation.gap import Cause
+from probation import Campaign, ConvergenceError, Record
+from probation.diagnosis.base_fit import base_fit
+from probation.diagnosis.explain import base_parameters
+from probation.effects.cause import Cause
 
 COUNT = 120
 TIME = np.linspace(0.0, 100.0, COUNT)
@@ -159,3 +161,12 @@ def test_the_jacobian_is_the_derivative_of_the_whitened_residual_along_the_coord
         down[index] -= step
         moved = [known.residual(found.model.residual(found.coordinates.parameters(x))) for x in (up, down)]
         assert_allclose(found.jacobian[:, index], (moved[0] - moved[1]) / (2.0 * step), rtol=1e-3, atol=1e-3)
+
+
+def test_a_base_parameter_at_its_bound_has_no_error():
+    """A stress that falls with the strain: the best G is negative, which is not possible."""
+    time = np.linspace(0.0, 1.0, 60)
+    stress = 30.0 - 20.0 * time + 0.01 * np.random.default_rng(1).normal(size=60)
+    record = Record("a", time, time, stress, control="strain-rate")
+    hardening = base_parameters(base_fit(Campaign("x", (record,))))[2]
+    assert (hardening.value, hardening.se, hardening.status) == (0.0, None, "not_identifiable")

@@ -5,8 +5,11 @@ from dataclasses import replace
 import pytest
 
 from campaigns import made_up_diagnosis as made_up
-from probation.diagnosis import Closure, Explanation
-from probation.diagnosis.result import CauseParameter, Checks
+from probation.detection.signatures import Drift
+from probation.diagnosis.closure import Closure
+from probation.diagnosis.headline import choices
+from probation.diagnosis.result import CauseParameter, Checks, Explanation
+from probation.diagnosis.signatures import changes_with
 from probation.diagnosis.tables import MOST, where_table, which_table
 from probation.diagnosis.words import (
     NOTHING,
@@ -192,3 +195,43 @@ def test_parameters_of_a_combination_stand_under_their_effects_with_the_record_o
     ]
     alone = replace(pair, parameters=pair.parameters[:2])
     assert parameter_lines(alone, made_up.self_heating()) == ["stress 2.00 ± 0.10 MPa", "start 1.00 ± 0.10 MPa"]
+
+
+def test_a_list_of_explanations_names_each_once_and_brackets_combinations():
+    sets = [("unknown",), ("unknown", "volume_change"), ("volume_change",), ("unknown",)]
+    unknown = "an effect outside the catalogue"
+    assert choices(sets) == f"{unknown}, (change of volume and {unknown}) or change of volume"
+
+
+def test_a_chance_near_one_is_no_number_with_an_exponent():
+    found = made_up.no_gap()
+    text = replace(found, gap=replace(found.gap, p_value=0.998)).summary()
+    assert "1e+02" not in text
+    assert "here it is more than 99 %" in " ".join(text.split())
+
+
+@pytest.mark.parametrize(
+    ("by_noise", "by_scatter", "text"),
+    [
+        ({"log_rate": 1e-9, "order": 0.2}, {"log_rate": 1e-4, "order": 0.5}, "with the strain rate"),
+        ({"log_rate": 1e-9, "order": 1e-6}, {"log_rate": 0.3, "order": 0.5}, "from record to record"),
+        (
+            {"log_rate": 1e-9, "temperature": 1e-9},
+            {"log_rate": 1e-3, "temperature": 1e-4},
+            "with the strain rate or with the temperature",
+        ),
+    ],
+)
+def test_a_parameter_is_said_to_follow_only_what_the_scatter_between_records_allows(by_noise, by_scatter, text):
+    assert changes_with(Drift("tau_max_s", {}, {}, 1e-9, by_noise, by_scatter, {})) == text
+
+
+def test_an_explanation_that_leaves_something_is_not_said_to_leave_only_noise():
+    best = made_up.self_heating().best
+    beyond = replace(best, effects=("self_heating", "unknown"))
+    assert "what is left may be noise and the form's error" in checks_text(best)
+    assert "what is left may be noise and the form's error" not in checks_text(beyond)
+
+
+def test_ranges_have_no_negative_zero():
+    assert span_text((-1e-5, 0.22)) == "0.00 to 0.22"

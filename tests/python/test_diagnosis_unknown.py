@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.diagnosis.discrepancy import Discrepancy
-from probation.diagnosis.evidence import evidence
+from probation.inference.discrepancy import Discrepancy
+from probation.inference.evidence import evidence
 
 COUNT, RECORDS = 200, 5
 STRAIN = np.linspace(0.0, 1.0, COUNT)

@@ -6,10 +6,10 @@ from numpy.testing import assert_allclose
 from scipy.interpolate import make_smoothing_spline
 
 from probation import Noise, Record
-from probation.excitation import excite
-from probation.excitation.penalised_spline import Basis
-from probation.excitation.segments import find_jumps
-from probation.paper.necking import NECKING_SETS
+from probation.histories.necking import NECKING_SETS
+from probation.smoothing.excitation import excite
+from probation.smoothing.penalised_spline import Basis
+from probation.smoothing.segments import find_jumps
 
 
 def record(time, strain, control="displacement-rate", **more):

@@ -7,9 +7,9 @@ import pytest
 
 from probation import Campaign, Record
 from probation.cli import main
-from probation.excitation.answer import CSV_HEADER, describe_excitation
-from probation.excitation.known_histories import KNOWN_HISTORIES
-from probation.paper.twins import twin_campaign
+from probation.published.experiments import twin_campaign
+from probation.smoothing.answer import CSV_HEADER, describe_excitation
+from probation.smoothing.known_histories import KNOWN_HISTORIES
 
 
 @pytest.fixture
@@ -133,9 +133,9 @@ def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
 
 
 def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("probation.excitation.comparison.NOISES", (2e-5,))
-    monkeypatch.setattr("probation.excitation.comparison.COMPARED", ("raw", "quintic-spline"))
-    monkeypatch.setattr("probation.excitation.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
+    monkeypatch.setattr("probation.smoothing.comparison.NOISES", (2e-5,))
+    monkeypatch.setattr("probation.smoothing.comparison.COMPARED", ("raw", "quintic-spline"))
+    monkeypatch.setattr("probation.smoothing.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
     arguments = ["--draws", "1", "--json", str(tmp_path / "c.json"), "--plot", str(tmp_path / "c.png")]
     assert main(["excitation", "--compare", *arguments]) == 0
     assert capsys.readouterr().out.startswith("Default quintic-spline: 95 % of the rates are within 0.0")

@@ -6,12 +6,12 @@ from numpy.testing import assert_allclose
 from scipy.signal import lfilter
 
 from probation import InputError, Record, excite
-from probation.excitation.differences import differences, differences_error, differences_transposed
-from probation.excitation.known_histories import KNOWN_HISTORIES
-from probation.excitation.necking import fit_necking
-from probation.excitation.sines import fit_sines
-from probation.paper.necking import NECKING_SETS
+from probation.histories.necking import NECKING_SETS
 from probation.report.excitation_figures import figure_s3, figure_s4, figure_s5, figure_s6, figure_s7, figure_s8
+from probation.smoothing.differences import differences, differences_error, differences_transposed
+from probation.smoothing.known_histories import KNOWN_HISTORIES
+from probation.smoothing.necking import fit_necking
+from probation.smoothing.sines import fit_sines
 
 P2 = NECKING_SETS["P2"]
 TIME = np.linspace(0.0, P2.duration, 801)

@@ -6,13 +6,13 @@ from numpy.testing import assert_allclose
 from scipy.signal import lfilter, savgol_filter
 
 from probation import InputError, Record, excite
-from probation.excitation import DEFAULT, METHODS
-from probation.excitation.comparison import AIM, compare
-from probation.excitation.penalised_spline import smooth_quintic
-from probation.excitation.savitzky_golay import LocalCubics
-from probation.excitation.segments import find_jumps
-from probation.excitation.smoothed import inflation
-from probation.paper.necking import NECKING_SETS
+from probation.histories.necking import NECKING_SETS
+from probation.smoothing.comparison import AIM, compare
+from probation.smoothing.methods import DEFAULT, METHODS
+from probation.smoothing.penalised_spline import smooth_quintic
+from probation.smoothing.savitzky_golay import LocalCubics
+from probation.smoothing.segments import find_jumps
+from probation.smoothing.smoothed import inflation
 
 NECKING = NECKING_SETS["P2"]
 

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import InputError, Law, PowerLaw, RateFunction, Spectrum, Weissenberg, export
-from probation.export import FORMATS
-from probation.export.numbers import within
+from probation.exporting.formats import FORMATS
+from probation.exporting.numbers import within
 
 E_U, G, ALPHA, RATE = 3220.0, 1.85, 1.045, 1e-3
 LAW = Law(unrelaxed_modulus=E_U, alpha=ALPHA, hardening_modulus=G, companion=Weissenberg(0.00464, 0.0367))

@@ -8,7 +8,7 @@ import pytest
 import probation
 from probation import Campaign, InputError, Law, Record, Weissenberg, export, fit
 from probation.cli import main
-from probation.records import CompanionSettings, LawSettings
+from probation.law.settings import CompanionSettings, LawSettings
 
 SET = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "hardening_modulus_MPa=1.85", "--set", "alpha=1.045"]
 WITH_COMPANION = [*SET, "--companion", "weissenberg:0.00464,0.0367"]
@@ -52,7 +52,7 @@ def test_a_fit_its_json_and_its_campaign_give_the_same_law(campaign, identified,
 )
 def test_a_law_survives_json(law):
     from probation.answers import json_answer  # noqa: PLC0415
-    from probation.law_answer import law_answer, law_from_answer  # noqa: PLC0415
+    from probation.law.answer import law_answer, law_from_answer  # noqa: PLC0415
 
     back = law_from_answer(json.loads(json_answer("law", {"law": law_answer(law)}))["law"])
     assert (back, back.spectrum, back.companion) == (back, law.spectrum, law.companion)
@@ -130,7 +130,7 @@ def test_the_formats_are_listed(capsys):
         ([*WITH_COMPANION, "--format", "c", "-o", "a", "--folder", "b"], "found both -o and --folder"),
         (["--format", "c"], "found neither SOURCE nor --set"),
         (["x.json", *WITH_COMPANION, "--format", "c"], "found SOURCE beside --set or --companion"),
-        (["x.json", "--format", "all", "--folder", "."], "x.json: cannot be read"),
+        (["x.json", "--format", "all", "--folder", "."], "x.json: found no such file"),
         ([*WITH_COMPANION, "--format", "abaqus-prony"], "rate: found none"),
         ([*WITH_COMPANION, "--format", "c", "--rates", "1e-3;2"], "expected numbers between commas"),
     ],

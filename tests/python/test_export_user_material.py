@@ -133,7 +133,7 @@ def test_constants_that_are_no_list_of_a_law_are_refused():
     whole = MaterialConstants.of(LAW, 2e4).values
     for values, complaint in (
         (whole[:9], "found 9"),
-        ((*whole, 1.0), "found 12"),
+        ((*whole, 1.0, 1.0), "found 13"),
         ((*whole[:3], 7.0, *whole[4:]), "7"),
     ):
         with pytest.raises(InputError, match=f"constants: .*{complaint}"):

@@ -112,6 +112,26 @@ def test_an_increment_that_cannot_be_says_cut_the_step_and_where():
         MaterialPoint.from_law(LAW, 2e4).uniaxial(0.1, -1.0)
 
 
+def test_an_increment_above_the_stress_tolerance_says_cut_the_step():
+    watched, unwatched = MaterialPoint.from_law(LAW, 2e4, stress_tolerance=0.1), MaterialPoint.from_law(LAW, 2e4)
+    assert MaterialConstants.of(LAW, 2e4, stress_tolerance=0.1).law() == LAW
+    for coarse in (lambda: watched.uniaxial(0.05, 10.0), lambda: watched.first_piola(stretched(0.05), 10.0)):
+        with pytest.raises(CutStep, match="no update within the stress tolerance at this increment"):
+            coarse()
+    assert watched.uniaxial(1e-4, 0.02)[:2] == unwatched.uniaxial(1e-4, 0.02)[:2]
+    with pytest.raises(probation.InputError, match=r"stress_tolerance is -1\.0"):
+        MaterialPoint.from_law(LAW, 2e4, stress_tolerance=-1.0)
+
+
+def test_decades_that_no_point_resolves_are_refused():
+    """At 400 the fastest mode's time was zero, the stress finite and the tangent not a number."""
+    with pytest.raises(probation.InputError, match=r"constant 11 \(decades\) must be a positive number of at most 30"):
+        MaterialPoint([3220, 1.8, 2e4, 0, 5.0, 0, 0, 1e-7, 0, 50, 400])
+    law = probation.Law(unrelaxed_modulus=1, tau_max=1, hardening_modulus=1, decades=40.0)
+    with pytest.raises(probation.InputError, match=r"decades: found 40\.0, expected at most 30\.0"):
+        MaterialPoint.from_law(law, 1.0)
+
+
 def test_headers_interfaces_and_package_files_are_where_it_says(capsys):
     assert (include_path() / "probation" / "material" / "point.hpp").is_file()
     assert (include_path() / "probation.h").is_file()

@@ -9,9 +9,9 @@ import probation
 from probation.fe import MaterialPoint
 from probation.fe.bar import Bar
 from probation.fe.necking import neck
-from probation.fe.specimen import Loading, Recording, constant_rate_point, make_specimen, pull
-from probation.fe.specimen.__main__ import main
-from probation.fe.specimen.experiments import bridgman_factor
+from probation_studies.specimen import Loading, Recording, constant_rate_point, make_specimen, pull
+from probation_studies.specimen.__main__ import main
+from probation_studies.specimen.experiments import bridgman_factor
 
 pytest.importorskip("felupe")
 

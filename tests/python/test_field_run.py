@@ -15,6 +15,7 @@ import probation
 from probation.bulk import identify_many
 from probation.cli import main
 from probation.field import identify_field, open_maps
+from probation.field.between import between
 from probation.field.block import identify_block
 from probation.field.example.make import make_example
 from probation.field.identify import BlockLostError
@@ -67,6 +68,33 @@ def test_the_example_s_material_comes_back_as_near_as_is_told(example, precise):
         assert each.coverage == pytest.approx(0.95, abs=3.3 * np.sqrt(0.95 * 0.05 / count)), each
 
 
+@pytest.mark.parametrize("times", [51, 101])
+def test_intervals_hold_the_truth_however_far_apart_the_samples_are(times, tmp_path):
+    """Steps of 4.5 and 2.2 s at a tau_max of 5 s: bE2 takes the steps between the samples that it needs."""
+    field, truth = make_example(tmp_path, size=24, times=times, processes=1)
+    identify_field(field, tmp_path / "maps.zarr", pixels=1024, processes=1, threads=1)
+    maps = open_maps(tmp_path / "maps.zarr").beside(truth)
+    assert maps.run["scheme"] == "be2"
+    assert maps.substeps[0] > 1
+    count = np.count_nonzero(maps.identified)
+    assert count > 400
+    for each in maps.closeness:
+        assert each.coverage == pytest.approx(0.95, abs=3.3 * np.sqrt(0.95 * 0.05 / count)), each
+
+
+def test_the_example_s_stress_does_not_depend_on_how_far_apart_its_samples_are(tmp_path):
+    """Every second instant of 41 is one of 21; what differs is noise, and integration to 1e-3 MPa."""
+    noise = {"STRAIN_NOISE": 0.0, "FORCE_NOISE": 0.0, "LOST": 0.0, "LOST_LATER": 0.0, "DROPPED": 0.0}
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in noise.items():
+            patch.setattr(f"probation.field.example.make.{name}", value)
+        coarse, fine = (make_example(tmp_path / str(times), size=4, times=times, processes=1)[0] for times in (21, 41))
+    stresses = [np.asarray(zarr.open_group(each, mode="r")["true_stress"]) for each in (coarse, fine)]
+    there = np.isfinite(stresses[0])
+    assert there.any()
+    assert stresses[1][:, :, ::2][there] == pytest.approx(stresses[0][there], abs=1e-3)
+
+
 def test_residuals_are_those_of_the_noise(precise):
     """Four standard deviations are exceeded once in 30 000."""
     ratio = precise.maps["rms_residual"] / precise.maps["noise"]
@@ -87,7 +115,10 @@ def test_what_was_identified_is_what_the_bulk_identification_finds(example, whol
     y, x = np.argwhere(whole.identified & (whole.maps["samples"] == len(source.time)))[60]
     strain, stress = source.read(slice(y, y + 1), slice(x, x + 1))
     law = probation.Law(unrelaxed_modulus=1.0, tau_max=1.0, hardening_modulus=1.0)
-    alone = identify_many(law, source.time, smoothed(source.time, strain), stress, whole.run["scheme"])
+    zarrs = zarr.open_group(whole.path, mode="r")
+    steps = int(zarrs["block_substeps"][y // 4, x // 4])
+    fine, driving = between(source.time, smoothed(source.time, strain), steps, smooth=True)
+    alone = identify_many(law, fine, driving, stress, whole.run["scheme"], substeps=steps)
     names = ("unrelaxed_modulus", "tau_max", "hardening_modulus")
     assert [whole.maps[name][y, x] for name in names] == pytest.approx(alone.parameters[0], rel=1e-6)
 
@@ -138,6 +169,8 @@ def test_another_field_law_or_scheme_is_refused(example, tmp_path):
     refused("the law is another", hold={"unrelaxed_modulus_MPa": 3000.0})
     refused("the strain is smoothed, or not", smoothing=False)
     refused("the blocks are others", pixels=16)
+    refused("the steps from sample to sample are others: found maps begun with substeps auto, expected 1", substeps=1)
+    refused("substeps is 0; expected 'auto' or a whole number from 1", substeps=0)
     done = identify_field(other, out, pixels=256, processes=1, afresh=True)
     assert (done.now, done.before) == (1, 0)
 

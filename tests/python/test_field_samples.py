@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import probation
+from probation.field.between import between
 from probation.field.errors import drawn_errors, neighbourhoods, rounds
 from probation.field.example import specimen
 from probation.field.example.superposition import superpose
@@ -46,12 +47,33 @@ def test_pixels_that_share_their_instants_come_together():
 
 @pytest.mark.parametrize("time", [np.arange(400.0), np.cumsum(1.0 + 0.5 * np.sin(np.arange(400.0)))])
 def test_scatter_finds_the_noise_of_each_part_under_a_parabola(time):
-    """Noise 1 in the first half, 3 in the second; no part sees the curve, up to the 5 % that 400 x 200 draws leave."""
+    """Noise 1 in the first half, 3 in the second; no part sees the curve, up to the 5 % that parts of 25 leave."""
     level = np.where(np.arange(400) < 200, 1.0, 3.0)
-    values = 1e-2 * time**2 + level * np.random.default_rng(1).standard_normal((200, 400))
-    found = scatter(time, values).mean(axis=0)
+    values = 1e-2 * time**2 + level * np.random.default_rng(1).standard_normal((1000, 400))
+    found = scatter(time, values, np.zeros(1000, dtype=np.intp)).mean(axis=0)
     assert found[[20, 100, 150]] == pytest.approx(1.0, rel=0.05)
     assert found[[260, 390]] == pytest.approx(3.0, rel=0.05)
+
+
+def test_scatter_grows_along_a_short_record_as_its_neighbours_do_and_is_as_large_as_its_own():
+    """Noise that grows sixfold in 60 samples, of every second pixel twice as large; squares right within 10 %."""
+    level = np.exp(np.linspace(0.0, np.log(6.0), 60)) * np.where(np.arange(400) % 2, 2.0, 1.0)[:, None]
+    values = level * np.random.default_rng(3).standard_normal(level.shape)
+    found = scatter(np.arange(60.0), values, np.zeros(400, dtype=np.intp))
+    for odd in (0, 1):
+        means = np.mean(found[odd::2] ** 2, axis=0).reshape(6, 10).mean(axis=1)
+        assert means == pytest.approx((level[odd] ** 2).reshape(6, 10).mean(axis=1), rel=0.15)
+
+
+def test_the_strain_between_samples_is_a_cubic_where_it_is_smooth_else_straight():
+    """A cubic is its own spline; every third instant is a sample."""
+    time = np.array([0.0, 1.0, 1.5, 3.0, 4.0])
+    cubic = np.stack([time**3, 1.0 - time])
+    fine, smooth = between(time, cubic, 3, smooth=True)
+    assert fine[::3].tolist() == time.tolist()
+    assert smooth == pytest.approx(np.stack([fine**3, 1.0 - fine]))
+    straight = between(time, cubic, 3, smooth=False)[1]
+    assert straight == pytest.approx(np.stack([np.interp(fine, time, row) for row in cubic]))
 
 
 def test_smoothing_leaves_cubics_and_takes_out_noise():

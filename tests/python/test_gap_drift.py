@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 from scipy.fft import idct
 
 from campaigns import linear_problem as problem
-from probation.gap.drift import LEAST, estimate_drift, like_an_effect, with_drift
-from probation.gap.record_residual import RecordResidual
-from probation.gap.whitening import Whitened
+from probation.noise.drift import LEAST, estimate_drift, like_an_effect, with_drift
+from probation.noise.record_residual import RecordResidual
+from probation.noise.whitening import Whitened
 
 COUNT = 1000
 

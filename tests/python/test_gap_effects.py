@@ -15,10 +15,19 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import probation
-from probation import gap
-from probation.companion import WEISSENBERG_AS_PRINTED
-from probation.paper.twins import twin_campaign
-from probation.records import Noise, Record
+from probation.effects import catalogue
+from probation.effects.alteration import Alteration, RateShift
+from probation.effects.cause import cause
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.listing import catalogue_json, catalogue_table
+from probation.effects.record_view import views_of
+from probation.effects.registry import effect, effects, register, unregister
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.screen import screen
+from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.published.experiments import twin_campaign
+from probation.records.record import Noise, Record
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
 RATED = probation.Law(unrelaxed_modulus=3220.0, alpha=1.05, hardening_modulus=1.8, companion=WEISSENBERG_AS_PRINTED)
@@ -49,7 +58,7 @@ NAMES_IN_THE_CONTRACT = [
     "force_saturation",
 ]
 
-ALL_FORMS = [(effect.name, form.name) for effect in gap.effects() for form in effect.forms]
+ALL_FORMS = [(effect.name, form.name) for effect in effects() for form in effect.forms]
 
 
 def record(name, pieces, samples=150, law=LAW, seed=1, rated=False):
@@ -78,14 +87,14 @@ def campaign():
 
 @cache
 def model(law="constant", substeps=1):
-    return gap.CampaignModel(gap.DnlrLaw(LAWS[law]), gap.views_of(campaign(), substeps=substeps))
+    return CampaignModel(DnlrLaw(LAWS[law]), views_of(campaign(), substeps=substeps))
 
 
 def cause_of(name, form):
     """In all records, or in one where it can only sit in one."""
-    effect = gap.effect(name)
-    confined = None if "all" in effect.placements(effect.form(form)) else "fast"
-    return gap.cause(name, form, confined)
+    chosen = effect(name)
+    confined = None if "all" in chosen.placements(chosen.form(form)) else "fast"
+    return cause(name, form, confined)
 
 
 def with_cause(name, form, law="constant"):
@@ -93,12 +102,12 @@ def with_cause(name, form, law="constant"):
 
 
 def test_the_catalogue_has_the_names_of_the_contract_in_its_order():
-    assert [effect.name for effect in gap.effects()] == NAMES_IN_THE_CONTRACT
-    assert [effect.kind for effect in gap.effects()] == ["material"] * 10 + ["rig"] * 12
+    assert [effect.name for effect in effects()] == NAMES_IN_THE_CONTRACT
+    assert [effect.kind for effect in effects()] == ["material"] * 10 + ["rig"] * 12
 
 
 def test_every_file_of_the_effects_is_registered():
-    folder = Path(gap.__file__).parent / "effects"
+    folder = Path(catalogue.__file__).parent
     assert {path.stem for path in folder.glob("*.py")} - {"__init__"} == set(NAMES_IN_THE_CONTRACT)
 
 
@@ -200,9 +209,9 @@ def test_forms_of_one_effect_begin_alike(name, one, other, shapes):
 def test_several_effects_act_at_once_and_in_their_records():
     """Offset and gain of one record's force: (1 + g) sigma + F e^strain after the shared warming of the law."""
     causes = [
-        gap.cause("self_heating"),
-        gap.cause("force_offset", records="fast"),
-        gap.cause("force_gain", None, "fast"),
+        cause("self_heating"),
+        cause("force_offset", records="fast"),
+        cause("force_gain", None, "fast"),
     ]
     warm, full = model().with_causes(causes[:1]), model().with_causes(causes)
     heating = (0.2, 5e-3, 0.004)
@@ -214,21 +223,21 @@ def test_several_effects_act_at_once_and_in_their_records():
 
 
 def test_factors_of_two_effects_multiply_and_a_rate_shift_is_given_once():
-    both = gap.Alteration(hardening_factor=2.0, load_bearing_area=np.array([1.0, 0.5])).and_(
-        gap.Alteration(hardening_factor=np.array([1.0, 3.0]), weight_exponent=0.1, extra_modulus=(1.0,))
+    both = Alteration(hardening_factor=2.0, load_bearing_area=np.array([1.0, 0.5])).and_(
+        Alteration(hardening_factor=np.array([1.0, 3.0]), weight_exponent=0.1, extra_modulus=(1.0,))
     )
     np.testing.assert_array_equal(both.hardening_factor, [2.0, 6.0])
     np.testing.assert_array_equal(both.load_bearing_area, [1.0, 0.5])
     assert both.and_(both).extra_modulus == (1.0, 1.0)
     assert both.notions == {"hardening_factor", "load_bearing_area", "weight_exponent", "extra_modulus"}
-    shift = gap.Alteration(rate_shift=gap.RateShift(0.1, 0.0, 1e-3))
+    shift = Alteration(rate_shift=RateShift(0.1, 0.0, 1e-3))
     with pytest.raises(probation.InputError, match="both effects give rate_shift"):
         shift.and_(shift)
 
 
 def test_two_effects_that_shorten_the_times_are_followed_together():
     """Constant warming by d and a prior shift of E_u: tau_max e^(-0.1 d) and G e^(-0.005 d) with E_u as it is."""
-    extended = model().with_causes([gap.cause("temperature_drift", "other_temperature", "slow"), gap.cause("damage")])
+    extended = model().with_causes([cause("temperature_drift", "other_temperature", "slow"), cause("damage")])
     found = extended.predict(extended.parameters(model().start, (3.0,), (0.0, 0.3)))["slow"]
     slow = campaign().record("slow")
     warm = replace(LAW, tau_max=5.2 * math.exp(-0.3), hardening_modulus=2.5 * math.exp(-0.015))
@@ -236,7 +245,7 @@ def test_two_effects_that_shorten_the_times_are_followed_together():
 
 
 def test_threads_share_a_model():
-    extended = model().with_causes([gap.cause("self_heating"), gap.cause("machine_compliance")])
+    extended = model().with_causes([cause("self_heating"), cause("machine_compliance")])
     parameters = extended.parameters(model().start, (0.2, 5e-3, 0.004), (1e-4,))
     expected = extended.residual(parameters)
     with ThreadPoolExecutor(4) as pool:
@@ -245,16 +254,16 @@ def test_threads_share_a_model():
 
 
 def test_held_parameters_are_not_among_the_models():
-    held = gap.CampaignModel(gap.DnlrLaw(LAW, held=("unrelaxed_modulus",)), model().views, [gap.cause("force_offset")])
+    held = CampaignModel(DnlrLaw(LAW, held=("unrelaxed_modulus",)), model().views, [cause("force_offset")])
     assert held.parameter_names == ("tau_max_s", "hardening_modulus_MPa", "force_offset.offset_MPa")
     parameters = held.parameters(np.array([5.2, 2.5]), (0.1,))
-    full = model().with_causes([gap.cause("force_offset")])
+    full = model().with_causes([cause("force_offset")])
     slopes = full.jacobian(full.parameters(model().start, (0.1,)))[:, 1:]
     np.testing.assert_allclose(held.jacobian(parameters), slopes, rtol=1e-12)
 
 
 def test_leaving_a_record_out_takes_its_faults_along():
-    extended = model().with_causes([gap.cause("force_gain", None, "fast"), gap.cause("damage")])
+    extended = model().with_causes([cause("force_gain", None, "fast"), cause("damage")])
     left = extended.on(view for view in extended.views if view.id != "fast")
     assert [each.label for each in left.causes] == ["damage"]
     assert len(left.data) == len(extended.data) - len(campaign().record("fast"))
@@ -266,29 +275,29 @@ def test_a_user_registers_an_effect_of_their_own():
     def rub(view, values, stress):
         return stress - values[0] * view.stretch * np.sign(np.gradient(view.true_strain))
 
-    amplitude = gap.EffectParameter("friction_MPa", "MPa", 0.0, 5.0, 0.1, "a few newtons")
-    mine = gap.Effect(
+    amplitude = EffectParameter("friction_MPa", "MPa", 0.0, 5.0, 0.1, "a few newtons")
+    mine = Effect(
         "grip_friction", "friction", "Guides rub.", "workshop", "reversals", "rig",
-        (gap.Form("dry", (amplitude,), recorded_stress=rub),),
+        (Form("dry", (amplitude,), recorded_stress=rub),),
     )  # fmt: skip
-    gap.register(mine)
+    register(mine)
     try:
-        assert gap.effect("grip_friction") is mine
-        assert gap.effects()[-1] is mine
+        assert effect("grip_friction") is mine
+        assert effects()[-1] is mine
         with pytest.raises(probation.InputError, match="in the catalogue already"):
-            gap.register(mine)
-        gap.register(mine, replace=True)
-        columns = gap.screen(model(), model().start, [mine])
+            register(mine)
+        register(mine, replace=True)
+        columns = screen(model(), model().start, [mine])
         assert [column.cause.records for column in columns] == [None, ("slow",), ("fast",), ("jump",)]
         expected = -np.exp(campaign().record("slow").true_strain)
         np.testing.assert_allclose(columns[1].slope, expected, rtol=1e-9)
     finally:
-        gap.unregister("grip_friction")
-    assert [effect.name for effect in gap.effects()] == NAMES_IN_THE_CONTRACT
+        unregister("grip_friction")
+    assert [effect.name for effect in effects()] == NAMES_IN_THE_CONTRACT
 
 
 def test_the_catalogue_is_listed_with_parameters_units_and_bounds():
-    listed = json.loads(json.dumps(probation.answers.plain(gap.catalogue_json())))
+    listed = json.loads(json.dumps(probation.answers.plain(catalogue_json())))
     assert [entry["name"] for entry in listed] == NAMES_IN_THE_CONTRACT
     for entry in listed:
         assert len(entry["physics"].splitlines()) == 2
@@ -301,7 +310,7 @@ def test_the_catalogue_is_listed_with_parameters_units_and_bounds():
                     r"_(MPa|s|Hz|rad|degC|per_s|per_MPa|per_degC|MPa_per_s|degC_per_MPa)$", parameter["name"]
                 )
                 assert (suffix is not None) == (parameter["unit"] != "") or parameter["name"] == "flow_gain_at_20MPa"
-    text = gap.catalogue_table()
+    text = catalogue_table()
     assert "heating_degC_per_MPa  0 to 1 °C/MPa" in text
     assert "force_gain (rig)" in text
 
@@ -316,7 +325,7 @@ def test_priors_are_densities(low, high, scale, log):
         low, centre, high = math.exp(low), 1.0, math.exp(high)
     else:
         centre = 0.0
-    parameter = gap.EffectParameter("x", "", low, high, scale, "", centre=centre, log=log)
+    parameter = EffectParameter("x", "", low, high, scale, "", centre=centre, log=log)
     ends = parameter.to_search(low), parameter.to_search(high)
     inside = lambda u: math.exp(parameter.log_prior(min(max(parameter.from_search(u), low), high)))  # noqa: E731
     assert quad(inside, *ends, points=[parameter.to_search(centre)])[0] == pytest.approx(1.0, rel=1e-6)
@@ -324,32 +333,32 @@ def test_priors_are_densities(low, high, scale, log):
 
 
 def test_priors_of_phases_count_one_period():
-    phase = gap.effect("periodic_disturbance").forms[0].parameters[2]
+    phase = effect("periodic_disturbance").forms[0].parameters[2]
     assert phase.log_prior(1.0) == pytest.approx(-math.log(math.pi))
 
 
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        (lambda: gap.effect("self_heatng"), r"no effect named 'self_heatng'; did you mean 'self_heating'\?"),
-        (lambda: gap.effects(["damage", "colour"]), r"no effect named 'colour'; use 'rate_dependent_relaxation'"),
-        (lambda: gap.cause("damage", "healing"), r"damage: found no form 'healing'; it has saturating, growing"),
-        (lambda: model().with_causes([gap.cause("force_gain", None, "fsat")]), r"did you mean 'fast'"),
-        (lambda: model().with_causes([gap.cause("damage"), gap.cause("damage", "saturating")]), r"given twice"),
+        (lambda: effect("self_heatng"), r"no effect named 'self_heatng'; did you mean 'self_heating'\?"),
+        (lambda: effects(["damage", "colour"]), r"no effect named 'colour'; use 'rate_dependent_relaxation'"),
+        (lambda: cause("damage", "healing"), r"damage: found no form 'healing'; it has saturating, growing"),
+        (lambda: model().with_causes([cause("force_gain", None, "fsat")]), r"did you mean 'fast'"),
+        (lambda: model().with_causes([cause("damage"), cause("damage", "saturating")]), r"given twice"),
         (lambda: with_cause("damage", "growing").parameters(model().start, (0.1,)), r"1 values, expected log_"),
         (lambda: with_cause("damage", "growing").parameters(model().start), r"found 1 groups .* expected .*; damage"),
         (lambda: with_cause("damage", "growing").residual(model().start), r"found 3 parameters, expected 5: unrelaxed"),
         (lambda: model().rows("quick"), r"no record 'quick'"),
-        (lambda: gap.register("damage"), r"expected an Effect"),
-        (lambda: gap.unregister("colour"), r"no effect named"),
-        (lambda: gap.DnlrLaw(LAW, held=("alpha",)), r"held: found 'alpha'"),
-        (lambda: gap.EffectParameter("Bad Name", "", 0.0, 1.0, 1.0, ""), r"expected snake_case"),
-        (lambda: gap.EffectParameter("x", "", 1.0, 2.0, 1.0, ""), r"found bounds 1.0, 2.0"),
-        (lambda: gap.EffectParameter("x", "", 0.0, 2.0, 0.0, ""), r"prior scale 0.0"),
-        (lambda: gap.EffectParameter("x", "", 0.0, 2.0, 1.0, "", log=True), r"lower bound 0.0"),
-        (lambda: gap.EffectParameter("x", "", 0.0, 2.0, 1.0, "", starts=(3.0,)), r"start 3.0"),
-        (lambda: gap.Form("f", ()), r"expected an amplitude"),
-        (lambda: gap.Form("f", (gap.EffectParameter("x", "", 0.0, 2.0, 1.0, ""),)), r"found no hook"),
+        (lambda: register("damage"), r"expected an Effect"),
+        (lambda: unregister("colour"), r"no effect named"),
+        (lambda: DnlrLaw(LAW, held=("alpha",)), r"held: found 'alpha'"),
+        (lambda: EffectParameter("Bad Name", "", 0.0, 1.0, 1.0, ""), r"expected snake_case"),
+        (lambda: EffectParameter("x", "", 1.0, 2.0, 1.0, ""), r"found bounds 1.0, 2.0"),
+        (lambda: EffectParameter("x", "", 0.0, 2.0, 0.0, ""), r"prior scale 0.0"),
+        (lambda: EffectParameter("x", "", 0.0, 2.0, 1.0, "", log=True), r"lower bound 0.0"),
+        (lambda: EffectParameter("x", "", 0.0, 2.0, 1.0, "", starts=(3.0,)), r"start 3.0"),
+        (lambda: Form("f", ()), r"expected an amplitude"),
+        (lambda: Form("f", (EffectParameter("x", "", 0.0, 2.0, 1.0, ""),)), r"found no hook"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said(wrong, message):
@@ -359,21 +368,21 @@ def test_what_is_wrong_is_said(wrong, message):
 
 def test_the_reference_rate_is_one_digit_between_the_records():
     """Median rates while moving: 3e-3, 0.035, 0.02 (the jump's last piece has most samples at 5e-3 and 0.02)."""
-    assert gap.views_of(campaign())[0].reference_rate == pytest.approx(8e-3, rel=0.3)
-    assert len({view.reference_rate for view in gap.views_of(campaign())}) == 1
+    assert views_of(campaign())[0].reference_rate == pytest.approx(8e-3, rel=0.3)
+    assert len({view.reference_rate for view in views_of(campaign())}) == 1
 
 
 def test_a_companion_free_law_with_its_missing_effect_meets_the_papers_twins():
     """(11) is a = 1 - s / ln 10, s = slope / We at the reference rate; experiments 2 and 3 then leave their noise."""
     twins = twin_campaign((2, 3))
-    views = gap.views_of(twins)
+    views = views_of(twins)
     rate = views[0].reference_rate
     number = 0.00464 * math.log10(rate) + 0.0367
     change = 0.00464 / number
     for view, alpha, hardening in zip(views, (1.11, 1.045), (1.761, 1.85), strict=True):
         law = probation.Law(unrelaxed_modulus=3220.0, tau_max=alpha * number / rate, hardening_modulus=hardening)
-        relaxing = gap.cause("rate_dependent_relaxation", "weissenberg")
-        extended = gap.CampaignModel(gap.DnlrLaw(law), [view], [relaxing])
+        relaxing = cause("rate_dependent_relaxation", "weissenberg")
+        extended = CampaignModel(DnlrLaw(law), [view], [relaxing])
         values = (1.0 - change / math.log(10.0), change)
         without = extended.residual(extended.parameters(law.parameters, (0.0, change)))
         assert np.std(extended.residual(extended.parameters(law.parameters, values))) == pytest.approx(0.04, rel=0.15)

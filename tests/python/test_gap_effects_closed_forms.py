@@ -10,13 +10,17 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import probation
-from probation import gap
-from probation.companion import WEISSENBERG_AS_PRINTED
-from probation.gap.effects.finite_extensibility import inverse_langevin
-from probation.gap.effects.force_strain_lag import delayed
-from probation.gap.maxwell_element import maxwell_element
-from probation.law import Spectrum
-from probation.records import Noise, Record
+from probation.effects.catalogue.finite_extensibility import inverse_langevin
+from probation.effects.catalogue.force_strain_lag import delayed
+from probation.effects.cause import cause
+from probation.effects.maxwell_element import maxwell_element
+from probation.effects.record_view import views_of
+from probation.inference.callable_law import CallableLaw
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.modal import Spectrum
+from probation.records.record import Noise, Record
 
 RATE = 5e-3
 ONE_MODE = Spectrum([1.0], [1.0])
@@ -31,15 +35,15 @@ def ramp(rate=RATE, end=1.5, samples=400, stress=None):
 def predicted(law, record, name, form, values, substeps=1, scheme="be2", others=()):
     """The stress of one record with one effect."""
     campaign = probation.Campaign(name="closed forms", records=(record, *others))
-    adapted = gap.DnlrLaw(law) if isinstance(law, probation.Law) else law
-    views = gap.views_of(campaign, substeps=substeps, scheme=scheme)
-    model = gap.CampaignModel(adapted, views, [gap.cause(name, form)])
+    adapted = DnlrLaw(law) if isinstance(law, probation.Law) else law
+    views = views_of(campaign, substeps=substeps, scheme=scheme)
+    model = CampaignModel(adapted, views, [cause(name, form)])
     return model.predict(model.parameters(adapted.start, values))[record.id], views
 
 
 def bar(modulus=1000.0):
     """An elastic bar, true stress over true strain."""
-    return gap.CallableLaw(
+    return CallableLaw(
         lambda time, strain, parameters, alteration: parameters[0] * strain,
         ("modulus_MPa",),
         (modulus,),
@@ -68,8 +72,8 @@ def test_on_a_ramp_a_power_of_the_rate_is_another_time(exponent):
 
 def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11():
     """On a necking history, where the rate changes all the time."""
-    necking = probation.paper.twins.experiment(3).record()
-    rate = gap.views_of(probation.Campaign(name="necking", records=(necking,)))[0].reference_rate
+    necking = probation.published.experiments.experiment(3).record()
+    rate = views_of(probation.Campaign(name="necking", records=(necking,)))[0].reference_rate
     number = 0.00464 * math.log10(rate) + 0.0367
     change = 0.00464 / number
     base = probation.Law(unrelaxed_modulus=3220.0, tau_max=number / rate, hardening_modulus=1.8)
@@ -83,7 +87,7 @@ def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11
 def test_with_a_companion_relation_its_slope_changes():
     """PowerLaw(c, n) with a is PowerLaw(c r_ref^a, n - a)."""
     base = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=probation.PowerLaw(0.03, -0.9))
-    necking = probation.paper.twins.experiment(2).record()
+    necking = probation.published.experiments.experiment(2).record()
     found, views = predicted(base, necking, "rate_dependent_relaxation", "power", (0.07,))
     other = probation.PowerLaw(0.03 * views[0].reference_rate ** 0.07, -0.97)
     expected = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=other)
@@ -362,7 +366,7 @@ def test_a_smooth_signal_is_delayed_to_the_third_order():
 
 def test_a_late_force_is_that_of_an_earlier_strain():
     """Nominal stress K t: the true stress is K (t - lag) e^(strain now)."""
-    law = gap.CallableLaw(
+    law = CallableLaw(
         lambda time, strain, parameters, alteration: parameters[0] * time * np.exp(strain),
         ("k",),
         (0.2,),
@@ -440,7 +444,7 @@ def test_with_its_own_rates_a_record_is_corrected_as_without():
     for each in (record, rated):
         campaign = probation.Campaign(name="slip", records=(each,))
         for values in ((0.01, 0.5, 0.0), (0.0, 0.5, 0.0)):
-            model = gap.CampaignModel(gap.DnlrLaw(LAW), gap.views_of(campaign), [gap.cause("grip_slip", None, each.id)])
+            model = CampaignModel(DnlrLaw(LAW), views_of(campaign), [cause("grip_slip", None, each.id)])
             results.append(model.predict(model.parameters(LAW.parameters, values))[each.id])
     slipped, still, slipped_rated, still_rated = results
     assert np.min(slipped - still) < -10.0
@@ -450,10 +454,10 @@ def test_with_its_own_rates_a_record_is_corrected_as_without():
 @pytest.mark.parametrize(("form", "factor"), [("recorded_section", math.exp(0.01)), ("measured_section", 1.0)])
 def test_a_slip_is_a_step_of_the_bars_strain(form, factor):
     record = ramp(end=1.0)
-    model = gap.CampaignModel(
+    model = CampaignModel(
         bar(),
-        gap.views_of(probation.Campaign(name="slip", records=(record,))),
-        [gap.cause("grip_slip", form, record.id)],
+        views_of(probation.Campaign(name="slip", records=(record,))),
+        [cause("grip_slip", form, record.id)],
     )
     found = model.predict(model.parameters(np.array([1000.0]), (0.01, 0.6, 0.0)))[record.id]
     later = record.time > 0.6 * record.time[-1] + 1.0
@@ -495,9 +499,7 @@ def test_a_warmer_day_is_another_law():
     first, last = ramp(1e-3), ramp(2e-2)
     warm_law = LAW.with_parameters([3000.0, 6.0 * math.exp(-0.3), 2.0 * math.exp(-0.015)])
     campaign = probation.Campaign(name="days", records=(first, last))
-    model = gap.CampaignModel(
-        gap.DnlrLaw(LAW), gap.views_of(campaign), [gap.cause("temperature_drift", "test_to_test")]
-    )
+    model = CampaignModel(DnlrLaw(LAW), views_of(campaign), [cause("temperature_drift", "test_to_test")])
     found = model.predict(model.parameters(LAW.parameters, (3.0,)))
     np.testing.assert_allclose(found[first.id], LAW.stress(first.time, first.true_strain), rtol=1e-12)
     np.testing.assert_allclose(found[last.id], warm_law.stress(last.time, last.true_strain), rtol=1e-12)

@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 
 import probation
-from probation import gap
-from probation.records import Noise, Record
+from probation.effects.cause import cause
+from probation.effects.record_view import views_of
+from probation.effects.registry import effect, effects
+from probation.inference.callable_law import CallableLaw, maxwell_bar
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.screen import screen
+from probation.records.record import Noise, Record
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
 RATES = (1e-3, 5e-3, 2e-2)
@@ -25,13 +31,11 @@ def campaign(stress=None, samples=200):
     return probation.Campaign(name="ramps", records=tuple(records))
 
 
-MODEL = gap.CampaignModel(gap.DnlrLaw(LAW), gap.views_of(campaign()))
+MODEL = CampaignModel(DnlrLaw(LAW), views_of(campaign()))
 
 
 def test_columns_of_a_screen_are_the_jacobians_at_amplitude_zero():
-    for column in gap.screen(
-        MODEL, MODEL.start, gap.effects(["damage", "prestress", "machine_compliance", "self_heating"])
-    ):
+    for column in screen(MODEL, MODEL.start, effects(["damage", "prestress", "machine_compliance", "self_heating"])):
         extended = MODEL.with_causes([column.cause])
         slope = extended.jacobian(extended.parameters(MODEL.start, column.values))[:, 3]
         assert np.linalg.norm(slope[column.rows] - column.slope) < 1e-3 * np.linalg.norm(slope)
@@ -41,45 +45,45 @@ def test_columns_of_a_screen_are_the_jacobians_at_amplitude_zero():
 
 def test_a_screen_stands_on_the_effects_that_are_there():
     """A gain on top of an offset is the recorded stress with the offset in it."""
-    offset = MODEL.with_causes([gap.cause("force_offset")])
+    offset = MODEL.with_causes([cause("force_offset")])
     parameters = offset.parameters(MODEL.start, (2.0,))
-    column = gap.screen(offset, parameters, [gap.effect("force_gain")])[0]
+    column = screen(offset, parameters, [effect("force_gain")])[0]
     np.testing.assert_allclose(column.slope, offset.residual(parameters) + offset.data, rtol=1e-9, atol=1e-9)
 
 
 def test_a_screen_has_every_form_in_every_place_it_may_sit():
-    columns = gap.screen(MODEL, MODEL.start, gap.effects())
+    columns = screen(MODEL, MODEL.start, effects())
     placed = {(column.cause.effect.name, column.cause.form.name, column.cause.records) for column in columns}
-    for effect in gap.effects():
-        for form in effect.forms:
-            where = effect.placements(form)
-            assert ((effect.name, form.name, None) in placed) == ("all" in where)
+    for each in effects():
+        for form in each.forms:
+            where = each.placements(form)
+            assert ((each.name, form.name, None) in placed) == ("all" in where)
             for rate in RATES:
-                assert ((effect.name, form.name, (f"at-{rate:g}",)) in placed) == ("one" in where)
+                assert ((each.name, form.name, (f"at-{rate:g}",)) in placed) == ("one" in where)
     assert all(np.all(np.isfinite(column.slope)) for column in columns)
 
 
 def test_threads_make_the_same_screen():
-    chosen = gap.effects(["self_heating", "grip_slip", "spectrum_shape"])
-    one, two = (gap.screen(MODEL, MODEL.start, chosen, threads=threads) for threads in (1, 2))
+    chosen = effects(["self_heating", "grip_slip", "spectrum_shape"])
+    one, two = (screen(MODEL, MODEL.start, chosen, threads=threads) for threads in (1, 2))
     for a, b in zip(one, two, strict=True):
         np.testing.assert_array_equal(a.slope, b.slope)
 
 
 def test_with_one_record_all_and_one_are_the_same_and_given_once():
-    single = gap.CampaignModel(gap.DnlrLaw(LAW), MODEL.views[:1])
-    columns = gap.screen(single, single.start, gap.effects(["force_offset", "grip_slip"]))
+    single = CampaignModel(DnlrLaw(LAW), MODEL.views[:1])
+    columns = screen(single, single.start, effects(["force_offset", "grip_slip"]))
     assert [c.cause.records for c in columns if c.cause.effect.name == "force_offset"] == [None]
     assert {c.cause.records for c in columns if c.cause.effect.name == "grip_slip"} == {("at-0.001",)}
 
 
 def test_residuals_tell_where_shapes_begin():
     """A wave of 0.0123 Hz in one record and a slip at 0.62 of another: the starts lie beside them."""
-    wave, slip = gap.cause("periodic_disturbance", "stress", "at-0.001"), gap.cause("grip_slip", None, "at-0.005")
+    wave, slip = cause("periodic_disturbance", "stress", "at-0.001"), cause("grip_slip", None, "at-0.005")
     truth = MODEL.with_causes([wave, slip])
     parameters = truth.parameters(MODEL.start, (0.3, 0.0123, 1.0), (0.01, 0.62, 0.0))
     residual = MODEL.residual(MODEL.start) - (truth.residual(parameters) - MODEL.residual(MODEL.start))
-    columns = gap.screen(MODEL, MODEL.start, [wave.effect, slip.effect], residual=residual)
+    columns = screen(MODEL, MODEL.start, [wave.effect, slip.effect], residual=residual)
     frequencies = [c.values[1] for c in columns if c.cause.effect is wave.effect and c.cause.records == wave.records]
     assert frequencies[0] == pytest.approx(0.0123, rel=0.02)
     instants = [c.values[1] for c in columns if c.cause.effect is slip.effect and c.cause.records == slip.records]
@@ -101,8 +105,8 @@ def test_a_quietened_record_drives_a_compliant_machine_without_its_noise():
         each = Record(
             id="dwell", time=time, true_strain=strain, true_stress=stress, control="strain-rate", noise=Noise(0.04, 0.0)
         )
-        views = gap.views_of(probation.Campaign(name="dwell", records=(each,)))
-        model = gap.CampaignModel(gap.DnlrLaw(law), views, [gap.cause("machine_compliance")])
+        views = views_of(probation.Campaign(name="dwell", records=(each,)))
+        model = CampaignModel(DnlrLaw(law), views, [cause("machine_compliance")])
         at = model.parameters(law.parameters, (1e-4,))
         quiet = model.quietened(model.start)
         found.append((model.predict(at)["dwell"], quiet.predict(at)["dwell"], quiet.views[0].nominal_data))
@@ -122,7 +126,7 @@ def test_a_planned_test_takes_other_data():
 
 def test_a_threshold_begins_at_the_largest_force_recorded():
     """The secant's amplitude is one over a nominal stress just below the record's largest."""
-    columns = gap.screen(MODEL, MODEL.start, [gap.effect("force_saturation")])
+    columns = screen(MODEL, MODEL.start, [effect("force_saturation")])
     largest = max(np.max(view.nominal_data) for view in MODEL.views)
     assert columns[0].cause.records is None
     assert columns[0].values == (pytest.approx(1.0 / (0.995 * largest)),)
@@ -132,8 +136,8 @@ def test_a_threshold_begins_at_the_largest_force_recorded():
 
 def test_a_python_function_is_put_on_probation_by_the_same_machinery():
     """A Maxwell bar: its closed form on a ramp, its sensitivities, and the effects that it can follow."""
-    bar = gap.maxwell_bar(modulus=800.0, relaxation_time=12.0)
-    model = gap.CampaignModel(bar, MODEL.views, [gap.cause("force_offset", records="at-0.005")])
+    bar = maxwell_bar(modulus=800.0, relaxation_time=12.0)
+    model = CampaignModel(bar, MODEL.views, [cause("force_offset", records="at-0.005")])
     assert model.parameter_names == ("modulus_MPa", "relaxation_time_s", "force_offset[at-0.005].offset_MPa")
     parameters = model.parameters(bar.start, (0.4,))
     view = model.views[1]
@@ -149,20 +153,20 @@ def test_a_python_function_is_put_on_probation_by_the_same_machinery():
 
 
 def test_a_law_is_asked_only_for_what_it_understands():
-    bar = gap.maxwell_bar()
-    model = gap.CampaignModel(bar, MODEL.views)
-    screened = {column.cause.effect.name for column in gap.screen(model, model.start, gap.effects())}
+    bar = maxwell_bar()
+    model = CampaignModel(bar, MODEL.views)
+    screened = {column.cause.effect.name for column in screen(model, model.start, effects())}
     assert {"force_offset", "machine_compliance", "damage", "structural_softening"} <= screened
     assert not screened & {"self_heating", "spectrum_shape", "rate_dependent_relaxation", "prestress"}
     with pytest.raises(probation.InputError, match="self_heating: the law does not understand feedbacks"):
-        model.with_causes([gap.cause("self_heating")])
+        model.with_causes([cause("self_heating")])
 
 
 def test_a_maxwell_bar_ages_and_is_damaged():
     """Times beyond the record: the integral of E exp(a e^(-e/0.1)), times the area left at a strain of 1.2."""
-    bar = gap.maxwell_bar(modulus=800.0, relaxation_time=1e8)
-    causes = [gap.cause("structural_softening", "modulus"), gap.cause("damage", "growing")]
-    model = gap.CampaignModel(bar, MODEL.views, causes)
+    bar = maxwell_bar(modulus=800.0, relaxation_time=1e8)
+    causes = [cause("structural_softening", "modulus"), cause("damage", "growing")]
+    model = CampaignModel(bar, MODEL.views, causes)
     found = model.predict(model.parameters(bar.start, (0.3, 0.1), (0.2, 1.0)))["at-0.005"]
     strain = np.linspace(0.0, 1.2, 200_001)
     stress = 800.0 * np.trapezoid(np.exp(0.3 * np.exp(-strain / 0.1)), strain)
@@ -183,10 +187,10 @@ def test_a_badly_described_function_is_refused(changed, message):
         "names": ("k",), "starts": (1.0,), "lower": (0.0,), "upper": (9.0,),
     }  # fmt: skip
     with pytest.raises(probation.InputError, match=message):
-        gap.CallableLaw(**(described | changed))
+        CallableLaw(**(described | changed))
 
 
 def test_a_function_that_gives_no_stress_is_told_so():
-    law = gap.CallableLaw(lambda time, strain, parameters, alteration: strain[:5], ("k",), (1.0,), (0.0,), (9.0,))
+    law = CallableLaw(lambda time, strain, parameters, alteration: strain[:5], ("k",), (1.0,), (0.0,), (9.0,))
     with pytest.raises(probation.InputError, match=r"function\(time, true_strain, …\) has 5 samples; expected 200"):
         law.stress(MODEL.views[0], law.start)

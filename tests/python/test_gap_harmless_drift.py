@@ -5,11 +5,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from campaigns import linear_problem as problem
-from probation.gap.drift import with_drift
-from probation.gap.harmless_drift import ALIKE, harmless_drift
-from probation.gap.record_residual import RecordResidual
-from probation.gap.smooth_basis import waves
-from probation.gap.whitening import Whitened
+from probation.noise.drift import with_drift
+from probation.noise.harmless_drift import ALIKE, harmless_drift
+from probation.noise.record_residual import RecordResidual
+from probation.noise.smooth_basis import waves
+from probation.noise.whitening import Whitened
 
 COUNT, SIZE, WAVES = 400, 20.0, 10
 

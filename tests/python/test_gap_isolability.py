@@ -9,15 +9,20 @@ from scipy.optimize import least_squares
 from scipy.special import ndtr
 
 import probation
-from probation import gap
 from probation.answers import json_answer
+from probation.design.effect_signals import signal, usual_size
+from probation.design.isolability import isolability
+from probation.design.planned_record import white_noise
+from probation.design.telling_apart import best_match, probability_of_the_right_one
+from probation.effects.cause import cause
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.record_view import views_of
+from probation.effects.registry import effect, effects
 from probation.errors import ConvergenceError
-from probation.gap.effect import Effect, EffectParameter, Form
-from probation.gap.effect_signals import signal, usual_size
-from probation.gap.isolability import isolability
-from probation.gap.planned_record import white_noise
-from probation.gap.telling_apart import best_match, probability_of_the_right_one
-from probation.records import Record
+from probation.inference.callable_law import CallableLaw
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.records.record import Record
 
 SAMPLES = 400
 NOISE = 0.5
@@ -34,8 +39,8 @@ def elastic_model(*records):
     def stress(time, true_strain, parameters, alteration):
         return parameters[0] * true_strain
 
-    law = gap.CallableLaw(stress, names=("modulus_MPa",), starts=(1000.0,), lower=(0.0,), upper=(1e5,))
-    return gap.CampaignModel(law, gap.views_of(probation.Campaign(name="bar", records=records)))
+    law = CallableLaw(stress, names=("modulus_MPa",), starts=(1000.0,), lower=(0.0,), upper=(1e5,))
+    return CampaignModel(law, views_of(probation.Campaign(name="bar", records=records)))
 
 
 def made_up(name, shape, lower=-100.0, upper=100.0, scale=1.0, placements=("all",), **more):
@@ -112,7 +117,7 @@ def test_an_offset_on_an_elastic_ramp_has_the_length_of_its_closed_form():
 
 
 def test_a_gain_hides_in_the_modulus_and_says_so():
-    found = analysed([gap.effect("force_gain"), gap.effect("force_offset")]).effects[0]
+    found = analysed([effect("force_gain"), effect("force_offset")]).effects[0]
     assert (found.status, found.seen_from) == ("absorbed", None)
     assert found.absorbable == pytest.approx(1.0)
     assert found.biases[0].percent == pytest.approx(2.0)
@@ -180,17 +185,17 @@ def test_a_fault_of_one_record_is_looked_for_where_it_shows_best():
 
 
 def test_what_the_law_cannot_follow_is_left_out_and_named():
-    found = analysed([gap.effect("damage"), gap.effect("force_offset")])
+    found = analysed([effect("damage"), effect("force_offset")])
     assert [name for name, _ in found.left_out] == ["damage"]
     assert found.names == ("force_offset",)
     with pytest.raises(probation.InputError, match="none that the law can follow"):
-        analysed([gap.effect("damage")])
+        analysed([effect("damage")])
 
 
 def test_another_number_of_noises_is_refused():
     model = elastic_model(ramp("a", 0.001), ramp("b", 0.002))
     with pytest.raises(probation.InputError, match="noises: found 1, expected one for each of 2 records"):
-        isolability(model, model.start, white_noise(model.views[:1], 1.0), gap.effects())
+        isolability(model, model.start, white_noise(model.views[:1], 1.0), effects())
     with pytest.raises(probation.InputError, match="deviation: found 3 numbers"):
         white_noise(model.views, [1.0, 1.0, 1.0])
     with pytest.raises(probation.InputError, match="expected a positive number"):
@@ -213,10 +218,10 @@ def fragile(limit, failure):
 def test_an_effect_that_cannot_be_solved_at_its_usual_size_is_taken_smaller_in_proportion():
     model = elastic_model(ramp("one", 0.001))
     effect = fragile(0.1, ConvergenceError("made up"))
-    found = signal(model, model.start, gap.cause(effect), (1.0,))
+    found = signal(model, model.start, cause(effect), (1.0,))
     np.testing.assert_allclose(found, wave(20)(np.linspace(0.0, 1.0, SAMPLES)), atol=1e-12)
     with pytest.raises(probation.InputError, match="fragile: found no solution"):
-        signal(model, model.start, gap.cause(fragile(1e-9, ConvergenceError("made up"))), (1.0,))
+        signal(model, model.start, cause(fragile(1e-9, ConvergenceError("made up"))), (1.0,))
 
 
 def test_the_stresses_of_the_records_are_not_looked_at():
@@ -225,9 +230,9 @@ def test_the_stresses_of_the_records_are_not_looked_at():
     noisy = replace(measured, true_stress=100.0 * np.random.default_rng(0).standard_normal(SAMPLES))
     lengths = []
     for record in (measured, noisy):
-        model = gap.CampaignModel(gap.DnlrLaw(law), gap.views_of(probation.Campaign(name="x", records=(record,))))
+        model = CampaignModel(DnlrLaw(law), views_of(probation.Campaign(name="x", records=(record,))))
         found = isolability(
-            model, model.start, white_noise(model.views, NOISE), gap.effects(["machine_compliance", "damage"])
+            model, model.start, white_noise(model.views, NOISE), effects(["machine_compliance", "damage"])
         )
         lengths.append([each.detectability for each in found.effects])
     np.testing.assert_allclose(*lengths)
@@ -236,13 +241,13 @@ def test_the_stresses_of_the_records_are_not_looked_at():
 def two_ramps():
     law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
     records = (ramp("slow", 0.001, 1.5, 300), ramp("fast", 0.02, 1.8, 300))
-    return gap.CampaignModel(gap.DnlrLaw(law), gap.views_of(probation.Campaign(name="two", records=records)))
+    return CampaignModel(DnlrLaw(law), views_of(probation.Campaign(name="two", records=records)))
 
 
 def test_the_whole_catalogue_is_judged_and_leaves_as_json():
     model = two_ramps()
-    found = isolability(model, model.start, white_noise(model.views, 1.0), gap.effects())
-    assert found.names == tuple(effect.name for effect in gap.effects())
+    found = isolability(model, model.start, white_noise(model.views, 1.0), effects())
+    assert found.names == tuple(effect.name for effect in effects())
     assert sum(len(found.with_status(status)) for status in ("named", "ambiguous")) >= 10
     assert found.effects[found.names.index("force_gain")].status == "absorbed"
     grouped = [name for group in found.groups for name in group]
@@ -256,8 +261,8 @@ def test_the_whole_catalogue_is_judged_and_leaves_as_json():
 def test_a_ramp_at_the_reference_rate_gives_rate_dependence_nothing_to_do():
     law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
     records = (ramp("one", 0.005, 1.5, 300),)
-    model = gap.CampaignModel(gap.DnlrLaw(law), gap.views_of(probation.Campaign(name="one", records=records)))
-    found = isolability(model, model.start, white_noise(model.views, 1.0), gap.effects(["rate_dependent_hardening"]))
+    model = CampaignModel(DnlrLaw(law), views_of(probation.Campaign(name="one", records=records)))
+    found = isolability(model, model.start, white_noise(model.views, 1.0), effects(["rate_dependent_hardening"]))
     assert found.effects[0].status == "without_signal"
     assert "does nothing in these records" in found.effects[0].sentence
 
@@ -266,11 +271,11 @@ def test_refits_of_simulated_data_are_right_as_often_as_foretold():
     """Force offset against a room that warms within each record, on two ramps: 300 draws, both refitted."""
     model = two_ramps()
     sigma, draws = 2.0, 300
-    pair = [gap.effect("force_offset"), gap.effect("temperature_drift")]
+    pair = [effect("force_offset"), effect("temperature_drift")]
     pair[1] = replace(pair[1], forms=pair[1].forms[:1])
     found = isolability(model, model.start, white_noise(model.views, sigma), pair)
-    right = model.with_causes([gap.cause("force_offset")])
-    wrong = model.with_causes([gap.cause(pair[1])])
+    right = model.with_causes([cause("force_offset")])
+    wrong = model.with_causes([cause(pair[1])])
     size = 3.0 / found.effects[0].detectability * found.effects[0].values["offset_MPa"]
     truth = right.residual(right.parameters(model.start, (size,)))
     rng = np.random.default_rng(5)
@@ -313,8 +318,8 @@ def test_a_rival_is_tried_at_shapes_between_its_starts():
 
 
 def test_an_effect_that_cannot_be_solved_or_is_there_already_is_left_out_with_the_reason():
-    model = elastic_model(ramp("one", 0.001)).with_causes([gap.cause("force_offset")])
-    effects = [made_up("a", wave(20)), gap.effect("force_offset"), fragile(1e-9, ConvergenceError("made up"))]
+    model = elastic_model(ramp("one", 0.001)).with_causes([cause("force_offset")])
+    effects = [made_up("a", wave(20)), effect("force_offset"), fragile(1e-9, ConvergenceError("made up"))]
     found = isolability(model, model.start, white_noise(model.views, NOISE), effects)
     assert found.names == ("a",)
     assert [name for name, _ in found.left_out] == ["force_offset", "fragile"]

@@ -8,15 +8,19 @@ from scipy.optimize import least_squares
 from scipy.special import ndtr
 
 import probation
-from probation import gap
 from probation.answers import json_answer
-from probation.companion import WEISSENBERG_AS_PRINTED
-from probation.gap.effect import Effect, EffectParameter, Form
-from probation.gap.foretold import Explanation, Foretelling, foretold, outcome
-from probation.gap.next_test import next_test
-from probation.gap.planned_record import planned_noise, planned_view, white_noise
-from probation.gap.planned_tests import LONGEST, Laboratory, planned_tests
-from probation.records import Record
+from probation.design.foretold import Explanation, Foretelling, foretold, outcome
+from probation.design.next_test import next_test
+from probation.design.planned_record import planned_noise, planned_view, white_noise
+from probation.design.planned_tests import LONGEST, Laboratory, planned_tests
+from probation.effects.cause import cause
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.record_view import views_of
+from probation.inference.callable_law import CallableLaw
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.records.record import Record
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
 SAMPLES = 200
@@ -29,20 +33,20 @@ def ramp(name, rate, strain, samples=SAMPLES):
 
 def two_ramps(law=None):
     records = (ramp("slow", 0.001, 1.2), ramp("fast", 0.01, 1.2))
-    views = gap.views_of(probation.Campaign(name="two", records=records))
-    return gap.CampaignModel(law or gap.DnlrLaw(LAW), views)
+    views = views_of(probation.Campaign(name="two", records=records))
+    return CampaignModel(law or DnlrLaw(LAW), views)
 
 
 def elastic_bar(*records):
     """Stress = 1000 MPa strain."""
-    law = gap.CallableLaw(
+    law = CallableLaw(
         lambda time, true_strain, parameters, alteration: parameters[0] * true_strain,
         names=("modulus_MPa",),
         starts=(1000.0,),
         lower=(0.0,),
         upper=(1e5,),
     )
-    return gap.CampaignModel(law, gap.views_of(probation.Campaign(name="bar", records=records)))
+    return CampaignModel(law, views_of(probation.Campaign(name="bar", records=records)))
 
 
 def made_up(name, shape, scale=100.0):
@@ -206,14 +210,14 @@ def test_a_fault_of_one_record_may_come_back_and_a_slip_may_not():
     lab = Laboratory.of(model, model.start)
     test = next(t for t in planned_tests(lab) if t.repeats == "fast")
     explained = []
-    for cause, values in (
-        (gap.cause("force_offset", None, "fast"), (2.0,)),
-        (gap.cause("grip_slip", None, "fast"), (0.01, 0.5, 0.0)),
-        (gap.cause("force_offset"), (2.0,)),
+    for acting, values in (
+        (cause("force_offset", None, "fast"), (2.0,)),
+        (cause("grip_slip", None, "fast"), (0.01, 0.5, 0.0)),
+        (cause("force_offset"), (2.0,)),
     ):
-        extended = model.with_causes([cause])
+        extended = model.with_causes([acting])
         explained.append(
-            Explanation.of(extended, extended.parameters(model.start, values), 1.0, (cause.effect.name,), noises)
+            Explanation.of(extended, extended.parameters(model.start, values), 1.0, (acting.effect.name,), noises)
         )
     ways = foretold(test, model, model.start, explained, noises)
     assert [(each.owner, each.weight) for each in ways] == [(0, 0.5), (0, 0.5), (1, 1.0), (2, 1.0)]
@@ -229,7 +233,7 @@ def test_twice_the_gauge_length_halves_what_the_frame_adds():
     noises = white_noise(model.views, 1.0)
     test = next(t for t in planned_tests(Laboratory.of(model, model.start)) if t.name == "double_gauge_length")
     usual = type(test)(**{**vars(test), "gauge_length": 1.0})
-    extended = model.with_causes([gap.cause("machine_compliance", "true_strain")])
+    extended = model.with_causes([cause("machine_compliance", "true_strain")])
     none = Explanation.of(model, model.start, 1.0, (), noises)
     frame = Explanation.of(extended, extended.parameters(model.start, (1e-8,)), 1.0, ("machine_compliance",), noises)
     at = {each: foretold(each, model, model.start, [none, frame], noises) for each in (test, usual)}
@@ -242,7 +246,7 @@ def test_what_records_leave_open_of_a_parameter_is_what_least_squares_leaves():
     model = elastic_bar(ramp("one", 0.01, 0.1))
     noises = white_noise(model.views, 0.5)
     silent = made_up("silent", np.zeros_like, scale=1.0)
-    extended = model.with_causes([gap.cause(silent)])
+    extended = model.with_causes([cause(silent)])
     known = Explanation.of(extended, extended.start, 1.0, ("silent",), noises)
     covariance = known.root @ known.root.T
     strain = model.views[0].true_strain
@@ -263,7 +267,7 @@ def test_fewer_than_two_answers_need_no_test():
 def test_bad_input_is_named():
     model = two_ramps()
     noises = white_noise(model.views, 0.5)
-    other = model.with_causes([gap.cause("force_offset")])
+    other = model.with_causes([cause("force_offset")])
     pair = [(model, model.start, 1.0, ()), (other, other.start, 0.0, ("force_offset",))]
     with pytest.raises(probation.InputError, match="noises: found 1, expected one for each of 2 records"):
         next_test(model, pair, noises=noises[:1])
@@ -277,7 +281,7 @@ SIGMA = 0.4
 @pytest.fixture(scope="module")
 def drift_or_hardening():
     """Two ramps with a drift in time: the drift, or a hardening that falls with the rate, explain them about alike."""
-    causes = [gap.cause("force_drift", "in_time"), gap.cause("rate_dependent_hardening", "path")]
+    causes = [cause("force_drift", "in_time"), cause("rate_dependent_hardening", "path")]
     model = measured(two_ramps(), causes[0], (2.5e-4,), SIGMA)
     fits = [fitted(model, cause, SIGMA, np.append(model.start, 0.0)) for cause in causes]
     costs = np.array([found.cost for _, found in fits])
@@ -298,6 +302,7 @@ def test_drift_of_the_force_and_hardening_are_told_apart_without_a_specimen(drif
     assert found.probability_after > 0.95
     assert sorted(found.separates) == [["force_drift"], ["rate_dependent_hardening"]]
     assert found.what.startswith("Before the next test record the force while the specimen hangs free of load")
+    assert "rate-dependent hardening" in found.what  # its title, not its name
     answer = json.loads(json_answer("probation.next_test/1", found.to_dict()))
     assert set(answer) >= {"what", "separates", "probability_after"}
     assert len(answer["ranking"]) == len(found.ranking)
@@ -346,8 +351,8 @@ def test_simulated_tests_find_the_right_one_as_often_as_foretold(drift_or_harden
 
 def test_the_engine_s_rate_dependent_law_is_planned_for_too():
     law = probation.Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=WEISSENBERG_AS_PRINTED)
-    model = two_ramps(gap.DnlrLaw(law))
-    first, second = (model.with_causes([gap.cause(name)]) for name in ("damage", "delayed_hardening"))
+    model = two_ramps(DnlrLaw(law))
+    first, second = (model.with_causes([cause(name)]) for name in ("damage", "delayed_hardening"))
     found = next_test(
         model,
         [
@@ -366,7 +371,7 @@ def elastic_choice(sigma, shapes):
     model = elastic_bar(ramp("one", 0.01, 0.1))
     explanations = [(model, model.start, 0.1, ())]
     for name, shape in zip("ab", shapes, strict=True):
-        extended = model.with_causes([gap.cause(made_up(name, shape))])
+        extended = model.with_causes([cause(made_up(name, shape))])
         explanations.append((extended, extended.parameters(model.start, (1.0,)), 0.45, (name,)))
     return next_test(model, explanations, noises=white_noise(model.views, sigma))
 

@@ -9,10 +9,11 @@ from scipy.linalg import toeplitz
 
 from campaigns import gap_noise
 from probation import InputError
-from probation.gap.arma import LEAST_RISE, Arma, Periodogram, fit_arma
-from probation.gap.noise import carried_strain_noise, estimate_noise
-from probation.gap.quantisation import quantisation_step
-from probation.gap.spikes import find_spikes
+from probation.noise.arma import LEAST_RISE, Arma, Periodogram, fit_arma
+from probation.noise.estimate import estimate_noise
+from probation.noise.quantisation import quantisation_step
+from probation.noise.smooth_basis import waves
+from probation.noise.spikes import find_spikes
 
 
 def rng(seed=0):
@@ -174,7 +175,7 @@ def test_smooth_strain_noise_is_whitened_with_the_rest():
     """Covariance C + A A^T, by dense algebra: W (C + A A^T) W^T = 1."""
     record = gap_noise.records("white", rng(14), count=200)[0]
     slope = 5.0 * np.exp(record.true_strain)  # MPa per unit of strain
-    carried = carried_strain_noise(lambda strain: slope[:, None] * strain, 0.02, 200)
+    carried = 0.02 * slope[:, None] * waves(200, 12)
     noise = estimate_noise([replace(record, carried=carried)])[0]
     whitener = noise.whiten(np.eye(200))
     covariance = np.diag((noise.arma.innovation * noise.profile) ** 2) + carried @ carried.T

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from campaigns import gap_noise
-from probation.gap.place_left_out import place_left_out
-from probation.gap.where import locate
-from probation.gap.whitening import Whitened
+from probation.detection.place_left_out import place_left_out
+from probation.detection.where import locate
+from probation.noise.whitening import Whitened
 
 COUNT = 400
 

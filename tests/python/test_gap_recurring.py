@@ -3,9 +3,9 @@
 import numpy as np
 
 from campaigns import linear_problem as problem
-from probation.gap.record_residual import RecordResidual
-from probation.gap.recurring import find_recurring
-from probation.gap.whitening import Whitened
+from probation.detection.recurring import find_recurring
+from probation.noise.record_residual import RecordResidual
+from probation.noise.whitening import Whitened
 
 COUNT = 400
 

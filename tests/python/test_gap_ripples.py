@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.gap.arma import Arma
-from probation.gap.record_residual import RecordResidual
-from probation.gap.ripples import find_ripples, ripple_waves
-from probation.gap.whitening import Whitened
+from probation.detection.ripples import find_ripples, ripple_waves
+from probation.noise.arma import Arma
+from probation.noise.record_residual import RecordResidual
+from probation.noise.whitening import Whitened
 
 COUNT = 500
 

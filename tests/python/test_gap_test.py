@@ -8,12 +8,12 @@ from scipy.optimize import least_squares
 
 import probation
 from campaigns import gap_noise
-from probation.gap.arma import Arma
-from probation.gap.gap_test import GapTester, gap_test
-from probation.gap.noise import estimate_noise
-from probation.gap.noise_model import NoiseModel
-from probation.gap.tail import chi_square_tail, family_p_value, normal_tail
-from probation.gap.whitening import Whitened
+from probation.detection.gap_test import GapTester, gap_test
+from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
+from probation.noise.arma import Arma
+from probation.noise.estimate import estimate_noise
+from probation.noise.model import NoiseModel
+from probation.noise.whitening import Whitened
 
 COUNT = 300
 

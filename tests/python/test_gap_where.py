@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from campaigns import gap_noise
-from probation.gap.regions import runs
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.signatures import parameter_drift, sequential_estimates
-from probation.gap.where import contribution_regions, locate
-from probation.gap.whitening import Whitened
+from probation.detection.sharp import find_lines, find_steps
+from probation.detection.signatures import parameter_drift, sequential_estimates
+from probation.detection.where import contribution_regions, locate
+from probation.noise.regions import runs
+from probation.noise.whitening import Whitened
 
 NAMES = ("unrelaxed_modulus", "tau_max", "hardening_modulus")
 COUNT = 500
@@ -173,3 +173,32 @@ def test_where_an_effect_acts_is_not_smeared_by_the_refit():
 def test_runs_are_bridged_and_short_ones_dropped():
     inside = np.array([1, 1, 0, 1, 1, 0, 0, 0, 1], dtype=bool)
     assert runs(inside, bridge=1, least=2) == [slice(0, 5)]
+
+
+RATES = np.log10([1e-3, 5e-3, 2e-2, 3e-3, 2e-3, 3e-3])
+
+
+def drift_of_the_hardening_modulus(change):
+    """Six records whose G differs by `change` [MPa], known to a few 1e-4 MPa."""
+    records = gap_noise.records("white", np.random.default_rng(8), COUNT)
+    moved = [
+        replace(record, residual=record.residual - record.tangent[:, 2] * by, measured=None)
+        for record, by in zip(records, change, strict=True)
+    ]
+    return parameter_drift(Whitened.of(moved), NAMES, {"log_rate": RATES, "order": range(6)})[2]
+
+
+def test_a_parameter_that_follows_the_rate_does_so_beyond_the_scatter_between_records():
+    drift = drift_of_the_hardening_modulus(0.01 * RATES)
+    assert drift.scatter_p_value["log_rate"] < 1e-3
+    assert drift.scatter_p_value["order"] > 0.1
+
+
+def test_a_slope_by_chance_among_records_that_differ_at_random_is_no_slope():
+    """Whatever the noise says: it is so small that every random difference has a slope along everything."""
+    random = np.random.default_rng(2)
+    drifts = [drift_of_the_hardening_modulus(0.01 * random.standard_normal(6)) for _ in range(30)]
+    by_noise = [p < 1e-3 for drift in drifts for p in drift.slope_p_value.values()]
+    by_scatter = [p < 0.01 for drift in drifts for p in drift.scatter_p_value.values()]
+    assert np.mean(by_noise) > 0.5
+    assert np.mean(by_scatter) < 0.07  # 1 % expected of 60

@@ -1,6 +1,7 @@
 """Identification: the minimum, what is known about it, and what is told."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ from numpy.testing import assert_allclose
 import probation
 from probation import Campaign, Law, Noise, Record, Weissenberg, fit
 from probation.identify.covariance import covariance, status_of
-from probation.paper.twins import experiment, twin_campaign
-from probation.records import CompanionSettings, LawSettings
+from probation.law.settings import CompanionSettings, LawSettings
+from probation.published.experiments import experiment, twin_campaign
 
 TRUTH = (3224.0, 5.207, 2.556)
 
@@ -130,6 +131,52 @@ def test_a_bound_is_kept_and_told():
     answer = fit(Campaign("x", (ramp_record(),)), bounds={"tau_max_s": (0.1, 4.0)})
     assert answer.law.tau_max == pytest.approx(4.0, rel=1e-6)
     assert any("bound" in warning for warning in answer.warnings)
+
+
+def nearly_elastic_campaign():
+    """tau_max is 1e5 times as long as the record: the search ends at the upper edge of its range, 1e3 times."""
+    time = np.linspace(0.0, 100.0, 200)
+    law = Law(unrelaxed_modulus=3000.0, tau_max=1e7, hardening_modulus=2.5)
+    noise = 0.05 * np.random.default_rng(1).normal(size=200)
+    stress = law.stress(time, 0.005 * time, scheme="sa3") + noise
+    return Campaign("x", (Record("a", time, 0.005 * time, stress, control="strain-rate"),))
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_at_an_edge_of_the_search_nothing_is_claimed_of_what_the_edge_decides(method):
+    """tau_max two decades further on moves G from 568 to 8 MPa and E_u by 0.7 %: E_u alone is known."""
+    answer = fit(nearly_elastic_campaign(), method=method)
+    status = {name: parameter.status for name, parameter in answer.parameters.items()}
+    assert status["unrelaxed_modulus"] == "identifiable"
+    assert status["tau_max"] == status["hardening_modulus"] == answer.product.status == "not_identifiable"
+    told = json.loads(answer.to_json())["parameters"]["tau_max_s"]
+    assert told["se"] is None
+    assert told["interval95"] is None
+    assert "All parameters" not in answer.verdict
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_the_value_quoted_lies_in_the_range_quoted(method):
+    answer = fit(nearly_elastic_campaign(), method=method)
+    (warning,) = [each for each in answer.warnings if "edge of its range" in each]
+    assert answer.law.tau_max <= 1e5 * (1.0 + 1e-9)
+    assert "1e+05 of 0.000503 to 1e+05 s" in warning
+
+
+@pytest.mark.parametrize("method", ["least-squares", "variable-projection", "simplex"])
+def test_a_modulus_that_is_zero_is_zero_by_every_method_and_has_no_error(method):
+    """A stress that falls with the strain: the best G is negative, which is not possible."""
+    time = np.linspace(0.0, 1.0, 100)
+    stress = 30.0 - 20.0 * time + 0.01 * np.random.default_rng(1).normal(size=100)
+    answer = fit(Campaign("x", (Record("a", time, time, stress, control="strain-rate"),)), method=method)
+    hardening = answer.parameters["hardening_modulus"]
+    assert (hardening.value, hardening.se, hardening.status) == (0.0, None, "not_identifiable")
+    assert "G ended at its bound, 0 MPa" in answer.warnings
+
+
+def test_bounds_beyond_the_usual_range_are_searched():
+    answer = fit(nearly_elastic_campaign(), bounds={"tau_max_s": (1e6, 1e9)})
+    assert answer.law.tau_max == pytest.approx(1e7, rel=0.5)
 
 
 def test_a_short_elastic_record_does_not_determine_the_law():
@@ -261,3 +308,50 @@ def test_white_residuals_give_the_textbook_covariance():
     known = covariance(x[:, None], residual, [2000], np.ones(1))
     assert not known.correlated
     assert known.standard_error(0) == pytest.approx(np.sqrt(residual @ residual / 1999 / (x @ x)), rel=1e-9)
+
+
+@pytest.mark.parametrize("factor", [1e-7, 1e3])
+def test_a_modulus_outside_1_kpa_to_1_tpa_is_questioned(factor):
+    """3224 MPa, read as 0.32 kPa or 3.2 TPa."""
+    record = ramp_record(samples=101)
+    slipped = replace(record, true_stress=factor * record.true_stress)
+    told = [warning for warning in fit(Campaign("x", (slipped,))).warnings if "are the units of stress" in warning]
+    assert len(told) == 1
+    assert told[0].startswith(f"E_u = {3224.0 * factor:.1g}"[:7])
+    assert not any("units" in warning for warning in fit(Campaign("x", (record,))).warnings)
+
+
+def test_units_that_were_assumed_are_told_with_the_fit(tmp_path):
+    """In the summary and in the JSON, by column and file."""
+    record = ramp_record(samples=101)
+    rows = zip(record.time.tolist(), record.true_strain.tolist(), record.true_stress.tolist(), strict=True)
+    lines = ["time_s,true_strain,true_stress", *(",".join(map(repr, row)) for row in rows)]
+    (tmp_path / "bare.csv").write_text("\n".join(lines), encoding="utf-8")
+    answer = fit(Campaign.from_files([tmp_path / "bare.csv"]))
+    told = "no unit is stated for column 'true_stress' of bare.csv: MPa assumed"
+    assert f"warning: bare: {told}" in answer.summary()
+    assert any(told in warning for warning in json.loads(answer.to_json())["warnings"])
+
+
+def test_intervals_hold_no_value_that_the_law_cannot_take():
+    """400 samples of noise as large as the stress: a symmetric interval of tau_max would reach below zero."""
+    answer = fit(Campaign("x", (ramp_record(samples=400, noise=30.0),)))
+    tau = answer.parameters["tau_max"]
+    assert tau.value - 1.97 * tau.se < 0.0
+    assert tau.interval95[0] == 0.0
+
+
+def test_the_product_is_withdrawn_with_a_modulus_that_is_zero():
+    time = np.linspace(0.0, 1.0, 100)
+    stress = probation.haward_thackray_strain(time) ** 2
+    answer = fit(Campaign("x", (Record("a", time, time, stress, control="strain-rate"),)))
+    assert answer.law.unrelaxed_modulus == 0.0
+    assert (answer.product.se, answer.product.status) == (None, "not_identifiable")
+
+
+def test_the_residual_is_not_said_to_be_a_sum_that_it_is_not():
+    """Noise and bias add in squares, and an estimate of the noise may be above the rms of the residual."""
+    answer = fit(Campaign("x", (ramp_record(),)))
+    (line,) = [each for each in answer.summary().splitlines() if "fit residual" in each]
+    assert "=" not in line
+    assert "+" not in line

@@ -8,16 +8,16 @@ from scipy.special import stdtrit
 
 import probation
 from probation import Campaign, Law, Noise, Record, fit
-from probation.excitation import excite
 from probation.identify import strain_noise as strain_noise_module
 from probation.identify import weighting as weighting_module
 from probation.identify.bias import bias_of
 from probation.identify.noise_model import NoiseModel
 from probation.identify.problem import Problem, RecordProblem
-from probation.identify.strain_noise import StrainNoise
 from probation.identify.weighting import Weighted, residual_and_jacobian
-from probation.paper.twins import experiment_3
-from probation.records import LawSettings
+from probation.inference.strain_noise import StrainNoise
+from probation.law.settings import LawSettings
+from probation.published.experiments import experiment_3
+from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
 
@@ -66,7 +66,7 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
     problem = RecordProblem.prepare(record, excitation, "sa3", "exponential")
-    carried = StrainNoise.of(problem).carried(LAW)
+    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.start, problem.substeps).carried(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
     for at in range(100):
@@ -93,7 +93,7 @@ def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evalua
     record = ramp_record(strain_noise=1e-3, samples=100)
     prepared = RecordProblem.prepare(record, excite(record, method), "sa3", "exponential")
     problem = Problem(LAW, [prepared], (False, False, False))
-    weighted = Weighted(LAW, (StrainNoise.of(prepared),))
+    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.start, prepared.substeps),))
     problem.noises = [problem.noises[0].with_carried(weighted.strain[0].carried(LAW))]
     away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
     residual, jacobian = residual_and_jacobian(problem, away, weighted)

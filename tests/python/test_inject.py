@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from probation.blind import inject as module
-from probation.blind.inject import Injection, inject
+from probation_studies.blind import inject as module
+from probation_studies.blind.inject import Injection, inject
 
 TIME = np.linspace(0.0, 10.0, 101)
 STRAIN = np.log1p(0.02 * TIME)  # a crosshead at constant speed

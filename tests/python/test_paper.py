@@ -7,18 +7,20 @@ import numpy as np
 import pytest
 
 import probation
-from probation.certificate import regress_hardening
-from probation.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED
-from probation.paper.constant_time import cost_over_time, onset
-from probation.paper.direct_prediction import direct_prediction
-from probation.paper.exhibit import Exhibit, Settings, compare
-from probation.paper.exhibits import EXHIBITS, named_exhibits
-from probation.paper.grip_tests import OPTIONS, identified, identify, twin
-from probation.paper.hardening_modulus import expected_from_table_2
-from probation.paper.reproduction import Reproduction, reproduce
-from probation.paper.twins import necking_history
-from probation.paper.wavy_bias import RISES, ProfiledFit, bias_study, middle
-from probation.records import Campaign, LawSettings, Record
+from probation.certificate.hardening import regress_hardening
+from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED
+from probation.law.settings import LawSettings
+from probation.published.experiments import necking_history
+from probation.records.campaign import Campaign
+from probation.records.record import Record
+from probation_studies.paper.constant_time import cost_over_time, onset
+from probation_studies.paper.direct_prediction import direct_prediction
+from probation_studies.paper.exhibit import Exhibit, Settings, compare
+from probation_studies.paper.exhibits import EXHIBITS, named_exhibits
+from probation_studies.paper.grip_tests import OPTIONS, identified, identify, twin
+from probation_studies.paper.hardening_modulus import expected_from_table_2
+from probation_studies.paper.reproduction import Reproduction, reproduce
+from probation_studies.paper.wavy_bias import RISES, ProfiledFit, bias_study, middle
 
 NOISE = 0.04  # MPa, of the twins
 DRAWS, BIASES = 30, 100

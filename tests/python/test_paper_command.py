@@ -5,7 +5,7 @@ import json
 import pytest
 
 from probation.cli import main
-from probation.paper.exhibits import EXHIBITS
+from probation_studies.paper.exhibits import EXHIBITS
 
 
 def test_the_page_goes_where_the_help_says_and_the_verdict_comes_first(tmp_path, monkeypatch, capsys):
@@ -39,10 +39,9 @@ def test_the_names_are_listed(capsys):
     ("arguments", "said"),
     [
         (["--only", "tabel-3"], "--only: found 'tabel-3'; did you mean 'table-3'?"),
-        (["--only", "slips", "--plot", "slips.png"], "plot: found no figure in slips, expected an exhibit with one"),
         (["--draws", "0"], "found '0', expected a whole number of at least 1"),
         (["--seed", "-1"], "found '-1', expected a whole number of at least 0"),
-        (["--out", "taken"], "--out taken: found a file, expected a folder or a new name"),
+        (["--out", "taken"], "taken: found a file, expected a folder or a new name"),
     ],
 )
 def test_bad_arguments_are_answered_in_one_line(arguments, said, tmp_path, monkeypatch, capsys):
@@ -52,3 +51,13 @@ def test_bad_arguments_are_answered_in_one_line(arguments, said, tmp_path, monke
     error = capsys.readouterr().err
     assert said in error.splitlines()[-1]
     assert len(error.splitlines()) == 1
+
+
+def test_a_plot_of_what_has_no_figure_costs_the_page_nothing(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["paper", "--only", "slips", "--plot", "slips.png"]) == 2
+    assert capsys.readouterr().err.splitlines() == [
+        "wrote report probation-paper.html",
+        "probation: plot: found no figure in slips, expected an exhibit with one",
+    ]
+    assert (tmp_path / "probation-paper.html").is_file()

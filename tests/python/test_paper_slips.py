@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import probation
-from probation.paper.slips import equation_7_as_printed, slips
+from probation_studies.paper.slips import equation_7_as_printed, slips
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from probation.errors import InputError
-from probation.records import read_record
+from probation.records.reading import read_record
 
 HEADINGS = "time_s,true_strain,true_stress_MPa"
 ROWS = [f"{0.5 * at},{0.01 * at:.2f},{1.5 * at}" for at in range(12)]

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from probation.errors import InputError
-from probation.records import conversions, header, read_record, units
+from probation.records import conversions, header, units
+from probation.records.reading import read_record
 
 LENGTH, AREA = 50.0, 8.0  # mm, mm²
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from probation.errors import InputError
-from probation.records import preview
 from probation.records.noise import scatter
+from probation.records.preview import preview
 from probation.records.text_plot import text_plot
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
@@ -17,7 +17,7 @@ measured = pytest.mark.skipif(not DATA.is_dir(), reason="the measured records ar
 @pytest.fixture
 def shown(tmp_path):
     lines = ["Zeit (ms);True strain;True stress (kPa);Note"]
-    lines += [f"{100 * at};0,{at:02d};{at},5;x" for at in range(12)]
+    lines += [f"{100 * at};0,{at:02d};{10 * at},5;x" for at in range(12)]
     path = tmp_path / "zug.csv"
     path.write_bytes("\n".join(lines).encode("latin-1"))
     return preview(path, columns={"time": "Zeit"})
@@ -39,20 +39,29 @@ def test_the_layout_is_told(shown):
         ("Note", None, None),
     )
     assert "0 to 0.11" in summary
-    assert "0.0005 to 0.0115 MPa" in summary
+    assert "0.0005 to 0.1105 MPa" in summary
 
 
 def test_the_first_rows_are_shown_as_they_stand(shown):
-    assert "  100  0,01  1,5" in shown.summary().splitlines()
+    assert "  100  0,01  10,5" in shown.summary().splitlines()
 
 
 def test_warnings_are_shown(tmp_path):
     path = tmp_path / "percent.csv"
-    lines = ["time_s,true_strain,true_stress_MPa"] + [f"{at},{at},{at}" for at in range(12)]
+    lines = ["time_s,true_strain,true_stress_MPa"] + [f"{at},{0.3 * at},{at}" for at in range(12)]
     path.write_text("\n".join(lines), encoding="utf-8")
     summary = preview(path).summary()
     assert "1 record, 1 warning" in summary.splitlines()[0]
     assert "warning: strain in percent?" in summary
+
+
+def test_units_that_are_assumed_are_told(tmp_path):
+    path = tmp_path / "bare.csv"
+    lines = ["Time,true_strain,kPa"] + [f"{at},{0.01 * at},{at}" for at in range(12)]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    shown = preview(path, columns={"true_stress": "kPa"})
+    assert "warning: no unit is stated for column 'Time' of bare.csv: s assumed" in shown.summary()
+    assert ("kPa", "kPa", "true_stress") in shown.columns
 
 
 def test_uneven_sampling_is_told(tmp_path):

@@ -10,7 +10,8 @@ import openpyxl
 import pytest
 
 from probation.errors import InputError
-from probation.records import PROFILES, read_record, read_records
+from probation.records.profiles import PROFILES
+from probation.records.reading import read_record, read_records
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
 TENSION = DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"

@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from probation.errors import InputError
-from probation.records import read_record, read_strain_history
 from probation.records.header import split_unit
+from probation.records.reading import read_record
+from probation.records.strain_history import read_strain_history
 
 HEADINGS = ("time_s", "true_strain", "true_stress_MPa")
 # Twelve samples of whatever; read back exactly because float(repr(x)) == x.
@@ -134,6 +135,85 @@ def test_units_in_the_headings_are_read(read, headings):
     assert record.true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
 
 
+SPECIMEN = {"area_mm2": 10.0, "gauge_length_mm": 50.0}
+
+
+def test_a_units_row_may_hold_a_cell_that_is_no_unit(read):
+    """2 kN on 10 mm² at 1 mm on 50 mm: 2000/10·1.02 = 204 MPa."""
+    rows = "".join(f"{0.1 * at};{0.2 * at};{at};2\n" for at in range(12))
+    for names in ("Displacement;Load;Time;Cycle", "Axial Displacement;Axial Load;Time;Axial Count"):
+        content = f"Operator;x\n{names}\nmm;kN;Sec;segments\n{rows}"
+        label = names.split(";")
+        record = read(content, columns={"displacement": label[0], "force": label[1]}, specimen=SPECIMEN)
+        assert record.true_stress[10] == pytest.approx(204.0)
+        assert not any("no unit" in warning for warning in record.warnings)
+
+
+def test_a_units_row_is_found_below_a_row_of_comments(read):
+    headings = ("Time", "True strain", "True stress\nfirst,channel,A\nms,1,kPa")
+    assert read(table(headings=headings)).true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
+
+
+def test_a_units_row_that_misspells_the_unit_of_a_column_in_use_is_refused(read):
+    headings = ("Time", "True strain", "True stress\ns,-,Megapaskal")
+    with pytest.raises(InputError, match=r"column 'True stress': found unknown unit .Megapaskal., expected a stress"):
+        read(table(headings=headings))
+
+
+def test_a_row_of_names_below_metadata_is_not_taken_for_units(read):
+    """'t' is the tonne too, and 'strain' a spelling of no unit."""
+    above = ["Sample,Operator,Machine", "A7,none,B"]
+    content = table(above=above, headings=("t", "strain", "sigma"))
+    record = read(content, columns={"true_strain": 2, "true_stress": 3})
+    assert_reads_as_samples(record)
+
+
+def test_a_heading_that_is_a_unit_gives_its_unit_and_its_role(read):
+    """2 kN on 10 mm² at 1 mm on 50 mm: 204 MPa; seconds, lengths and forces cannot be anything else."""
+    rows = "".join(f"{0.1 * at};{0.2 * at};{at}\n" for at in range(12))
+    record = read("mm;[kN];ms\n" + rows, specimen=SPECIMEN)
+    assert record.true_stress[10] == pytest.approx(204.0)
+    assert record.time[10] == pytest.approx(0.010)
+    assert sum("its heading is a unit and nothing else" in warning for warning in record.warnings) == 3
+    named = read("mm;kN;s\n" + rows, columns={"displacement": "mm", "force": "kN", "time": "s"}, specimen=SPECIMEN)
+    assert named.true_stress[10] == pytest.approx(204.0)
+    assert not any("heading" in warning for warning in named.warnings)
+
+
+def test_a_unit_that_two_columns_have_gives_no_role(read):
+    rows = "".join(f"{0.1 * at};{0.2 * at};{at};1\n" for at in range(12))
+    with pytest.raises(InputError, match="no strain column among 'mm', 'kN', 's' and 'mm'"):
+        read("mm;kN;s;mm\n" + rows, specimen=SPECIMEN)
+
+
+def test_a_heading_that_ends_in_a_unit_of_its_role_gives_it(read):
+    """Nothing but the role says that "Kraft kN" is a force and its last word a unit."""
+    rows = "".join(f"{0.1 * at};{0.2 * at};{at}\n" for at in range(12))
+    columns = {"displacement": 1, "force": 2, "time": 3}
+    record = read("Weg mm;Kraft kN;Zeit_s\n" + rows, columns=columns, specimen=SPECIMEN)
+    assert record.true_stress[10] == pytest.approx(204.0)
+    assert not any("no unit" in warning for warning in record.warnings)
+
+
+def test_a_symbol_is_not_taken_for_a_unit_of_something_else(read):
+    """'s' heads a stress and 'N' a strain: neither is one of their units."""
+    columns = {"time": 1, "true_strain": 2, "true_stress": 3}
+    assert_reads_as_samples(read(table(headings=("t", "N", "s")), columns=columns))
+
+
+def test_a_column_without_a_unit_says_so_in_one_line(read):
+    rows = "".join(f"{0.1 * at};{0.2 * at};{at}\n" for at in range(12))
+    warnings = read("Displacement;Load;Time (s)\n" + rows, specimen=SPECIMEN).warnings
+    told = [warning for warning in warnings if "no unit" in warning]
+    assert told == [
+        "no unit is stated for columns 'Displacement' and 'Load' of record.csv: mm and N assumed; "
+        'if that is wrong, say units = { displacement = "…", force = "…" }'
+    ]
+    stated = read("Displacement;Load;Time (s)\n" + rows, specimen=SPECIMEN, units={"force": "kN", "displacement": "mm"})
+    assert not any("no unit" in warning for warning in stated.warnings)
+    assert read(table()).warnings == ()
+
+
 @pytest.mark.parametrize(
     ("label", "name", "unit"),
     [
@@ -205,9 +285,50 @@ def test_exact_repeats_of_the_last_row_are_dropped_with_a_warning(read):
     assert record.warnings == ("dropped 2 rows at the end that repeat row 13 exactly",)
 
 
-def test_strain_that_looks_like_percent_is_warned_of(read):
-    record = read(table(samples=[(t, 1000.0 * e, s) for t, e, s in SAMPLES]))
-    assert any("percent" in warning for warning in record.warnings)
+def test_true_strain_in_percent_is_refused_with_the_way_to_say_so(read):
+    """0.1375 is 13.75 %; the first sample beyond 5 is the sixth, 6.25, in row 7."""
+    content = table(samples=[(t, 100.0 * e, s) for t, e, s in SAMPLES])
+    with pytest.raises(InputError) as refused:
+        read(content)
+    assert str(refused.value).endswith(
+        "row 7, column 'true_strain': found true strain 6.25 without a unit, "
+        'expected at most 5 as true strain, a stretch of 148; if it is in percent, say units = { true_strain = "%" }, '
+        'head the column "true_strain (%)", or preview with --unit true_strain=%'
+    )
+    assert_reads_as_samples(read(content, units={"true_strain": "%"}))
+
+
+def test_a_stated_unit_does_not_make_an_impossible_strain_possible(read):
+    samples = [(t, 100.0 * e, s) for t, e, s in SAMPLES]
+    content = table(headings=("time_s", "true_strain (-)", "true_stress_MPa"), samples=samples)
+    with pytest.raises(InputError, match=r"row 7, .*found true strain 6\.25 -, expected at most 5 .*; check its unit"):
+        read(content)
+
+
+def test_true_strain_without_unit_above_a_stretch_of_twelve_is_questioned(read):
+    """0.1375·20 = 2.75, a stretch of 15.6, or a test to 2.75 %."""
+    samples = [(t, 20.0 * e, s) for t, e, s in SAMPLES]
+    assert any("strain in percent?" in warning for warning in read(table(samples=samples)).warnings)
+    stated = read(table(samples=samples), units={"true_strain": "-"})
+    assert not any("percent" in warning for warning in stated.warnings)
+
+
+@pytest.mark.parametrize(("role", "first"), [("engineering_strain", 0.0), ("stretch", 100.0)])
+def test_engineering_strain_and_stretch_beyond_every_elastomer_need_a_unit(read, role, first):
+    """30 or 130 in percent is 0.3 as engineering strain: ln 1.3 as true strain. As numbers neither is impossible."""
+    samples = [(t, first + 30.0 * at / 11, s) for at, (t, _, s) in enumerate(SAMPLES)]
+    content = table(headings=("time_s", role, "true_stress_MPa"), samples=samples)
+    with pytest.raises(InputError, match=rf"without a unit, expected at most 2[01] .* units = {{ {role} = \"%\" }}"):
+        read(content)
+    assert read(content, units={role: "%"}).true_strain[-1] == pytest.approx(np.log(1.3))
+    assert read(content, units={role: "-"}).true_strain[-1] == pytest.approx(np.log(samples[-1][1] + (first == 0.0)))
+
+
+def test_compression_in_percent_without_unit_is_told_how_to_say_so(read):
+    samples = [(t, -2.0 * at, -s) for at, (t, _, s) in enumerate(SAMPLES)]
+    content = table(headings=("time_s", "engineering_strain", "true_stress_MPa"), samples=samples)
+    with pytest.raises(InputError, match=r"a stretch of -1, .*if it is in percent, say units"):
+        read(content)
 
 
 def test_engineering_strain_without_unit_that_looks_like_percent_is_warned_of(read):
@@ -218,11 +339,6 @@ def test_engineering_strain_without_unit_that_looks_like_percent_is_warned_of(re
     given_unit = ("time_s", "engineering_strain (-)", "engineering_stress_MPa")
     warnings = read(table(headings=given_unit, samples=samples)).warnings
     assert not any("percent" in warning for warning in warnings)
-
-
-def test_a_record_that_starts_strained_is_warned_of(read):
-    record = read(table(samples=[(t, e + 0.05, s) for t, e, s in SAMPLES]))
-    assert any("relaxed" in warning for warning in record.warnings)
 
 
 def test_twenty_thousand_rows_are_read_in_well_under_a_second(read):

@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import Campaign, InputError, Law, Spectrum, Weissenberg, fit, reduce_spectrum
-from probation.paper.twins import experiment
-from probation.records import LawSettings
+from probation.law.settings import LawSettings
+from probation.published.experiments import experiment
 
 E_U, G = 3220.0, 2.5
 RAMP_TO_ONE = ((1.0, 1.0),)

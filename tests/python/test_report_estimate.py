@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.report.estimate import plus_minus
+from probation.report.estimate import percentage, plus_minus
 
 
 @pytest.mark.parametrize(
@@ -17,3 +17,11 @@ from probation.report.estimate import plus_minus
 )
 def test_the_error_decides_the_digits(value: float, se: float, text: str):
     assert plus_minus(value, se) == text
+
+
+@pytest.mark.parametrize(
+    ("part", "sign", "text"),
+    [(0.000861, "", "0.086"), (0.1249, "", "12"), (0.998, "", "100"), (1.27, "+", "+130"), (-36.2, "+", "-3600")],
+)
+def test_percentages_have_no_exponent(part: float, sign: str, text: str):
+    assert percentage(part, sign) == text

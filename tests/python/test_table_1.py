@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from probation.paper.table_1 import CONDITIONS, OPTIONS, PAPER, figure_2, paper_difference, table_1
+from probation_studies.paper.table_1 import CONDITIONS, OPTIONS, PAPER, figure_2, paper_difference, table_1
 
 
 @pytest.fixture(scope="module")

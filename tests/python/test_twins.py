@@ -5,9 +5,16 @@ import pytest
 from scipy.optimize import least_squares
 
 import probation
-from probation.companion import EXPONENTIAL_AS_PRINTED
-from probation.paper.necking import NECKING_SETS, NeckingHistory
-from probation.paper.twins import GRIP_LAWS, experiment, experiment_1, experiment_2, experiment_3, twin_campaign
+from probation.histories.necking import NECKING_SETS, NeckingHistory
+from probation.law.companion import EXPONENTIAL_AS_PRINTED
+from probation.published.experiments import (
+    GRIP_LAWS,
+    experiment,
+    experiment_1,
+    experiment_2,
+    experiment_3,
+    twin_campaign,
+)
 
 RATES = {"P1": (2.5e-3, 1.70e-2, 3.0e-3), "P2": (1.7e-3, 1.70e-2, 2.5e-3), "P3": (2.4e-3, 1.70e-2, 3.0e-3)}
 
@@ -117,7 +124,7 @@ def test_a_campaign_of_twins_saves_and_loads(tmp_path):
     campaign = twin_campaign((2,), held_out=(3,), name="grips")
     assert [record.id for record in campaign.identify] == ["experiment-2"]
     assert [record.id for record in campaign.held_out] == ["experiment-3"]
-    loaded = probation.records.Campaign.load(campaign.save(tmp_path / "grips"))
+    loaded = probation.Campaign.load(campaign.save(tmp_path / "grips"))
     assert loaded.law == campaign.law
     assert (loaded.records[1].true_stress == campaign.records[1].true_stress).all()
 

@@ -1,5 +1,7 @@
 """Does eq. (7) hold at every limit where its printed form does not?"""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -102,3 +104,37 @@ def test_exact_walks_along_it(rate):
 def test_bad_input_is_named(rate, time, message):
     with pytest.raises(probation.InputError, match=message):
         probation.ramp_stress(one_mode(1.0), rate, time)
+
+
+@pytest.mark.parametrize(
+    ("rate", "time"),
+    [
+        (1e5, 1e-3),  # a strain of 100
+        (1e3, 0.354),  # e^(2 strain) is 3e307
+        (-1e5, 3e-3),
+        (1e-300, 1e300),
+        (1e300, 3e-300),
+        (1e-3, 1e-310),
+    ],
+)
+def test_fast_slow_and_short_ramps_have_their_finite_answer(rate, time):
+    law = probation.Law(unrelaxed_modulus=E_U, hardening_modulus=G, tau_max=TAU)
+    found = probation.ramp_stress(law, rate, [time])[0]
+    assert found == pytest.approx(literal.mp_ramp(rate, time, E_U, G, TAU), rel=1e-12)
+
+
+def test_where_the_exponential_overflows_and_the_stress_does_not_there_is_an_answer():
+    """e^(2 strain) is 1e313 at a strain of 360, G of 1e-10 MPa brings it back."""
+    law = probation.Law(unrelaxed_modulus=E_U, hardening_modulus=1e-10, tau_max=TAU)
+    found = probation.ramp_stress(law, 1e3, [0.36])[0]
+    assert found == pytest.approx(literal.mp_ramp(1e3, 0.36, E_U, 1e-10, TAU), rel=1e-12)
+    soft = probation.Law(unrelaxed_modulus=E_U, hardening_modulus=0.0, tau_max=TAU)
+    assert probation.ramp_stress(soft, 1e5, [1.0])[0] == pytest.approx(literal.mp_ramp(1e5, 1.0, E_U, 0.0, TAU))
+
+
+@pytest.mark.parametrize(("rate", "strain"), [(1e5, "100000"), (-1e5, "-100000"), (1e308, "1e+308")])
+def test_a_stress_beyond_all_numbers_is_refused_with_rate_and_time(rate, strain):
+    law = probation.Law(unrelaxed_modulus=E_U, hardening_modulus=G, tau_max=TAU)
+    named = rf"time\[1\] = 1 s .*strain_rate = {re.escape(f'{rate:g}')} 1/s .* strain {re.escape(strain)}"
+    with pytest.raises(probation.InputError, match=named):
+        probation.ramp_stress(law, rate, [0.0, 1.0])

@@ -45,11 +45,13 @@ class Solver {
 
   /// True stress [MPa] at the instants of the history; `stress` has shape (n_times).
   /// @throws InputError        for a law or a change that is not possible
-  /// @throws ConvergenceError  if CVODE or a feedback's iteration fails, with the time
+  /// @throws ConvergenceError  if CVODE or a feedback's iteration fails, or the stress is not finite, with
+  /// the
+  ///                           time
   void stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress);
 
   /// Stress and its derivatives [MPa per unit of the direction] along each direction; `derivatives` has shape
-  /// (n_times, directions). Only for be2, sa2 and sa3.
+  /// (n_times, directions). Only for be2, sa2 and sa3. Throws as stress() does.
   void tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
                Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives);
 
@@ -60,6 +62,9 @@ class Solver {
   struct Workspace;
   /// What is known of the history, and tables that would change the last bits of the next answer.
   void forget();
+  void solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress);
+  void solve_tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
+                     Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives);
 
   History history_;
   SolverOptions options_;

@@ -16,7 +16,7 @@ struct Spectrum {
   /// The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5).
   ///
   /// N = 50 and d = 6 are part of the definition of tau_max: sum_j p_j tau_j / tau_max is 0.382 there.
-  /// @throws InputError  unless 1 <= modes <= 10000 and decades > 0
+  /// @throws InputError  unless 1 <= modes <= 10000 and 0 < decades <= 300
   static Spectrum log_spaced(int modes = 50, double decades = 6.0);
 
   /// @throws InputError  if the arrays differ in length, are empty, or hold a ratio that is not positive

@@ -34,6 +34,7 @@ void IdentifyOptions::validate() const {
       throw InputError("the bounds of parameter " + std::to_string(i) + " are " + std::to_string(lower[i]) +
                        " and " + std::to_string(upper[i]) + "; 0 <= lower < upper is needed");
   }
+  if (substeps < 1) throw InputError("substeps is " + std::to_string(substeps) + "; at least 1 is needed");
 }
 
 struct Identifier::Workspace {
@@ -52,14 +53,27 @@ struct Identifier::Workspace {
     return {std::log(low), std::log(std::max(low, std::min(high, options.upper[1])))};
   }
 
+  /// The history, its jumps looked for among the samples: between them nothing was measured.
+  History history_of(const ArrayXd& time, const ArrayXd& true_strain) const {
+    if (!options.find_jumps) return {time, true_strain};
+    const Index every = options.substeps, samples = (time.size() - 1) / every + 1;
+    if (every == 1) return {FindJumps{}, time, true_strain};
+    const ArrayXd sampled_time = time(Eigen::seqN(0, samples, every));
+    const ArrayXd sampled_strain = true_strain(Eigen::seqN(0, samples, every));
+    History::Indices jumps = History::find_rate_jumps(sampled_time, sampled_strain);
+    for (Index& jump : jumps) jump *= every;
+    return {time, true_strain, ArrayXd(), std::move(jumps)};
+  }
+
   Search search(const SearchSpace& space, const ArrayXd& true_stress, const ArrayXd& noise) {
     constexpr Index coarse_steps = 100;
-    full.take_data(true_stress, noise);
+    const Index every = options.substeps;
+    full.take_data(true_stress, noise, every);
     if (options.held[1]) return best_from({space.log_time.lower}, space);
-    const Index stride = (full.solves.size() - 1) / coarse_steps;
+    const Index stride = every * std::max<Index>((true_stress.size() - 1) / coarse_steps, 1);
     if (stride <= 1) return best_from(coarse_search(full, space), space);
     thinned.solves.take_thinned(full.solves, stride);
-    thinned.take_data(true_stress, noise);
+    thinned.take_data(true_stress, noise, every);
     Search best = best_from(coarse_search(thinned, space), space);
     // Times below the thinned steps may have been missed.
     const double at = best.point.log_time, near = 1e-6;
@@ -120,7 +134,7 @@ Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strai
   Workspace& w = *work_;
   const IdentifyOptions& options = w.options;
   const Law& law = w.law;
-  const Index n = time.size();
+  const Index n = true_stress.size();
   const auto free = static_cast<Index>(std::count(options.held.begin(), options.held.end(), false));
   if (n < 2 || n <= free) return bad(IdentifyStatus::too_few_samples);
   const bool finite = time.allFinite() && true_strain.allFinite() && true_stress.allFinite() &&
@@ -129,12 +143,12 @@ Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strai
   const double stress = finite ? true_stress.abs().maxCoeff() : not_a_number;
   if (!finite || stress > largest_stress || (stress > 0.0 && stress < least_stress))
     return bad(IdentifyStatus::not_finite);
-  if (!(time.tail(n - 1) > time.head(n - 1)).all()) return bad(IdentifyStatus::times_do_not_increase);
+  if (!(time.tail(time.size() - 1) > time.head(time.size() - 1)).all())
+    return bad(IdentifyStatus::times_do_not_increase);
 
   SearchSpace space{options.held, {}, {}, {}};
   try {
-    const History history =
-        options.find_jumps ? History(FindJumps{}, time, true_strain) : History(time, true_strain);
+    const History history = w.history_of(time, true_strain);
     w.full.solves.take(law, history, options.scheme, options.start);
     space.log_time = w.log_time(history);
   } catch (const InputError&) {

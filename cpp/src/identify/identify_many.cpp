@@ -30,11 +30,15 @@ void identify_many(const Law& law, const BulkRecords& records, const IdentifyOpt
   require_records(out.rms_residual.size(), records.records, "rms_residual");
   require_records(out.status.size(), records.records, "status");
   require_records(out.iterations.size(), records.records, "iterations");
+  options.validate();
+  const Index n = records.n_times, samples = (n - 1) / options.substeps + 1;
+  if ((n - 1) % options.substeps != 0)
+    throw InputError("time has " + std::to_string(n) + " instants; a multiple of the " +
+                     std::to_string(options.substeps) + " substeps and one more are needed");
   std::vector<Scratch> scratches;
   for (int worker = workers_for(records.records, run); worker > 0; --worker) {
-    const auto n = records.n_times;
-    scratches.push_back({Identifier(law, options), Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n),
-                         Eigen::ArrayXd(records.noise_given ? n : 0)});
+    scratches.push_back({Identifier(law, options), Eigen::ArrayXd(n), Eigen::ArrayXd(n),
+                         Eigen::ArrayXd(samples), Eigen::ArrayXd(records.noise_given ? samples : 0)});
   }
   in_parallel(records.records, run, [&](int worker, Index record) {
     Scratch& s = scratches[static_cast<std::size_t>(worker)];

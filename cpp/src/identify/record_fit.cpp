@@ -7,30 +7,35 @@ namespace probation {
 
 using Eigen::Index;
 
-void RecordFit::take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise) {
+void RecordFit::take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise, Index substeps) {
   const std::vector<Index>& instants = solves.instants();
-  const Index n = solves.size();
+  every_ = instants[1] < substeps ? substeps : 1;
+  const Index n = (solves.size() - 1) / every_ + 1;
   data_.resize(n);
   weight_.resize(noise.size() > 0 ? n : 0);
   // Only ratios matter; a power of two leaves the digits alone.
   const double scale = noise.size() > 0 ? std::exp2(std::floor(std::log2(noise.minCoeff()))) : 1.0;
   for (Index i = 0; i < n; ++i) {
-    const Index instant = instants[static_cast<std::size_t>(i)];
-    data_[i] = true_stress[instant];
-    if (weight_.size() > 0) weight_[i] = scale / noise[instant];
+    const Index sample = instants[static_cast<std::size_t>(i * every_)] / substeps;
+    data_[i] = true_stress[sample];
+    if (weight_.size() > 0) weight_[i] = scale / noise[sample];
   }
   if (weight_.size() > 0) data_ *= weight_;
 }
 
 void RecordFit::solve(double log_time) {
   solves.solve(std::exp(log_time));
-  u_ = &solves.u();
-  v_ = &solves.v();
-  if (weight_.size() == 0) return;
-  weighted_u_ = *u_ * weight_;
-  weighted_v_ = *v_ * weight_;
-  u_ = &weighted_u_;
-  v_ = &weighted_v_;
+  u_ = &sampled(solves.u(), sampled_u_);
+  v_ = &sampled(solves.v(), sampled_v_);
+}
+
+/// At the samples, in units of the noise; `kept` holds it where that is not `solved` itself.
+const Eigen::ArrayXd& RecordFit::sampled(const Eigen::ArrayXd& solved, Eigen::ArrayXd& kept) const {
+  if (every_ == 1 && weight_.size() == 0) return solved;
+  kept = Eigen::Map<const Eigen::ArrayXd, 0, Eigen::InnerStride<>>(solved.data(), data_.size(),
+                                                                   Eigen::InnerStride<>(every_));
+  if (weight_.size() > 0) kept *= weight_;
+  return kept;
 }
 
 void RecordFit::form_residual(FitPoint& point) {
@@ -65,10 +70,7 @@ FitPoint RecordFit::evaluate(double unrelaxed_modulus, double log_time, double h
 
 void RecordFit::differentiate(FitPoint& point) {
   const Eigen::ArrayXd& slope = solves.slope(point.unrelaxed_modulus, point.hardening_modulus);
-  if (weight_.size() > 0)
-    slope_ = slope * weight_;
-  else
-    slope_ = slope;
+  if (&sampled(slope, slope_) == &slope) slope_ = slope;
   const Eigen::ArrayXd* columns[3] = {u_, &slope_, v_};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) point.normal(i, j) = point.normal(j, i) = (*columns[i] * *columns[j]).sum();

@@ -22,8 +22,10 @@ class RecordFit {
  public:
   UnitSolves solves;
 
-  /// The data at the instants of `solves`, in units of the noise (of one where there is none).
-  void take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise);
+  /// The data at the samples among the instants of `solves`, in units of the noise (of one where there is
+  /// none).
+  /// @param substeps  instants from sample to sample; a thinned record has samples only
+  void take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise, Eigen::Index substeps);
 
   /// At this tau_max (or alpha), with the best E_u and G within their bounds.
   FitPoint project(double log_time, const Bounds& modulus, const Bounds& hardening);
@@ -40,10 +42,12 @@ class RecordFit {
 
  private:
   void solve(double log_time);
+  const Eigen::ArrayXd& sampled(const Eigen::ArrayXd& solved, Eigen::ArrayXd& kept) const;
   void form_residual(FitPoint& point);
 
   Eigen::ArrayXd data_, weight_;  ///< the weight is empty where all are one
-  Eigen::ArrayXd weighted_u_, weighted_v_, slope_, residual_;
+  Eigen::Index every_ = 1;        ///< instants of `solves` from sample to sample
+  Eigen::ArrayXd sampled_u_, sampled_v_, slope_, residual_;
   const Eigen::ArrayXd* u_ = nullptr;
   const Eigen::ArrayXd* v_ = nullptr;
 };

@@ -63,6 +63,6 @@ const Kernels table{PROBATION_TEXT(PROBATION_ISA),
                     drift,
                     move,
                     {form_two_step, form_straight, form_parabolic},
-                    {haward_thackray, inspect_steps, secant_changes}};
+                    {haward_thackray, inspect_steps, secant_changes, all_finite}};
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -10,6 +10,7 @@ namespace probation::kernels::PROBATION_ISA {
 namespace {
 
 constexpr double largest = 1.7976931348623157e308;
+constexpr double smallest_normal = 2.2250738585072014e-308;
 
 /// e_HT = L^2 - 1/L with stretch L = e^x, as m (2 + m) + m / L with m = L - 1, which keeps the digits near
 /// zero. With x = n ln 2 + r, |r| <= ln 2 / 2, and q = e^r - 1: m = 2^n q + (2^n - 1), L = 2^n (1 + q).
@@ -56,7 +57,7 @@ StepTraits inspect_steps(const double* time, std::int64_t count, double allowed_
   std::uint64_t odd = 0, uneven = 0;
   for (std::int64_t i = 0; i + 1 < count; ++i) {
     const double step = time[i + 1] - time[i];
-    odd |= step > 0.0 ? 0U : 1U;
+    odd |= step >= smallest_normal ? 0U : 1U;
     odd |= step <= largest ? 0U : 1U;
     uneven |= std::fabs(step - first) <= allowed_difference ? 0U : 1U;
   }
@@ -73,6 +74,12 @@ bool secant_changes(const double* time, const double* values, std::int64_t count
     large |= std::fabs(after - before) > least * (a > b ? a : b) ? 1U : 0U;
   }
   return large != 0;
+}
+
+bool all_finite(const double* values, std::int64_t count) {
+  std::uint64_t odd = 0;
+  for (std::int64_t i = 0; i < count; ++i) odd |= std::fabs(values[i]) <= largest ? 0U : 1U;
+  return odd == 0;
 }
 
 }  // namespace probation::kernels::PROBATION_ISA

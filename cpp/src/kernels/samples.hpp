@@ -7,7 +7,7 @@ namespace probation::kernels {
 
 /// What the steps of a record look like. A pass only says whether all is as it mostly is.
 struct StepTraits {
-  bool increasing;  ///< every step is positive and finite
+  bool increasing;  ///< every step is a normal positive number: the kernels take subnormal ones for zero
   bool even;        ///< every step differs from the first by no more than was allowed
 };
 
@@ -18,6 +18,7 @@ struct SamplePasses {
   StepTraits (*inspect_steps)(const double* time, std::int64_t count, double allowed_difference);
   /// Whether the secant changes anywhere by more than `least`, relative to the larger of the two.
   bool (*secant_changes)(const double* time, const double* values, std::int64_t count, double least);
+  bool (*all_finite)(const double* values, std::int64_t count);
 };
 
 }  // namespace probation::kernels

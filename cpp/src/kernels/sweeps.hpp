@@ -35,5 +35,6 @@ bool form_parabolic(const StepSamples&, const FormedSteps&);
 bool haward_thackray(const double* true_strain, std::int64_t count, double* result);
 StepTraits inspect_steps(const double* time, std::int64_t count, double allowed_difference);
 bool secant_changes(const double* time, const double* values, std::int64_t count, double least);
+bool all_finite(const double* values, std::int64_t count);
 
 }  // namespace probation::kernels::PROBATION_ISA

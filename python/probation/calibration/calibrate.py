@@ -9,6 +9,7 @@ import numpy as np
 
 from probation._arrays import FloatArray, one_of
 from probation.calibration.calibrated import CalibratedCompanion
+from probation.calibration.constant_time import why_constant
 from probation.calibration.cross_validation import apart, best, leave_one_rate_out
 from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
 from probation.calibration.forms import CHOOSABLE, FORMS, NAMEABLE, Form
@@ -28,10 +29,10 @@ from probation.calibration.record_fits import (
 from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
-from probation.excitation import excite
-from probation.law import SCHEMES, Scheme
-from probation.records import Campaign
+from probation.law.modal import SCHEMES, Scheme
+from probation.records.campaign import Campaign
 from probation.report.provenance import samples_sha256
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -149,6 +150,7 @@ def _on_table(table: RateTable, form: str) -> Calibration:
         chosen=chosen,
         chosen_by=how,
         told_apart=clear,
+        why_constant=why_constant(table, scores),
         warnings=tuple(_table_warnings(table, regressions[chosen])),
         data_sha256=samples_sha256(*samples),
     )
@@ -161,11 +163,14 @@ def _by_rate(
     regressions = _regressions(table, form)
     scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
     chosen, how, clear = _choice(form, scores)
+    warnings = [*campaign.warnings, *spread_warnings(rates), *_table_warnings(table, regressions[chosen])]
     check = None
     if chosen != "table":
         progress(1, 1, "all records at once, as a check")
-        check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
-    warnings = [*campaign.warnings, *spread_warnings(rates), *_table_warnings(table, regressions[chosen])]
+        try:
+            check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
+        except InputError as error:  # at a rate within a record that is slower than its median
+            warnings.append(f"the check on all records at once is left out: {error}")
     if fits.modulus_spread > _FAR:
         warnings.append(
             f"E_u of the records alone scatters by {100 * fits.modulus_spread:.0f} % more than its standard errors: "
@@ -179,6 +184,7 @@ def _by_rate(
         chosen=chosen,
         chosen_by=how,
         told_apart=clear,
+        why_constant=why_constant(table, scores),
         record_rates=rates,
         record_fits=fits,
         check=check,
@@ -244,6 +250,7 @@ def _direct(
         chosen=chosen,
         chosen_by=how,
         told_apart=clear,
+        why_constant=why_constant(None, scores),
         record_rates=rates,
         foretold=foretold,
         hardening=problem.hardening,

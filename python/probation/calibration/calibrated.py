@@ -10,17 +10,17 @@ import numpy as np
 from probation import _core
 from probation._arrays import FloatArray
 from probation.calibration.forms import FORMS, NAMEABLE, Form
-from probation.change import Change, Direction
-from probation.companion import Companion, from_settings
 from probation.errors import InputError
-from probation.history import Jumps, make_history
-from probation.records.calibration_settings import CalibrationSettings
-from probation.records.settings import COMPANION_FORMS, CompanionSettings
+from probation.law.calibration_settings import CalibrationSettings
+from probation.law.change import Change, Direction
+from probation.law.companion import Companion, from_settings
+from probation.law.history import Jumps, make_history
+from probation.law.settings import COMPANION_FORMS, CompanionSettings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law import Law, Scheme, Start
+    from probation.law.modal import Law, Scheme, Start
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,8 @@ class CalibratedCompanion:
         """Of `parameters`, shape (p,); NaN where nothing is known."""
         if self.covariance is None:
             return np.full(len(self.parameters), np.nan)
-        return np.asarray(np.sqrt(np.diag(self.covariance)[: len(self.parameters)]))
+        variance = np.diag(self.covariance)[: len(self.parameters)]
+        return np.asarray(np.sqrt(np.where(variance >= 0.0, variance, np.nan)))  # a form that fits ill may tell nothing
 
     def relaxation_time(self, rate: ArrayLike) -> FloatArray:
         """Longest relaxation time, shape (n,) [s]."""
@@ -113,15 +114,7 @@ class CalibratedCompanion:
 
     def extrapolation(self, rate: ArrayLike) -> str | None:
         """A warning where the rates leave the calibrated range, else None."""
-        outside, known = self.relation.outside(rate), self.relation.calibrated
-        if outside is None or known is None:
-            return None
-        decades = max(np.log10(known[0] / outside[0]), np.log10(outside[1] / known[1]))
-        return (
-            f"strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the companion relation is "
-            f"calibrated, {known[0]:.2g} to {known[1]:.2g} 1/s, by {decades:.2g} decades; there its form is assumed, "
-            "and its standard error knows nothing of that"
-        )
+        return self.relation.extrapolation(rate)
 
     def prediction_factor(
         self,

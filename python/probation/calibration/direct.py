@@ -15,24 +15,25 @@ from scipy.optimize import least_squares
 from probation import _core
 from probation._arrays import FloatArray
 from probation.calibration.calibrated import CalibratedCompanion, seen_rates
-from probation.change import Direction
 from probation.errors import InputError
-from probation.excitation import excite
 from probation.identify.covariance import covariance
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.variable_projection import search, time_bounds
-from probation.law import Law
+from probation.law.change import Direction
+from probation.law.modal import Law
+from probation.law.reduction import spectrum_of
 from probation.records.record import Noise
-from probation.reduction import spectrum_of
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.calibration.forms import Form
-    from probation.companion import Companion
-    from probation.excitation import Excitation
-    from probation.law import Scheme
-    from probation.records import LawSettings, Record
+    from probation.law.companion import Companion
+    from probation.law.modal import Scheme
+    from probation.law.settings import LawSettings
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 Hardening = Literal["by-record", "shared"]
 HARDENINGS: tuple[Hardening, ...] = ("by-record", "shared")

@@ -13,9 +13,9 @@ from probation.calibration.forms import FORMS
 from probation.calibration.left_out import record_alpha
 from probation.calibration.regression import Regression, regress
 from probation.calibration.table_2 import PRINTED_WEISSENBERG, TABLE_2
-from probation.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
-from probation.paper.twins import experiment
-from probation.records import LawSettings
+from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
+from probation.law.settings import LawSettings
+from probation.published.experiments import experiment
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

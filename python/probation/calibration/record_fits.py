@@ -10,16 +10,18 @@ import numpy as np
 from probation.calibration.rate_table import RateTable
 from probation.calibration.regression import excess_scatter
 from probation.errors import InputError
-from probation.identify import Fit, fit
-from probation.records import Campaign, LawSettings
+from probation.identify.fit import fit
+from probation.identify.result import Fit
+from probation.law.settings import LawSettings
+from probation.records.campaign import Campaign
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.law import Scheme
-    from probation.records import Record
+    from probation.law.modal import Scheme
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 Modulus = Literal["shared", "free"]
 MODULI: tuple[Modulus, ...] = ("shared", "free")

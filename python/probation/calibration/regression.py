@@ -14,7 +14,7 @@ from probation.errors import InputError
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.forms import Form
-    from probation.companion import Companion
+    from probation.law.companion import Companion
 
 _MOST_STEPS = 100
 

@@ -13,6 +13,7 @@ from probation.answers import json_answer
 from probation.calibration.rate_table import rate_groups
 from probation.calibration.summary import percent, summary_text
 from probation.records.saving import companion_text
+from probation.report.estimate import percentage, plus_minus
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
     from probation.calibration.record_fits import RecordFits, RecordRate
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 SCHEMA = "probation.companion/1"
 
@@ -127,6 +128,8 @@ class Calibration:
     chosen_by : {"cross-validation", "request", "fit", "preference"}
         Where there are too few rates to leave one out, "fit": the form that leaves least on the records themselves;
         "preference": nothing chooses, the forms' order does.
+    why_constant : str or None
+        Why one tau_max for all rates is enough; None where it depends on the rate.
     told_apart : tuple of str
         Forms that foretell left-out rates worse than the chosen one by more than chance.
     record_rates : tuple of RecordRate
@@ -148,6 +151,7 @@ class Calibration:
     chosen: str
     chosen_by: str
     told_apart: tuple[str, ...]
+    why_constant: str | None = None
     record_rates: tuple[RecordRate, ...] = ()
     record_fits: RecordFits | None = None
     check: DirectFit | None = None
@@ -171,7 +175,17 @@ class Calibration:
 
     @property
     def verdict(self) -> str:
-        """One sentence."""
+        """One sentence: the relation, or that none is needed."""
+        if self.why_constant is None:
+            return f"{self._relation_text()}."
+        known = self.candidates["constant"].companion
+        value = plus_minus(float(known.parameters[0]), float(known.standard_errors[0]))
+        return (
+            f"A constant τ_max of {value} s is enough and no companion relation is needed: {self.why_constant}. "
+            f"If one is wanted, {self._relation_text()}."
+        )
+
+    def _relation_text(self) -> str:
         chosen = self.candidates[self.chosen]
         rivals = [
             each
@@ -184,16 +198,22 @@ class Calibration:
             largest = float(np.max(np.abs(chosen.percent_residual)))
             why = _REASONS[self.chosen_by]
             points = self.table is not None and len(self.table.groups) <= len(chosen.form.parameter_names)
-            how_well = "through every rate, which leaves nothing to test it by" if points else f"to {largest:.2g} %"
+            how_well = (
+                "through every rate, which leaves nothing to test it by"
+                if points
+                else f"to {percentage(0.01 * largest)} %"
+            )
             sentence = f"{start} {how_well} ({why})"
             if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
-            return f"{sentence}."
+            return sentence
         sentence = f"{start}; rates left out are foretold to {percent(chosen.score.rms)} %"
         for each in rivals if self.chosen_by == "cross-validation" else ():
+            rms = each.score.rms if each.score else np.nan
             how = "" if each.form.name in self.told_apart else ", not told apart"
-            sentence += f"; {each.form.name} to {percent(each.score.rms if each.score else np.nan)} %{how}"
-        return sentence + "."
+            told = f"to {percent(rms)} %{how}" if np.isfinite(rms) else "gives no positive time at one of them"
+            sentence += f"; {each.form.name} {told}"
+        return sentence
 
     def summary(self) -> str:
         """Verdict first, then the relations, then the scores."""
@@ -235,6 +255,7 @@ class Calibration:
             "chosen": self.chosen,
             "chosen_by": self.chosen_by,
             "told_apart": self.told_apart,
+            "constant_is_enough": self.why_constant is not None,
             "companion": {"form": companion.form, **companion.parameters},
             "relations": {name: each.to_dict() for name, each in self.candidates.items()},
             "rates": self._rates(),

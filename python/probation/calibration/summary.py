@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.estimate import plus_minus
+from probation.report.estimate import percentage, plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def residuals_table(found: Calibration) -> Table | None:
         table = found.table
         error = table.log_error
         for at, label in enumerate(table.labels):
-            known = "" if error is None else f" ± {100 * error[at]:.2g} %"
+            known = "" if error is None else f" ± {percentage(error[at])} %"
             hardening = "–" if table.hardening_modulus is None else f"{table.hardening_modulus[at]:.4g}"
             weissenberg = table.tau_max[at] * table.rates[at]
             rows.append(
@@ -66,14 +66,18 @@ def residuals_table(found: Calibration) -> Table | None:
                     f"{table.tau_max[at]:.5g}{known}",
                     f"{weissenberg:.4f}",
                     hardening,
-                    *(f"{each.percent_residual[at]:+.2g}" for each in shown.values()),
+                    *(percentage(0.01 * each.percent_residual[at], "+") for each in shown.values()),
                 )
             )
         headings = ("", "rate [1/s]", "τ_max [s]", "We", "G [MPa]", *(f"{name} [%]" for name in shown))
         return Table(headings, tuple(rows), "Each rate, and the error of each relation there")
     for at, rate in enumerate(found.record_rates):
         rows.append(
-            (rate.id, f"{rate.slow:.2g}–{rate.fast:.2g}", *(f"{e.percent_residual[at]:+.2g}" for e in shown.values()))
+            (
+                rate.id,
+                f"{rate.slow:.2g}–{rate.fast:.2g}",
+                *(percentage(0.01 * e.percent_residual[at], "+") for e in shown.values()),
+            )
         )
     headings = ("record", "rates [1/s]", *(f"{name} [%]" for name in shown))
     return Table(headings, tuple(rows), "Each relation over what the record's own α asks for")
@@ -104,7 +108,7 @@ def foretold_table(found: Calibration) -> Table | None:
     for record in dict.fromkeys(each.record for each in found.foretold):
         own = {each.form: each for each in found.foretold if each.record == record}
         cells = [
-            f"{own[f].rms:.3g} ({100 * own[f].rms / own[f].largest_stress:.2g} %)" if f in own else "–" for f in forms
+            f"{own[f].rms:.3g} ({percentage(own[f].rms / own[f].largest_stress)} %)" if f in own else "–" for f in forms
         ]
         best = min(own.values(), key=lambda each: each.rms)
         rows.append(
@@ -122,18 +126,16 @@ def notes_on(found: Calibration) -> list[str]:
     if fits is not None and fits.unrelaxed_modulus is not None:
         how = "held by the campaign" if fits.unrelaxed_modulus_se == 0.0 else "shared by all records"
         notes.append(
-            f"E_u = {fits.unrelaxed_modulus:.5g} ± {fits.unrelaxed_modulus_se:.2g} MPa, {how}: the errors of τ_max "
-            "at each "
-            "rate are those at this E_u; the product E_u·τ_max is what is known. The relation's errors include E_u's."
+            f"E_u = {plus_minus(fits.unrelaxed_modulus, fits.unrelaxed_modulus_se)} MPa, {how}: the errors of τ_max at "
+            "each rate are those at this E_u; the product E_u·τ_max is what is known. The relation's errors include "
+            "E_u's."
         )
     elif companion.unrelaxed_modulus is not None:
-        se = found.candidates[found.chosen].direct
-        error = (
-            "held by the campaign" if se is None or not se.unrelaxed_modulus_se else f"± {se.unrelaxed_modulus_se:.2g}"
-        )
-        notes.append(
-            f"E_u = {companion.unrelaxed_modulus:.5g} MPa ({error}), shared by all records; G {found.hardening}; α = 1."
-        )
+        direct = found.candidates[found.chosen].direct
+        error = 0.0 if direct is None else direct.unrelaxed_modulus_se
+        how = "shared by all records" if error else "held by the campaign"
+        hardening = "G is each record's own" if found.hardening == "by-record" else "G is one for all"
+        notes.append(f"E_u = {plus_minus(companion.unrelaxed_modulus, error)} MPa, {how}; {hardening}; α = 1.")
     if found.check is not None:
         notes.append(check_text(found))
     if found.table is not None and found.table.se is None:
@@ -153,7 +155,7 @@ def check_text(found: Calibration) -> str:
     what = "E_u·τ_max" if own.unrelaxed_modulus is not None else "τ_max"
     return (
         f"All records at once through the law, α = 1: {parameters_text(check.companion)}; {what} differs by at most "
-        f"{100 * float(np.max(np.abs(np.expm1(apart)))):.2g} % over the calibrated rates."
+        f"{percentage(float(np.max(np.abs(np.expm1(apart)))))} % over the calibrated rates."
     )
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._complaint import bad_input
 from probation.calibration.rate_table import RateTable
-from probation.records.complaint import bad_input
 from probation.records.options import ReadOptions
 from probation.records.reading import open_file
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.identify import RecordFit
+    from probation.identify.result import RecordFit
 
 BLOCKS = 150
 """A bias is seen on means over so many blocks of samples."""

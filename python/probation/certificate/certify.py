@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation._arrays import as_number
-from probation.calibration import CalibratedCompanion
+from probation.calibration.calibrated import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
@@ -16,16 +16,18 @@ from probation.certificate.result import Certificate
 from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_covariance
 from probation.certificate.verdict import decide
 from probation.errors import InputError
-from probation.identify.parameter import outside_name
+from probation.inference.parameter import outside_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from probation._arrays import FloatArray
-    from probation.excitation import Method as ExcitationMethod
-    from probation.identify import Fit
-    from probation.law import Scheme, Start
-    from probation.records import Campaign, Record
+    from probation.certificate.prediction import Prediction
+    from probation.identify.result import Fit
+    from probation.law.modal import Scheme, Start
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 ByRecord: TypeAlias = "dict[str, dict[str, Estimate]]"
 """Estimates by record and parameter."""
@@ -165,7 +167,7 @@ def certify(
             for record in records
             if reaches_hardening(record.true_strain)
         },
-        warnings=tuple(dict.fromkeys([*base.warnings, *_doubts(parameters, campaign)])),
+        warnings=tuple(dict.fromkeys([*base.warnings, *_rates(base, predictions), *_doubts(parameters, campaign)])),
         data_sha256=campaign.data_hash,
     )
 
@@ -216,6 +218,15 @@ def _by_parameter(estimated: ByRecord) -> dict[str, dict[str, Estimate]]:
     """By parameter and record what was by record and parameter."""
     names = next(iter(estimated.values()))
     return {name: {record: values[name] for record, values in estimated.items()} for name in names}
+
+
+def _rates(base: Fit, predictions: Mapping[str, Prediction]) -> list[str]:
+    """Where predicted records ask the companion relation outside the rates that it is calibrated on."""
+    companion = base.law.companion
+    if companion is None:
+        return []
+    warned = ((record, companion.extrapolation(each.excitation.rate)) for record, each in predictions.items())
+    return [f"{record}: {text}" for record, text in warned if text]
 
 
 def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:

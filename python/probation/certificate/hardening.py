@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import InputError
-from probation.kinematics import haward_thackray_strain
+from probation.law.kinematics import haward_thackray_strain
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

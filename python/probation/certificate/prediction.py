@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from probation.certificate.trial import companion_factor, free_parameters
-from probation.excitation import excite
 from probation.identify.modelled_record import ModelledRecord
 from probation.identify.problem import RecordProblem
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.calibration import CalibratedCompanion
-    from probation.excitation import Method as ExcitationMethod
-    from probation.identify import Fit
-    from probation.records import Record
+    from probation.calibration.calibrated import CalibratedCompanion
+    from probation.identify.result import Fit
+    from probation.records.record import Record
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 
 @dataclass(frozen=True, eq=False)

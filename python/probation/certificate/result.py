@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from probation.answers import json_answer
-from probation.identify.parameter import SYMBOLS, UNITS, outside_name
+from probation.inference.parameter import SYMBOLS, UNITS, outside_name
 from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation.certificate.hardening import HardeningRegression
     from probation.certificate.prediction import Prediction
     from probation.certificate.verdict import Verdict
-    from probation.identify import Fit
+    from probation.identify.result import Fit
 
 VERDICTS = {
     "intrinsic": "intrinsic",

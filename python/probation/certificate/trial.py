@@ -9,21 +9,22 @@ import numpy as np
 
 from probation.certificate.bias import model_bias
 from probation.certificate.consistency import Estimate
-from probation.identify import fit
+from probation.identify.fit import fit
 from probation.identify.given import given
-from probation.identify.parameter import WEAKLY, outside_name
-from probation.records import Campaign
+from probation.inference.parameter import WEAKLY, outside_name
+from probation.records.campaign import Campaign
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from probation._arrays import FloatArray
-    from probation.calibration import CalibratedCompanion
-    from probation.excitation import Excitation
-    from probation.excitation import Method as ExcitationMethod
-    from probation.identify import Fit
-    from probation.law import Scheme, Start
-    from probation.records import LawSettings, Record
+    from probation.calibration.calibrated import CalibratedCompanion
+    from probation.identify.result import Fit
+    from probation.law.modal import Scheme, Start
+    from probation.law.settings import LawSettings
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 
 PARAMETERS = 3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from probation.identify.parameter import SYMBOLS, UNITS
+from probation.inference.parameter import SYMBOLS, UNITS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

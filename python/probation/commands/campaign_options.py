@@ -6,13 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from probation._files import kind_of
 from probation.errors import InputError
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 
 def add_campaign(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
@@ -87,7 +88,7 @@ def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
     InputError
         At the first thing that is wrong in it.
     """
-    from probation.records import Campaign  # noqa: PLC0415 - see the package
+    from probation.records.campaign import Campaign  # noqa: PLC0415 - see the package
 
     if len(paths) > 1 or is_data_file(paths[0]):
         return Campaign.from_files(paths, control=control)
@@ -95,5 +96,5 @@ def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
 
 
 def is_data_file(path: str) -> bool:
-    """Whether it is a file, and no campaign.toml."""
-    return Path(path).is_file() and Path(path).suffix != ".toml"
+    """Whether it is there, and neither a folder nor a campaign.toml."""
+    return kind_of(path) not in (None, "a folder") and Path(path).suffix != ".toml"

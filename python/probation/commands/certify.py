@@ -6,7 +6,7 @@ import argparse
 import math
 
 from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
+from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme
 
@@ -45,7 +45,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.certificate import certify  # noqa: PLC0415 - see the package
+    from probation.certificate.certify import certify  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
     campaign = with_held_out(campaign_from(options), options.held_out)
@@ -57,8 +57,7 @@ def run(options: argparse.Namespace) -> int:
             hold=held,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation.commands.campaign_options import add_control, campaign_at, is_data_file
-from probation.commands.delivery import add_delivery, deliver_files, deliver_report, said, tell
+from probation.commands.delivery import Output, add_delivery, deliver, output_folder, outputs_with_report, text_output
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.calibration import RateTable
-    from probation.records import Campaign
+    from probation.calibration.rate_table import RateTable
+    from probation.records.campaign import Campaign
 
 NAME = "companion"
 
@@ -76,13 +75,16 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_delivery(parser)
     group = parser.add_argument_group("use")
     group.add_argument("--toml", action="store_true", help="print [law.companion] alone, to paste into a campaign.toml")
-    group.add_argument("--apply", metavar="OUT_FOLDER", help="write the campaign with this relation there")
+    group.add_argument(
+        "--apply", metavar="OUT_FOLDER", type=output_folder, help="write the campaign with this relation there"
+    )
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.calibration import RateTable, calibrate_companion  # noqa: PLC0415 - see the package
+    from probation.calibration.calibrate import calibrate_companion  # noqa: PLC0415 - see the package
+    from probation.calibration.rate_table import RateTable  # noqa: PLC0415 - see the package
 
     if options.toml and options.json == "-":
         raise InputError("found both --toml and --json -, expected one of them on standard output")
@@ -101,19 +103,19 @@ def run(options: argparse.Namespace) -> int:
             progress=advance,
         )
         text = answer.summary()
-    tell(text, sys.stderr if options.toml or options.json == "-" else sys.stdout)
-    if options.toml:
-        sys.stdout.write(answer.toml())
-    deliver_files(answer, options)
-    deliver_report(answer, options)
-    if options.apply and not isinstance(source, RateTable):
-        said("campaign", answer.apply(source).save(options.apply))
+
+    def apply(place: str) -> str:
+        assert not isinstance(source, RateTable)
+        return f"campaign {answer.apply(source).save(place)}"
+
+    relation = text_output("[law.companion]", "-" if options.toml else None, answer.toml)
+    deliver(text, [relation, *outputs_with_report(answer, options), Output("campaign", options.apply, apply)])
     return 0
 
 
 def _source(options: argparse.Namespace) -> Campaign | RateTable:
     """Table 2, a table, a campaign, or data files that stand in for one."""
-    from probation.calibration import TABLE_2  # noqa: PLC0415
+    from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
     from probation.calibration.table_file import read_rate_table  # noqa: PLC0415
 
     if options.table_2:

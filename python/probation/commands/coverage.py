@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from probation.commands.delivery import add_delivery, deliver
+from probation.commands.delivery import add_delivery, deliver, output_file, usual_outputs
 from probation.commands.progress import shown
 
 NAME = "coverage"
@@ -27,7 +27,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--draws", metavar="N", type=int, default=200, help="records of each kind of noise (200)")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the noise (0)")
     parser.add_argument("--processes", metavar="N", type=int, default=1, help="how many run at a time (1)")
-    parser.add_argument("--state", metavar="FILE", help="keep every draw in this file, and do none again that it has")
+    parser.add_argument(
+        "--state", metavar="FILE", type=output_file, help="keep every draw in this file, and do none again that it has"
+    )
     add_delivery(parser, report=False)
     return parser
 
@@ -40,5 +42,5 @@ def run(options: argparse.Namespace) -> int:
         answer = study(
             options.draws, seed=options.seed, processes=options.processes, state=options.state, progress=advance
         )
-    deliver(answer, options)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from probation.commands.delivery import add_delivery, deliver, deliver_report, warn
+from probation.commands.delivery import add_delivery, deliver, outputs_with_report, warn
 from probation.commands.law_options import make_law, read_settings
 from probation.commands.progress import shown
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.law import Law
-    from probation.records import Campaign
+    from probation.law.modal import Law
+    from probation.records.campaign import Campaign
 
 NAME = "crosscheck"
 
@@ -45,8 +45,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.crosscheck import crosscheck  # noqa: PLC0415 - see the package
-    from probation.records import Campaign  # noqa: PLC0415
+    from probation.records.campaign import Campaign  # noqa: PLC0415
+    from probation.schemes.crosscheck import crosscheck  # noqa: PLC0415 - see the package
 
     if options.campaign is None:
         if options.record or options.set:
@@ -60,15 +60,14 @@ def run(options: argparse.Namespace) -> int:
         records = [campaign.record(each) for each in options.record] if options.record else campaign.records
         with shown("cross-checking") as advance:
             answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 
 def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
     """The campaign's law, what is neither set nor held identified."""
-    from probation.companion import from_settings  # noqa: PLC0415
-    from probation.identify import fit  # noqa: PLC0415
+    from probation.identify.fit import fit  # noqa: PLC0415
+    from probation.law.companion import from_settings  # noqa: PLC0415
 
     held = {**campaign.law.fixed, **settings}
     relation = from_settings(campaign.law.companion)

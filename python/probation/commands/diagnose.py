@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
 from probation.commands.campaign_options import (
     add_campaign,
     add_control,
@@ -15,13 +13,20 @@ from probation.commands.campaign_options import (
     campaign_from,
     with_held_out,
 )
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers, said
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    named_numbers,
+    outputs_with_report,
+    text_output,
+    usual_outputs,
+)
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 NAME = "diagnose"
 
@@ -116,8 +121,7 @@ def run(options: argparse.Namespace) -> int:
             threads=options.threads,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 
@@ -133,14 +137,14 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
         if not equals or not record or not other:
             raise InputError(f"--pair: found {entry!r}, expected ID=REFERENCE_ID")
         pairs.setdefault(record, []).append(other)
-    from probation.comparison import compare  # noqa: PLC0415 - see the package
+    from probation.comparison.compare import compare  # noqa: PLC0415 - see the package
 
     campaign, reference = campaign_from(options), campaign_at(options.against, options.control)
     with shown(f"{campaign.name} against {reference.name}"):
         answer = compare(
             campaign, reference, options.scheme, pairs=pairs or None, effects=names, threads=options.threads
         )
-    deliver(answer, options)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0
 
 
@@ -151,14 +155,14 @@ def _isolability(
 
     with shown(f"what {campaign.name} could tell apart"):
         answer = campaign_isolability(campaign, options.scheme, effects=names, hold=held, threads=options.threads)
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 
 def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
     from probation.answers import json_answer  # noqa: PLC0415 - see the package
-    from probation.gap import catalogue_json, catalogue_table, effects  # noqa: PLC0415
+    from probation.effects.listing import catalogue_json, catalogue_table  # noqa: PLC0415
+    from probation.effects.registry import effects  # noqa: PLC0415
 
     for option in ("plot", "report"):
         if getattr(options, option):
@@ -166,19 +170,17 @@ def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
     if options.campaign:
         raise InputError(f"found the campaign {options.campaign[0]!r} with --list-effects, expected none")
     chosen = effects(names)
-    text = json_answer("probation.effects/1", {"effects": catalogue_json(chosen)}) if options.json else ""
-    if options.json == "-":
-        sys.stdout.write(text)
-        return 0
-    print(catalogue_table(chosen).rstrip())
-    if options.json:
-        write_whole(options.json, text)
-        said("JSON", options.json)
+    table = "" if options.json == "-" else catalogue_table(chosen).rstrip()
+
+    def to_json() -> str:
+        return json_answer("probation.effects/1", {"effects": catalogue_json(chosen)})
+
+    deliver(table, [text_output("JSON", options.json, to_json)])
     return 0
 
 
 def _known(names: list[str] | None) -> None:
-    from probation.gap.registry import effects  # noqa: PLC0415 - see the package
+    from probation.effects.registry import effects  # noqa: PLC0415 - see the package
 
     try:
         effects(names)

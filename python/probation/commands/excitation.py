@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
 from probation.commands.campaign_options import campaign_at, is_data_file
-from probation.commands.delivery import add_delivery, deliver, deliver_report, said
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    output_file_or_stream,
+    outputs_with_report,
+    text_output,
+    usual_outputs,
+)
 from probation.commands.progress import shown
 from probation.errors import InputError
-from probation.excitation import DEFAULT, METHODS
+from probation.smoothing.methods import DEFAULT, METHODS
 
 if TYPE_CHECKING:
-    from probation.records import Record
+    from probation.records.record import Record
 
 NAME = "excitation"
 
@@ -44,7 +49,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--record", metavar="ID", action="append", help="only this record; may be repeated")
     parser.add_argument("--method", choices=METHODS, default="auto", help="how strain becomes strain and rate (auto)")
     parser.add_argument(
-        "--csv", metavar="OUT.csv", help="write time, strain, rate and standard errors; - is standard output"
+        "--csv",
+        metavar="OUT.csv",
+        type=output_file_or_stream,
+        help="write time, strain, rate and standard errors; - is standard output",
     )
     parser.add_argument(
         "--compare",
@@ -63,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _describe(options: argparse.Namespace) -> int:
-    from probation.excitation.answer import describe_excitation  # noqa: PLC0415 - see the package
+    from probation.smoothing.answer import describe_excitation  # noqa: PLC0415 - see the package
 
     if options.file is None:
         raise InputError("found no file, expected FILE or --compare")
@@ -80,20 +88,16 @@ def _describe(options: argparse.Namespace) -> int:
         )
     with shown("excitation") as advance:
         answer = describe_excitation(records, options.method, source=Path(options.file).name, progress=advance)
-    if options.csv == "-":
-        sys.stdout.write(answer.to_csv())
-    else:
-        deliver(answer, options)
-    if options.csv not in (None, "-"):
-        write_whole(options.csv, answer.to_csv())
-        said("CSV", options.csv)
-    deliver_report(answer, options)
+    deliver(
+        "" if options.csv == "-" else answer.summary(),
+        [text_output("CSV", options.csv, answer.to_csv), *outputs_with_report(answer, options)],
+    )
     return 0
 
 
 def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
     """Those of a campaign, or of a data file that stands in for one."""
-    from probation.records import Campaign  # noqa: PLC0415
+    from probation.records.campaign import Campaign  # noqa: PLC0415
 
     try:
         campaign = campaign_at([path])
@@ -109,7 +113,7 @@ def _strain_alone(place: Path, refused: InputError) -> Record:
     """A file of strain over time as a record without stress; `refused` says why it is no stress-strain record."""
     import numpy as np  # noqa: PLC0415 - see the package
 
-    from probation.records import Record  # noqa: PLC0415
+    from probation.records.record import Record  # noqa: PLC0415
     from probation.records.strain_history import read_strain_history  # noqa: PLC0415
 
     try:
@@ -128,7 +132,7 @@ def _strain_alone(place: Path, refused: InputError) -> Record:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    from probation.excitation.comparison import DRAWS, compare  # noqa: PLC0415
+    from probation.smoothing.comparison import DRAWS, compare  # noqa: PLC0415
 
     given = [name for name in ("file", "record", "csv", "report") if getattr(options, name)]
     if given or options.method != "auto":
@@ -136,7 +140,7 @@ def _compare(options: argparse.Namespace) -> int:
         raise InputError(f"found {found} beside --compare, expected only --draws, --seed, --json and --plot")
     with shown("comparing") as advance:
         answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
-    deliver(answer, options)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0
 
 

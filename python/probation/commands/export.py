@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
+from probation._files import make_folder
 from probation.commands.campaign_options import add_control, campaign_at
-from probation.commands.delivery import said, tell, warn
+from probation.commands.delivery import Output, add_json, deliver, output_file, output_folder, text_output, warn
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.progress import shown
+from probation.commands.streams import put
 from probation.errors import InputError
 from probation.histories.named import nearest
 
 if TYPE_CHECKING:
-    from probation.export import Export
-    from probation.identify import Fit
-    from probation.law import Law
+    from probation.exporting.result import Export
+    from probation.identify.result import Fit
+    from probation.law.modal import Law
 
 NAME = "export"
 
@@ -67,40 +67,46 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     group.add_argument("--accuracy", metavar="A", type=float, help="refit; the stress errs by no more: 1e-3, 9 modes")
     group.add_argument("--modes", metavar="N", type=int, help="refit with at most so many; its error is told")
     group = parser.add_argument_group("output")
-    group.add_argument("-o", "--output", metavar="FILE", help="of one format; standard output if left out")
-    group.add_argument("--folder", metavar="FOLDER", help="of several; each under its own name")
-    group.add_argument("--json", metavar="FILE", help="write the errors found as JSON; - is standard output")
+    group.add_argument(
+        "-o", "--output", metavar="FILE", type=output_file, help="of one format; standard output if left out"
+    )
+    group.add_argument("--folder", metavar="FOLDER", type=output_folder, help="of several; each under its own name")
+    add_json(group, "the errors found")
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.export import FORMATS  # noqa: PLC0415 - see the package
-    from probation.export.result import exports_json  # noqa: PLC0415
+    from probation.exporting.formats import FORMATS  # noqa: PLC0415 - see the package
+    from probation.exporting.result import exports_json  # noqa: PLC0415
 
     if options.list_formats:
         width = max(map(len, FORMATS))
-        print("\n".join(f"{name:<{width}}  {each.what}" for name, each in FORMATS.items()))
+        put("".join(f"{name:<{width}}  {each.what}\n" for name, each in FORMATS.items()))
         return 0
     names = _formats(options, list(FORMATS))
     exports = _exports(options, names)
     to_standard_output = options.output is None and options.folder is None
-    for each in exports:
-        tell(each.summary(), sys.stderr if to_standard_output or options.json == "-" else sys.stdout)
-    if to_standard_output and options.json != "-":
-        sys.stdout.write(exports[0].text)
-    elif options.output is not None:
-        said("file", exports[0].save(options.output))
-    elif options.folder is not None:
-        Path(options.folder).mkdir(parents=True, exist_ok=True)
-        for each in exports:
-            said("file", each.save(options.folder))
-    if options.json == "-":
-        sys.stdout.write(exports_json(exports))
-    elif options.json:
-        write_whole(options.json, exports_json(exports))
-        said("JSON", options.json)
+    if to_standard_output:
+        outputs = [] if options.json == "-" else [text_output("file", "-", lambda: exports[0].text)]
+    elif options.folder is None:
+        outputs = [_file_output(exports[0], options.output)]
+    else:
+        outputs = [_file_output(each, options.folder, into=True) for each in exports]
+    deliver(
+        "\n".join(each.summary() for each in exports),
+        [*outputs, text_output("JSON", options.json, lambda: exports_json(exports))],
+    )
     return 0
+
+
+def _file_output(export: Export, place: str, *, into: bool = False) -> Output:
+    """One file, by its name or `into` a folder."""
+
+    def write(target: str) -> str:
+        return f"file {export.save(make_folder(target) if into else target)}"
+
+    return Output("file", place, write)
 
 
 def _formats(options: argparse.Namespace, known: list[str]) -> list[str]:
@@ -132,8 +138,8 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
     InputError
         If none can, or one that was named cannot.
     """
-    from probation.export import export  # noqa: PLC0415
-    from probation.export.source import law_and_source  # noqa: PLC0415
+    from probation.exporting.exporting import export  # noqa: PLC0415
+    from probation.exporting.source import law_and_source  # noqa: PLC0415
 
     source = _source(options)
     law_and_source(source)  # complains once, not for every format
@@ -166,7 +172,7 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
 
 def _source(options: argparse.Namespace) -> Law | Fit | Path:
     """A law by ``--set``, a fit that was written, or one made here."""
-    from probation.identify import fit  # noqa: PLC0415
+    from probation.identify.fit import fit  # noqa: PLC0415
 
     if not options.source:
         if not options.set:

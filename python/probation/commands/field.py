@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 import time
 
 from probation.commands.cluster import add_cluster, cluster
-from probation.commands.delivery import add_delivery, deliver, named_numbers, said, tell
+from probation.commands.delivery import add_delivery, deliver, named_numbers, output_folder, said, tell, usual_outputs
 from probation.commands.progress import shown
-from probation.commands.scheme_options import add_hold, add_scheme
+from probation.commands.scheme_options import add_hold, add_scheme, add_substeps
+from probation.commands.streams import say
 from probation.errors import InputError
 
 NAME = "field"
@@ -32,13 +32,17 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="full fields: the law on every pixel", description=_DESCRIPTION)
     steps = parser.add_subparsers(title="steps", metavar="STEP", dest="step")
     example = steps.add_parser("example", help="make a synthetic necking field")
-    example.add_argument("--out", metavar="DIR", required=True, help="folder for field.zarr and truth.zarr")
+    example.add_argument(
+        "--out", metavar="DIR", type=output_folder, required=True, help="folder for field.zarr and truth.zarr"
+    )
     example.add_argument("--size", type=int, default=256, help="pixels along each side (256)")
     example.add_argument("--times", type=int, default=301, help="instants (301)")
     example.add_argument("--seed", type=int, default=1, help="of the noise (1)")
     identify = steps.add_parser("identify", help="identify the law on every pixel")
     identify.add_argument("field", metavar="FIELD", help="zarr store or netCDF file")
-    identify.add_argument("--out", metavar="MAPS.zarr", required=True, help="store of the maps; gone on with if there")
+    identify.add_argument(
+        "--out", metavar="MAPS.zarr", type=output_folder, required=True, help="store of the maps; gone on with if there"
+    )
     identify.add_argument(
         "--column",
         metavar="ROLE=NAME",
@@ -48,6 +52,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "force, initial_area) where it is not named for it; repeatable",
     )
     add_scheme(identify)
+    add_substeps(identify)
     identify.add_argument(
         "--method", choices=("variable-projection", "levenberg-marquardt"), default="variable-projection", help="search"
     )
@@ -57,6 +62,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_hold(identify)
     identify.add_argument(
         "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
+    )
+    identify.add_argument(
+        "--sparse",
+        action="store_true",
+        help="chunks that are not there hold no data: for a store whose writer leaves out chunks of nothing but NaN",
     )
     identify.add_argument("--pixels", type=int, default=4096, help="of a task, at most (4096)")
     identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
@@ -100,7 +110,7 @@ def _identify(options: argparse.Namespace) -> int:
     from probation.field.identify import BlockLostError, identify_field  # noqa: PLC0415
     from probation.field.maps import open_maps  # noqa: PLC0415
     from probation.field.source import open_field  # noqa: PLC0415
-    from probation.law import Law  # noqa: PLC0415
+    from probation.law.modal import Law  # noqa: PLC0415
 
     columns = {}
     for entry in options.column:
@@ -111,7 +121,7 @@ def _identify(options: argparse.Namespace) -> int:
     law = None
     if options.companion is not None:
         law = Law(unrelaxed_modulus=1000.0, hardening_modulus=1.0, companion=companion_from(options.companion))
-    source = open_field(options.field, columns)
+    source = open_field(options.field, columns, sparse=options.sparse)
     begun = time.perf_counter()
     try:
         with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
@@ -122,6 +132,7 @@ def _identify(options: argparse.Namespace) -> int:
                 options.scheme,
                 method=options.method.replace("variable-projection", "variable projection"),
                 smoothing=not options.raw_strain,
+                substeps=options.substeps,
                 hold=named_numbers(options.hold, "--hold"),
                 pixels=options.pixels,
                 processes=options.processes,
@@ -131,13 +142,13 @@ def _identify(options: argparse.Namespace) -> int:
                 progress=advance,
             )
     except BlockLostError as failure:
-        print(f"probation: {failure}", file=sys.stderr)
+        say(f"probation: {failure}")
         return 1
     took = time.perf_counter() - begun
     again = f" ({done.again} of them anew: their maps were not what had been written)" if done.again else ""
-    tell(open_maps(done.path).summary(), sys.stdout)
-    print(f"  {done.now} blocks done now{again}, {done.before} before; {took:.3g} s")
+    summary = open_maps(done.path).summary()
     said("maps", os.path.relpath(done.path))
+    tell(f"{summary}\n  {done.now} blocks done now{again}, {done.before} before; {took:.3g} s")
     return 0
 
 
@@ -145,5 +156,6 @@ def _map(options: argparse.Namespace) -> int:
     from probation.field.maps import open_maps  # noqa: PLC0415
 
     maps = open_maps(options.maps)
-    deliver(maps if options.truth is None else maps.beside(options.truth), options)
+    answer = maps if options.truth is None else maps.beside(options.truth)
+    deliver(answer.summary(), usual_outputs(answer, options))
     return 0

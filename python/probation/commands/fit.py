@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from typing import Literal
 
 from probation.commands.campaign_options import add_campaign, add_control, campaign_from
-from probation.commands.delivery import add_delivery, deliver, deliver_report, named_numbers
+from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
-from probation.commands.scheme_options import add_hold, add_scheme, add_start
-from probation.excitation import METHODS as EXCITATIONS
+from probation.commands.scheme_options import add_hold, add_scheme, add_start, add_substeps
+from probation.smoothing.methods import METHODS as EXCITATIONS
 
 NAME = "fit"
 
@@ -36,13 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_control(parser)
     add_scheme(parser)
     add_start(parser)
-    parser.add_argument(
-        "--substeps",
-        metavar="N",
-        type=_substeps,
-        default="auto",
-        help="steps of the scheme from sample to sample; auto takes as many as make its own error negligible",
-    )
+    add_substeps(parser)
     parser.add_argument("--method", choices=_METHODS, default="least-squares", help="of identification (least-squares)")
     add_hold(parser, "; wins over the campaign's law.fixed")
     parser.add_argument(
@@ -71,7 +64,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.identify import fit  # noqa: PLC0415 - see the package
+    from probation.identify.fit import fit  # noqa: PLC0415 - see the package
 
     held = named_numbers(options.hold, "--hold")
     campaign = campaign_from(options)
@@ -88,14 +81,5 @@ def run(options: argparse.Namespace) -> int:
             intervals=options.intervals,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
-    deliver(answer, options)
-    deliver_report(answer, options)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
-
-
-def _substeps(text: str) -> int | Literal["auto"]:
-    if text == "auto":
-        return "auto"
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected 'auto' or a whole number of at least 1")
-    return int(text)

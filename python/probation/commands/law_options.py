@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from probation.answers import PARAMETER_KEYS
 from probation.commands.delivery import named_numbers
-from probation.companion import Companion, Exponential, PowerLaw, Table, Weissenberg
 from probation.errors import InputError
 from probation.histories.named import nearest
-from probation.law import Law
+from probation.law.companion import Companion, Exponential, PowerLaw, Table, Weissenberg
+from probation.law.modal import Law
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -97,7 +97,7 @@ def make_law(values: dict[str, float], companion: Companion | None) -> Law:
             f"--set: found no {' and no '.join(missing)}, expected them; add "
             + " ".join(f"--set {name}=VALUE" for name in missing)
         )
-    from probation.reduction import spectrum_of  # noqa: PLC0415 - scipy is slow to load
+    from probation.law.reduction import spectrum_of  # noqa: PLC0415 - scipy is slow to load
 
     modes = values.get("modes", 50.0)
     if not modes.is_integer():
@@ -142,7 +142,7 @@ def companion_from(text: str) -> Companion:
 
 def _table_from(path: Path) -> Table:
     """Rates and relaxation times from a file with the headings rate_per_s,tau_max_s."""
-    from probation.records.complaint import bad_input, listed  # noqa: PLC0415 - only a table needs them
+    from probation._complaint import bad_input, listed  # noqa: PLC0415 - only a table needs them
     from probation.records.options import ReadOptions  # noqa: PLC0415
     from probation.records.reading import open_file  # noqa: PLC0415
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
-from probation.commands.delivery import named_numbers, plot_file, said, tell
+from probation.commands.delivery import deliver, named_numbers, plot_file, plot_output
 from probation.errors import InputError
 
 NAME = "preview"
@@ -44,7 +43,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.records import preview  # noqa: PLC0415 - see the package
+    from probation.records.preview import preview  # noqa: PLC0415 - see the package
 
     shown = preview(
         options.file,
@@ -55,12 +54,7 @@ def run(options: argparse.Namespace) -> int:
         specimen_index=options.specimen_index,
         sheet=options.sheet,
     )
-    tell(shown.summary(), sys.stdout)
-    if options.plot:
-        from probation.report.figures import save_figure  # noqa: PLC0415
-
-        save_figure(shown.plot(), options.plot)
-        said("plot", options.plot)
+    deliver(shown.summary(), [plot_output(shown, options.plot)])
     return 0
 
 

@@ -6,6 +6,9 @@ import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from probation._text import printable, raw_stream
+from probation.commands.streams import say
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -31,12 +34,14 @@ def shown(title: str, *, lines: bool = False) -> Iterator[Callable[[int, int, st
     from rich.console import Console  # noqa: PLC0415 - not every command shows progress
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(title, total=None)
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(file=raw_stream(sys.stderr)), transient=True) as progress:
+        task = progress.add_task(printable(title), total=None)
 
         def advance(done: int, total: int, what: str) -> None:
-            progress.update(task, completed=done, total=total, description=f"{title}: {what}" if what else title)
+            progress.update(
+                task, completed=done, total=total, description=printable(f"{title}: {what}" if what else title)
+            )
 
         yield advance
 
@@ -46,6 +51,6 @@ def _tenths(title: str) -> Callable[[int, int, str], None]:
 
     def advance(done: int, total: int, what: str) -> None:
         if 10 * done // total > 10 * (done - 1) // total:
-            print(f"{title}: {done} of {total}", file=sys.stderr, flush=True)
+            say(f"{title}: {done} of {total}")
 
     return advance

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
+from typing import TYPE_CHECKING, Literal
 
 from probation.answers import PARAMETER_KEYS
-from probation.law import DIFFERENTIABLE
+from probation.law.modal import DIFFERENTIABLE
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Sequence
 
-    from probation.law import Scheme
+    from probation.law.modal import Scheme
 
 
 def add_scheme(
@@ -19,6 +19,25 @@ def add_scheme(
 ) -> None:
     """Add ``--scheme``."""
     parser.add_argument("--scheme", choices=choices, default=default, help=f"time integration ({default})")
+
+
+def add_substeps(parser: argparse._ActionsContainer) -> None:
+    """Add ``--substeps``."""
+    parser.add_argument(
+        "--substeps",
+        metavar="N",
+        type=_substeps,
+        default="auto",
+        help="steps of the scheme from sample to sample; auto takes as many as make its own error negligible",
+    )
+
+
+def _substeps(text: str) -> int | Literal["auto"]:
+    if text == "auto":
+        return "auto"
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected 'auto' or a whole number of at least 1")
+    return int(text)
 
 
 def add_start(parser: argparse._ActionsContainer) -> None:

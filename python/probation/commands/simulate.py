@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
-from probation._files import write_whole
-from probation.commands.delivery import add_delivery, deliver_files, said, tell, warn
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    output_file_or_stream,
+    text_output,
+    usual_outputs,
+    warn,
+)
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.scheme_options import add_scheme, add_start
+from probation.commands.streams import put
 from probation.errors import InputError
-from probation.law import SCHEMES
+from probation.law.modal import SCHEMES
 
 if TYPE_CHECKING:
     from probation.histories import ImposedHistory
@@ -53,17 +59,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="of cvode, relative, and absolute in MPa (1e-10)",
     )
     add_delivery(parser, report=False)
-    parser.add_argument("-o", "--output", metavar="OUT.csv", help="write the answer; - is standard output")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT.csv",
+        type=output_file_or_stream,
+        help="write the answer; - is standard output",
+    )
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.histories import list_histories  # noqa: PLC0415 - see the package
-    from probation.simulate import simulate  # noqa: PLC0415
+    from probation.simulation import simulate  # noqa: PLC0415
 
     if options.list_histories:
-        print(list_histories())
+        put(list_histories() + "\n")
         return 0
     if options.output == "-" and options.json == "-":
         raise InputError("found both -o - and --json -, expected one of them on standard output")
@@ -78,20 +90,17 @@ def run(options: argparse.Namespace) -> int:
     )
     for warning in simulation.warnings:
         warn(warning)
-    if options.output == "-":
-        sys.stdout.write(simulation.to_csv())
-    else:
-        tell(simulation.summary(), sys.stderr if options.json == "-" else sys.stdout)
-    if options.output not in (None, "-"):
-        write_whole(options.output, simulation.to_csv())
-        said("CSV", options.output)
-    deliver_files(simulation, options)
+    summary = "" if options.output == "-" else simulation.summary(picture=options.output is None)
+    deliver(
+        summary,
+        [text_output("CSV", options.output, simulation.to_csv), *usual_outputs(simulation, options)],
+    )
     return 0
 
 
 def _history(options: argparse.Namespace) -> ImposedHistory:
     from probation.histories import history_from  # noqa: PLC0415
-    from probation.history_file import read_history  # noqa: PLC0415
+    from probation.histories.file import read_history  # noqa: PLC0415
 
     if (options.file is None) == (options.history is None):
         both = "both a file and --history" if options.file else "neither a file nor --history"

@@ -21,20 +21,20 @@ from probation.comparison.search import ChangeSearch, Found
 from probation.comparison.words import headline
 from probation.diagnosis.diagnose import SCHEMES
 from probation.diagnosis.probabilities import leading
-from probation.diagnosis.thinning import thin
-from probation.excitation import excite
-from probation.gap.model import CampaignModel
-from probation.gap.parallel import usual_threads
-from probation.gap.record_view import views_of
-from probation.gap.view_residual import residual_of
+from probation.effects.record_view import views_of
+from probation.inference.model import CampaignModel
+from probation.inference.thinning import thin
+from probation.inference.view_residual import residual_of
+from probation.parallel import usual_threads
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.comparison.result import Verdict
-    from probation.law import Scheme
-    from probation.records import Campaign
+    from probation.law.modal import Scheme
+    from probation.records.campaign import Campaign
 
 NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
 """Probabilities beforehand: nothing changed, one cause, two, something unknown, that beside one cause."""

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import log_ndtr, logsumexp
 
-from probation.gap.smooth_basis import smooth_basis
-from probation.gap.span import orthonormal
+from probation.noise.smooth_basis import smooth_basis
+from probation.noise.span import orthonormal
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.diagnosis.refit import Refit
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.record_residual import RecordResidual
+    from probation.inference.refit import Refit
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
 
 SIZES = 10.0 ** np.arange(0.5, 8.1, 0.5)
 """Squared sizes of an unknown change in units of the noise's variance per wave; log-uniform."""

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._complaint import suggestion
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.registry import effects
 from probation.errors import InputError
-from probation.gap.alteration import Alteration
-from probation.gap.effect import Effect, EffectParameter, Form, Values
-from probation.gap.registry import effects
-from probation.records.complaint import suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.gap.record_view import RecordView
+    from probation.effects.record_view import RecordView
 
 _USUAL = 0.1
 """Natural logarithm by which a law's constants may differ from batch to batch."""

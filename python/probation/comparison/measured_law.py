@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.gap.alteration import Alteration
-    from probation.gap.dnlr_law import DnlrLaw
-    from probation.gap.record_view import RecordView
+    from probation.effects.alteration import Alteration
+    from probation.effects.record_view import RecordView
+    from probation.inference.modal_law import DnlrLaw
 
 KNOTS = 24
 """Intervals of a branch along which the reference is followed."""

@@ -9,10 +9,10 @@ import numpy as np
 
 from probation.comparison.measured_law import ENDS, followed
 from probation.comparison.strain_path import branches
-from probation.gap.carried import carried_noise
-from probation.gap.drift import LEAST, with_drift
-from probation.gap.noise import estimate_noise
-from probation.gap.view_residual import residual_of
+from probation.inference.propagated import propagated_noise
+from probation.inference.view_residual import residual_of
+from probation.noise.drift import LEAST, with_drift
+from probation.noise.estimate import estimate_noise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.comparison.measured_law import MeasuredLaw
-    from probation.excitation import Excitation
-    from probation.gap.dnlr_law import DnlrLaw
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.record_residual import RecordResidual
-    from probation.gap.record_view import RecordView
-    from probation.records import Record
+    from probation.effects.record_view import RecordView
+    from probation.inference.modal_law import DnlrLaw
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 FAR = 8.0
 """Medians of what a smoother takes off the strain, beyond which it is no noise."""
@@ -93,7 +93,7 @@ def change_noise(
         for frame, noise in zip(followed, references, strict=True)
     ]
     columns.append(_undecided(view, law, missed))
-    strain = carried_noise(law, view, excitation, law.start)
+    strain = propagated_noise(law, view, excitation, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
     return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation._complaint import suggestion
 from probation.errors import InputError
-from probation.records.complaint import suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
 
 
 def pair(

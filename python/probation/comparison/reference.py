@@ -9,18 +9,18 @@ import numpy as np
 
 from probation.comparison.measured_law import reference_branches
 from probation.comparison.noise import own_residual, record_noises
-from probation.diagnosis.thinning import thin
-from probation.gap.dnlr_law import DnlrLaw
-from probation.gap.record_view import views_of
-from probation.identify import fit
+from probation.effects.record_view import views_of
+from probation.identify.fit import fit
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.thinning import thin
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation.comparison.measured_law import Branch
-    from probation.gap.noise_model import NoiseModel
-    from probation.law import Scheme
-    from probation.records import Campaign
+    from probation.law.modal import Scheme
+    from probation.noise.model import NoiseModel
+    from probation.records.campaign import Campaign
 
 
 SHARP = 8.0

@@ -10,22 +10,22 @@ import numpy as np
 from scipy.optimize import brentq
 
 from probation.comparison.evidence import SmoothChange, Tangent
-from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
-from probation.diagnosis.refit import Refit, refit
+from probation.effects.cause import Cause
 from probation.errors import ConvergenceError, InputError
-from probation.gap.cause import Cause
-from probation.gap.model import CampaignModel
-from probation.gap.parallel import in_parallel
-from probation.gap.screen import screen
-from probation.gap.whitener import Whitener
+from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
+from probation.inference.model import CampaignModel
+from probation.inference.refit import Refit, refit
+from probation.inference.screen import screen
+from probation.noise.whitener import Whitener
+from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.gap.effect import Effect
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.record_residual import RecordResidual
+    from probation.effects.effect import Effect
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
 
 STARTS = 2
 """Starts of a cause that are refitted."""

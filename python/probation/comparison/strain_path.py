@@ -9,7 +9,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.gap.record_view import RecordView
+    from probation.effects.record_view import RecordView
 
 
 def branches(view: RecordView) -> list[slice]:

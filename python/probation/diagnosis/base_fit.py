@@ -9,38 +9,41 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from probation.diagnosis.candidate import WhitenedColumns
-from probation.diagnosis.discrepancy import Discrepancy
-from probation.diagnosis.refit import Refit, refit
 from probation.diagnosis.substeps import enough_substeps, predicted
-from probation.excitation import excite
-from probation.gap.carried import carried_noise
-from probation.gap.dnlr_law import DnlrLaw
-from probation.gap.drift import estimate_drift, like_an_effect, with_drift
-from probation.gap.model import CampaignModel
-from probation.gap.noise import estimate_noise
-from probation.gap.record_view import views_of
-from probation.gap.screen import screen
-from probation.gap.view_residual import residual_of
-from probation.gap.whitener import Whitener
-from probation.gap.whitening import Whitened
-from probation.identify import fit
+from probation.effects.record_view import views_of
+from probation.identify.fit import fit
 from probation.identify.given import given
+from probation.inference.candidate import WhitenedColumns
+from probation.inference.discrepancy import Discrepancy
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.propagated import propagated_noise
+from probation.inference.refit import Refit, refit
+from probation.inference.screen import screen
+from probation.inference.users_law import UsersLaw
+from probation.inference.view_residual import residual_of
+from probation.noise.drift import estimate_drift, like_an_effect, with_drift
+from probation.noise.estimate import estimate_noise
+from probation.noise.stretches import leftover
+from probation.noise.whitener import Whitener
+from probation.noise.whitening import Whitened
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.gap.effect import Effect
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.protocol import GapLaw
-    from probation.gap.record_residual import RecordResidual
-    from probation.gap.record_view import RecordView
-    from probation.gap.screen import Column
-    from probation.identify import Fit
-    from probation.law import Scheme
-    from probation.records import Campaign, Record
+    from probation.effects.effect import Effect
+    from probation.effects.record_view import RecordView
+    from probation.identify.result import Fit
+    from probation.inference.protocol import GapLaw
+    from probation.inference.screen import Column
+    from probation.law.modal import Scheme
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
@@ -180,7 +183,8 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
     """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
-    control, which it did. The strain does not tell; the stress does, of all smoothed records together.
+    control, which it did. The strain does not tell; the stress does, of all smoothed records together, by what is
+    rougher than any effect that the law may lack.
     """
     chosen = {record.id: excite(record) for record in campaign.records}
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
@@ -190,7 +194,8 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
             smooth, recorded = (
                 predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
             )
-            favours_raw += float(np.sum((smooth**2 - recorded**2) / _loudness(smooth)))
+            rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
+            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / _loudness(smooth)))
     return chosen | raw if favours_raw > 0.0 else chosen
 
 
@@ -205,7 +210,8 @@ def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=scheme)
-    return fit_views(law, views, campaign.records, excitations)
+    known = law if isinstance(law, DnlrLaw) else UsersLaw(law)
+    return fit_views(known, views, campaign.records, excitations)
 
 
 def fit_views(
@@ -222,7 +228,7 @@ def fit_views(
             raw[part],
             jacobian[part],
             given_noise=known[view.id].noise.stress_MPa,
-            carried=carried_noise(law, view, excitations[view.id], parameters),
+            carried=propagated_noise(law, view, excitations[view.id], parameters),
         )
         for view, part in model.parts
     ]

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.detection.tail import chi_square_tail
 from probation.diagnosis.result import Checks
-from probation.gap.tail import chi_square_tail
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.diagnosis.refit import Refit
-    from probation.gap.whitening import Whitened
+    from probation.inference.refit import Refit
+    from probation.noise.whitening import Whitened
 
 FEWEST = 3
 """Records below which none can be left out."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.gap.noise_model import NoiseModel
+    from probation.noise.model import NoiseModel
 
 DRAWS = 1000
 ENOUGH = 6

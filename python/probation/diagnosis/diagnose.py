@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._arrays import one_of
+from probation.design.isolability import isolability
+from probation.detection.gap_test import GapTester
+from probation.detection.place_left_out import place_left_out
+from probation.detection.sharp_gap import with_sharp
+from probation.detection.where import locate
 from probation.diagnosis.base_fit import BaseFit, base_fit, fit_law, with_noise_beside
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
 from probation.diagnosis.linear import linear_hypotheses
-from probation.diagnosis.next import next_test_of
+from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import (
     TEMPERED,
     answer_set,
@@ -26,16 +31,12 @@ from probation.diagnosis.probabilities import (
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
-from probation.diagnosis.sharp_gap import with_sharp
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
-from probation.diagnosis.thinning import thin
-from probation.gap.gap_test import GapTester
-from probation.gap.isolability import isolability
-from probation.gap.parallel import usual_threads
-from probation.gap.place_left_out import place_left_out
-from probation.gap.registry import effects as catalogue
-from probation.gap.where import locate
+from probation.effects.registry import effects as catalogue
+from probation.inference.thinning import thin
+from probation.parallel import usual_threads
+from probation.records.checks import require_signal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -43,10 +44,10 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks
-    from probation.gap.effect import Effect
-    from probation.gap.protocol import GapLaw
-    from probation.law import Scheme
-    from probation.records import Campaign
+    from probation.effects.effect import Effect
+    from probation.inference.protocol import GapLaw
+    from probation.law.modal import Scheme
+    from probation.records.campaign import Campaign
 
 RECONSIDERED = 16
 """Hypotheses that are judged again once the noise is known beside the best one."""
@@ -78,8 +79,8 @@ def diagnose(
     hold : dict of str to float, optional
         Parameters that are not identified, by name with unit; on top of the campaign's own.
     law : GapLaw, optional
-        Another law than the campaign's, `probation.gap.CallableLaw` for one; effects that it does not understand are
-        left out.
+        Another law than the campaign's, such as a `probation.CallableLaw`; effects that it does not understand
+        are left out.
     seed : int
         Of the bootstraps.
     threads : int, optional
@@ -102,6 +103,8 @@ def diagnose(
     considered = catalogue(effects)
     workers = threads or usual_threads()
 
+    for record in campaign.records:
+        require_signal(record)
     campaign, thinned = thin(campaign)
 
     def told(part: float) -> None:
@@ -140,7 +143,8 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
-    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if design else None
+    planned = design and is_stretched(base)
+    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if planned else None
     apart = None
     if design:
         apart = isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers)
@@ -255,6 +259,8 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
     found = []
     if not robust:
         found.append("whether there is a gap hangs on the noise level: the verdict changes at 0.8 or 1.25 times it")
+    if not is_stretched(base):
+        found.append("no record is stretched: no next test is looked for, since only tension tests are planned")
     if len(base.whitened.records) == 1:
         found.append("one record only: nothing can be left out, and a cause that acts alike in it cannot be told apart")
     for noise in base.whitened.noises:

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.detection.where import Located, contribution_regions
 from probation.diagnosis.headline import title
 from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation, Status
-from probation.gap.where import Located, contribution_regions
-from probation.identify.parameter import IDENTIFIABLE, WEAKLY
+from probation.inference.parameter import IDENTIFIABLE, WEAKLY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -70,7 +70,10 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
 
 
 def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
-    """The base law's parameters with their standard errors by noise, all of its drift included."""
+    """The base law's parameters with their standard errors by noise, all of its drift included.
+
+    One at its bound has none.
+    """
     found, whitened = base.refit, base.whitened
     solver = np.linalg.pinv(found.jacobian)
     covariance = solver @ solver.T
@@ -80,7 +83,11 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
             covariance += moved @ moved.T
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * found.coordinates.slopes(found.parameters)
     result = []
-    for name, value, error in zip(base.law.parameter_names, found.parameters, deviation, strict=True):
+    ended = np.any(found.at_bound, axis=0)
+    for name, value, error, stopped in zip(base.law.parameter_names, found.parameters, deviation, ended, strict=True):
+        if stopped:
+            result.append(BaseParameter(name, float(value), None, "not_identifiable"))
+            continue
         relative = float(error) / max(abs(float(value)), 1e-300)
         status: Status = "identifiable"
         if relative > IDENTIFIABLE:

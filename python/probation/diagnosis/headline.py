@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.words import listed, percent
-from probation.gap.registry import effect
+from probation.effects.registry import effect
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,8 +23,15 @@ def title(name: str) -> str:
 
 
 def titles(effects: Sequence[str]) -> str:
-    """A set of effects for people."""
-    return listed([title(name) for name in effects], "and") if effects else "no effect"
+    """A set of effects for people, what is known of it first."""
+    known_first = sorted(effects, key=lambda name: name == UNKNOWN)
+    return listed([title(name) for name in known_first], "and") if effects else "no effect"
+
+
+def choices(sets: Sequence[Sequence[str]]) -> str:
+    """Several sets of effects for people, each once; one of several effects stands in brackets."""
+    names = [titles(effects) if len(effects) < 2 else f"({titles(effects)})" for effects in sets]
+    return listed(list(dict.fromkeys(names)), "or")
 
 
 def headline(
@@ -60,7 +67,7 @@ def headline(
     sentence = f"{titles(best.effects).capitalize()}{place} {verb} the gap: with {pronoun} {fall}"
     rivals = [each for each in answer_set if each != best.effects]
     if rivals:
-        shown = listed([titles(each) for each in rivals[:MOST_RIVALS]], "or")
+        shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}."
     return f"{sentence} (probability {percent(best.probability)})."

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from probation.diagnosis.evidence import Evidence
-    from probation.diagnosis.refit import Refit
-    from probation.gap.cause import Cause
+    from probation.effects.cause import Cause
+    from probation.inference.evidence import Evidence
+    from probation.inference.refit import Refit
 
 
 @dataclass(frozen=True, eq=False)

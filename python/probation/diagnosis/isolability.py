@@ -8,11 +8,11 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from probation.answers import json_answer
+from probation.design.isolability import isolability
 from probation.diagnosis.base_fit import base_fit
 from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
 from probation.diagnosis.summary import WIDTH
-from probation.gap.isolability import isolability
-from probation.gap.registry import effects as known_effects
+from probation.effects.registry import effects as known_effects
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from probation.gap.isolability import Isolability
-    from probation.law import Scheme
-    from probation.records import Campaign
+    from probation.design.isolability import Isolability
+    from probation.law.modal import Scheme
+    from probation.records.campaign import Campaign
 
 
 @dataclass(frozen=True, eq=False)

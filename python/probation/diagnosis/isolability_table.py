@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from probation.design.telling_apart import DETECTED
 from probation.diagnosis.words import count_text, listed, percent
-from probation.gap.telling_apart import DETECTED
 from probation.report.table import Table
 
 if TYPE_CHECKING:
-    from probation.gap.isolability import EffectIsolability, Isolability
+    from probation.design.isolability import EffectIsolability, Isolability
 
 HOW_TO_READ = (
     "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "

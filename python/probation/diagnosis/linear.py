@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
-from probation.diagnosis.candidate import Key, cause_key
-from probation.diagnosis.evidence import evidence
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.refit import Coordinates, Refit, refit
-from probation.gap.span import without
+from probation.inference.candidate import Key, cause_key
+from probation.inference.evidence import evidence
+from probation.inference.refit import Coordinates, Refit, refit
+from probation.noise.span import without
 
 if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit
-    from probation.diagnosis.candidate import WhitenedColumns
+    from probation.inference.candidate import WhitenedColumns
 
 SHARP_STEPS = 6
 SHARP_PLACES = 3

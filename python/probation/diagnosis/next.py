@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.design.next_test import next_test
 from probation.diagnosis.result import UNKNOWN, NextTest
-from probation.gap.next_test import next_test
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +24,11 @@ FORMS = 2
 
 FORMS_WITHIN = 4.0
 """... if their log evidence is within this of the best one's."""
+
+
+def is_stretched(base: BaseFit) -> bool:
+    """Whether any record is: the tests that can be planned are tension tests."""
+    return any(float(np.max(view.recorded_strain)) > 0.0 for view in base.model.views)
 
 
 def next_test_of(

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 from scipy.special import logsumexp
 
-from probation.diagnosis.candidate import Key, cause_key
 from probation.diagnosis.result import UNKNOWN
+from probation.inference.candidate import Key, cause_key
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.gap.cause import Cause
+    from probation.effects.cause import Cause
 
 NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.33, 0.12, 0.01
 UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.08, 0.01

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.diagnosis.form_error import form_columns
-from probation.gap.beside import whitened_beside
-from probation.gap.gap_test import GapTest, GapTester
+from probation.detection.gap_test import GapTest, GapTester
+from probation.inference.form_error import form_columns
+from probation.noise.beside import whitened_beside
 
 if TYPE_CHECKING:
     from probation.diagnosis.base_fit import BaseFit
-    from probation.diagnosis.refit import Refit
     from probation.diagnosis.result import Shrink
+    from probation.inference.refit import Refit
 
 TOLERATED = 0.05
 """Relative error of an effect's form, record by record, that evidence takes for the effect's own."""

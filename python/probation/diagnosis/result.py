@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
+    from probation.design.isolability import Isolability
+    from probation.detection.gap_test import GapTest
+    from probation.detection.where import Located, Where
     from probation.diagnosis.closure import Closure
-    from probation.gap.gap_test import GapTest
-    from probation.gap.isolability import Isolability
-    from probation.gap.where import Located, Where
 
 Verdict = Literal["no_gap", "explained", "unexplained"]
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]

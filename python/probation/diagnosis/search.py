@@ -7,27 +7,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.diagnosis.candidate import Candidate, Key, WhitenedColumns, cause_key
-from probation.diagnosis.evidence import evidence
-from probation.diagnosis.form_error import form_columns
+from probation.detection.sharp import find_lines, find_steps
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.diagnosis.refit import MOST_STEPS, Refit, refit
 from probation.errors import ConvergenceError, InputError
-from probation.gap.parallel import in_parallel
-from probation.gap.screen import screen
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.span import span_of
+from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
+from probation.inference.evidence import evidence
+from probation.inference.form_error import form_columns
+from probation.inference.refit import MOST_STEPS, Refit, refit
+from probation.inference.screen import screen
+from probation.noise.span import span_of
+from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.diagnosis.base_fit import BaseFit
-    from probation.gap.effect import Effect
-    from probation.gap.model import CampaignModel
+    from probation.effects.effect import Effect
+    from probation.inference.model import CampaignModel
 
-HEAT_STEPS = 4
-"""Gauss-Newton steps of the race's first round."""
+HEAT_STEPS, HEATS = 4, 4
+"""Gauss-Newton steps of a round of the race, and the most rounds."""
+
+GAINING = 0.7
+"""Part of what it left one round before that a cause still in motion leaves at most: such a cause is not out yet."""
 
 IN_THE_RUNNING, SLACK = 6.0, 30.0
 """A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
@@ -139,14 +142,7 @@ class Search:
             columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
         )
         first = _promising(_first_of_each(candidates))
-        raced = self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS)
-        left = np.array([each.chi_square for each in raced])
-        best, count = float(left.min(initial=np.inf)), len(self.base.whitened)
-        # What is above the noise for certain; the noise itself is the same for all.
-        gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
-        limit = best + (IN_THE_RUNNING - 1.0) * gap + SLACK
-        running = [each for each, own in zip(raced, left, strict=True) if own <= limit]
-        out = [each for each, own in zip(raced, left, strict=True) if own > limit]
+        running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS))
         self.found += [self._judged(each) for each in out]
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
@@ -154,6 +150,34 @@ class Search:
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += [self._judged(each) for each in polished]
+
+    def _raced(self, refits: list[Refit]) -> tuple[list[Refit], list[Refit]]:
+        """Which of unfinished refits leave little enough, and which do not and hardly gain any more."""
+        for _ in range(HEATS - 1):
+            limit = self._limit(refits)
+            behind = [each for each in refits if each.chi_square > limit and each.steps == HEAT_STEPS]
+            further = self._solved([(each.model, each.parameters) for each in behind], HEAT_STEPS)
+            again = {id(each.model): each for each in further}
+            moved = {
+                id(each): again[id(each.model)]
+                for each in behind
+                if id(each.model) in again and again[id(each.model)].chi_square < GAINING * each.chi_square
+            }
+            if not moved:
+                break
+            refits = [moved.get(id(each), each) for each in refits]
+        limit = self._limit(refits)
+        return [each for each in refits if each.chi_square <= limit], [
+            each for each in refits if each.chi_square > limit
+        ]
+
+    def _limit(self, refits: Sequence[Refit]) -> float:
+        """Least that a cause may leave and still be out of the race."""
+        best = min((each.chi_square for each in refits), default=np.inf)
+        count = len(self.base.whitened)
+        # What is above the noise for certain; the noise itself is the same for all.
+        gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
+        return float(best + (IN_THE_RUNNING - 1.0) * gap + SLACK)
 
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause beside those of a hypothesis."""

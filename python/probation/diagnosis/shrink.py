@@ -8,21 +8,21 @@ import numpy as np
 
 from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
-from probation.gap.model import CampaignModel
-from probation.gap.noise import estimate_noise
-from probation.gap.smooth_basis import smooth_basis
-from probation.gap.spikes import without_spikes
-from probation.gap.view_residual import residual_of
+from probation.inference.model import CampaignModel
+from probation.inference.view_residual import residual_of
+from probation.noise.estimate import estimate_noise
+from probation.noise.smooth_basis import smooth_basis
+from probation.noise.spikes import without_spikes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.detection.where import Located
     from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.gap.noise_model import NoiseModel
-    from probation.gap.where import Located
-    from probation.records import Campaign
+    from probation.noise.model import NoiseModel
+    from probation.records.campaign import Campaign
 
 
 def shrink_of(

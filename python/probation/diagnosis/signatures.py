@@ -4,16 +4,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from probation.detection.sharp import find_lines, find_steps
+from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
-from probation.gap.sharp import find_lines, find_steps
-from probation.gap.signatures import parameter_drift
+from probation.diagnosis.words import listed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
 
 LEVEL = 1e-3
 """p-value, over all records, below which a feature is told."""
+
+SCATTER_LEVEL = 0.01
+"""p-value, against the scatter between records, below which a parameter is said to change with something."""
+
+ALONG = {
+    "log_rate": "with the strain rate",
+    "temperature": "with the temperature",
+    "order": "with the order of the tests",
+}
+"""What a parameter may change with, in words."""
 
 
 def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
@@ -44,15 +59,30 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
             )
             found.append(Signature("step", step.record, step.p_value, text))
     if len(whitened.records) > 2:
-        for drift in parameter_drift(whitened, names):
+        for drift in parameter_drift(whitened, names, _covariates(base)):
             if drift.heterogeneity_p_value >= LEVEL:
                 continue
-            slopes = {name: p for name, p in drift.slope_p_value.items() if p < LEVEL}
-            along = "from record to record"
-            if slopes:
-                covariate = min(slopes, key=lambda name: slopes[name])
-                along = {"log_rate": "with the strain rate", "order": "with the order of the tests"}[covariate]
-            low, high = min(drift.change.values()), max(drift.change.values())
-            text = f"{drift.parameter}, refitted record by record, changes {along}, by {low:+.3g} to {high:+.3g}"
+            reach = max(drift.change.values()) - min(drift.change.values())
+            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {reach:.3g}"
             found.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(found)
+
+
+def changes_with(drift: Drift) -> str:
+    """What a parameter follows beyond the noise and beyond what records differ by at random, in words."""
+    followed = [
+        words
+        for name, words in ALONG.items()
+        if drift.slope_p_value.get(name, 1.0) < LEVEL and drift.scatter_p_value[name] < SCATTER_LEVEL
+    ]
+    return listed(followed) or "from record to record"
+
+
+def _covariates(base: BaseFit) -> dict[str, Sequence[float]]:
+    """The usual ones, and the mean temperature where every record has one."""
+    along = usual_covariates(base.whitened)
+    temperatures = [each.temperature for each in base.model.views]
+    known = [float(np.mean(each)) for each in temperatures if each is not None]
+    if len(known) == len(base.whitened.records):
+        along["temperature"] = known
+    return along

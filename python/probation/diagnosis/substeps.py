@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.identify.problem import LEAST_NOISE
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.identify import Fit
-    from probation.records import Campaign
+    from probation.identify.result import Fit
+    from probation.records.campaign import Campaign
+    from probation.smoothing.excitation import Excitation
 
 TOLERATED = 2.0
 """Norm of the scheme's error over the noise, all samples together: its square is what an effect must gain at least."""
@@ -42,7 +43,8 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
         square = 0.0
         for record in campaign.identify:
             coarse, fine = (predicted(found, excitations[record.id], count) for count in (steps, 2 * steps))
-            noise = max(scatter(record.time, record.true_stress - fine), 1e-300)
+            least = LEAST_NOISE * float(np.max(np.abs(record.true_stress)))
+            noise = max(scatter(record.time, record.true_stress - fine), least)
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
         # Halving the step leaves a quarter of the error.
         norm = 4.0 / 3.0 * np.sqrt(square)

@@ -6,6 +6,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
+from probation.report.estimate import percentage
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis
@@ -60,7 +61,9 @@ def gap_text(found: Diagnosis) -> str:
 
 
 def _cases(p_value: float) -> str:
-    return f"{100 * p_value:.2g} %" if p_value >= 1e-4 else "fewer than 0.01 %"
+    if p_value > 0.99:
+        return "more than 99 %"
+    return f"{percentage(p_value)} %" if p_value >= 1e-4 else "fewer than 0.01 %"
 
 
 def next_test_text(found: Diagnosis) -> str:

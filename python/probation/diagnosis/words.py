@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import floor, log10
 from typing import TYPE_CHECKING
 
+from probation.detection.gap_test import LEVEL
 from probation.diagnosis.result import UNKNOWN
-from probation.gap.gap_test import LEVEL
 from probation.report.estimate import plus_minus
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def span_text(ends: tuple[float, float]) -> str:
     """An interval with the digits that its length deserves: "0.58 to 1.32"."""
     length = abs(ends[1] - ends[0])
     digits = max(1 - floor(log10(0.5 * length)), 0) if length > 0.0 else 3
-    return " to ".join(f"{end:.{digits}f}" for end in ends).replace("-", "−")
+    return " to ".join(f"{round(end, digits) + 0.0:.{digits}f}" for end in ends).replace("-", "−")  # no "-0.00"
 
 
 def _digits(each: Closure) -> int:
@@ -177,12 +177,10 @@ def checks_text(each: Explanation) -> list[str]:
     if checks.amplitude_p_value is not None:
         same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
-    if each.effects not in ((), (UNKNOWN,)):
-        found.append(
-            "what is left may be noise and the form's error"
-            if checks.remaining_p_value >= LEVEL
-            else "a gap is left beside it"
-        )
+    if each.effects and checks.remaining_p_value < LEVEL and each.effects != (UNKNOWN,):
+        found.append("a gap is left beside it")
+    elif each.effects and UNKNOWN not in each.effects:
+        found.append("what is left may be noise and the form's error")
     return [*found, *(_without_names(note, each) for note in checks.notes)]
 
 

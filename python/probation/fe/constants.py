@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._arrays import as_number
-from probation.companion import Exponential, PowerLaw, Table, Weissenberg
 from probation.errors import InputError
-from probation.law import Law, Spectrum
+from probation.law.companion import Exponential, PowerLaw, Table, Weissenberg
+from probation.law.modal import Law, Spectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.companion import Companion
+    from probation.law.companion import Companion
 
 NAMES = (
     "unrelaxed_modulus_MPa",
@@ -33,12 +33,16 @@ NAMES = (
     "modes",
     "decades",
 )
-"""Constants 1 to 11; with decades = 0 the ratios tau_j / tau_max and the weights p_j follow, then a table's points."""
+"""Constants 1 to 11; with decades = 0 the ratios tau_j / tau_max and the weights p_j follow, then a table's points.
+
+A stress tolerance [MPa] may stand at the end.
+"""
 
 FORMS: tuple[type[Companion] | None, ...] = (None, Weissenberg, Exponential, PowerLaw, Table)
 """By form number."""
 
 MOST_MODES = 64
+MOST_DECADES = 30.0
 MOST_TABLE_POINTS = 32
 
 STATE_HEADER, STATE_PER_MODE = 10, 6
@@ -63,7 +67,9 @@ class MaterialConstants:
     values: tuple[float, ...]
 
     @classmethod
-    def of(cls, law: Law, bulk_modulus: float, rate_filter: float = 0.0) -> MaterialConstants:
+    def of(
+        cls, law: Law, bulk_modulus: float, rate_filter: float = 0.0, stress_tolerance: float = 0.0
+    ) -> MaterialConstants:
         """The constants of a law.
 
         Parameters
@@ -74,6 +80,8 @@ class MaterialConstants:
             K [MPa]; the one-dimensional law is incompressible and does not tell it.
         rate_filter : float
             Strain over which the rate is filtered before the companion relation sees it [-]; 0: not at all.
+        stress_tolerance : float
+            Error of the stress [MPa] above which an increment asks for a smaller one; 0: its size is not looked at.
 
         Raises
         ------
@@ -86,12 +94,17 @@ class MaterialConstants:
             raise InputError(f"bulk_modulus is {bulk_modulus}; a positive modulus in MPa is needed")
         if not rate_filter >= 0.0:
             raise InputError(f"rate_filter is {rate_filter}; a strain, not negative, is needed")
+        stress_tolerance = as_number(stress_tolerance, "stress_tolerance")
+        if not stress_tolerance >= 0.0:
+            raise InputError(f"stress_tolerance is {stress_tolerance}; a stress in MPa, not negative, is needed")
         form, first, second, rates, times = _companion(law)
         if law.modes > MOST_MODES:
             raise InputError(
                 f"modes: found {law.modes}, expected at most {MOST_MODES} in a user material; take an accuracy, as 1e-4"
             )
         log_spaced = law.spectrum == Spectrum.log_spaced(law.modes, law.decades)
+        if log_spaced and law.decades > MOST_DECADES:
+            raise InputError(f"decades: found {law.decades}, expected at most {MOST_DECADES} in a user material")
         modes = () if log_spaced else (*law.spectrum.relaxation_ratio.tolist(), *law.spectrum.modal_weight.tolist())
         floor = 1e-7 if law.companion is None else law.companion.rate_floor
         factor = law.tau_max if law.companion is None else law.alpha
@@ -112,6 +125,7 @@ class MaterialConstants:
                 *modes,
                 *rates,
                 *times,
+                *((stress_tolerance,) if stress_tolerance > 0.0 else ()),
             )
         )
 
@@ -153,8 +167,8 @@ class MaterialConstants:
             spectrum=spectrum,
         )
         expected = len(MaterialConstants.of(law, 1.0).values)
-        if expected != len(self.values):
-            raise InputError(f"constants: found {len(self.values)}, expected {expected}")
+        if len(self.values) - expected not in (0, 1):  # the stress tolerance is no part of the law
+            raise InputError(f"constants: found {len(self.values)}, expected {expected}, or one more")
         return law
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 
-from probation.paper.twins import experiment_1, experiment_3
+from probation.published.experiments import experiment_1, experiment_3
 from probation.report.figures import house_style, new_figure, save_figure, thinned
 from probation.report.style import colour
 

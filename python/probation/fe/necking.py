@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.companion import Weissenberg
 from probation.errors import InputError
 from probation.fe.bar import Bar, BarModel, Centre, Snapshot
 from probation.fe.neck_figures import neck_figures
 from probation.fe.point import MaterialPoint
-from probation.law import Law
+from probation.law.companion import Weissenberg
+from probation.law.modal import Law
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -17,13 +17,14 @@ from probation.fe.where import library_path
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law import Law
+    from probation.law.modal import Law
 
 _CUT_STEP = 1
+_COARSE_STEP = 5
 
 
 class CutStep(RuntimeError):  # noqa: N818 -- what to do, not what went wrong
-    """No update at this increment; a smaller one may work.
+    """No update at this increment, or none within the stress tolerance; a smaller one may work.
 
     Attributes
     ----------
@@ -31,8 +32,9 @@ class CutStep(RuntimeError):  # noqa: N818 -- what to do, not what went wrong
         Which of several points failed first.
     """
 
-    def __init__(self, point: int | None = None) -> None:
-        super().__init__("no update at this increment; try a smaller one")
+    def __init__(self, status: int, point: int | None = None) -> None:
+        what = "no update" if status == _CUT_STEP else "no update within the stress tolerance"
+        super().__init__(f"{what} at this increment; try a smaller one")
         self.point = point
 
 
@@ -71,9 +73,11 @@ class MaterialPoint:
             raise InputError(text.value.decode().removeprefix("probation: "))
 
     @classmethod
-    def from_law(cls, law: Law, bulk_modulus: float, *, rate_filter: float = 0.0) -> MaterialPoint:
+    def from_law(
+        cls, law: Law, bulk_modulus: float, *, rate_filter: float = 0.0, stress_tolerance: float = 0.0
+    ) -> MaterialPoint:
         """The point of a law; arguments as in `probation.fe.constants.MaterialConstants.of`."""
-        return cls(np.array(MaterialConstants.of(law, bulk_modulus, rate_filter).values))
+        return cls(np.array(MaterialConstants.of(law, bulk_modulus, rate_filter, stress_tolerance).values))
 
     @property
     def state_size(self) -> int:
@@ -123,7 +127,7 @@ class MaterialPoint:
             ctypes.byref(tangent),
         )
         if status:
-            raise CutStep
+            raise CutStep(status)
         return stress.value, tangent.value, after
 
     def first_piola(
@@ -177,8 +181,8 @@ class MaterialPoint:
             None if tangent is None else _pointer(tangent),
             ctypes.byref(failed),
         )
-        if status == _CUT_STEP:
-            raise CutStep(failed.value)
+        if status in (_CUT_STEP, _COARSE_STEP):
+            raise CutStep(status, failed.value)
         assert status == 0  # the constants were checked when this was made
         return stress, tangent, after
 

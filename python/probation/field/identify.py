@@ -12,18 +12,18 @@ import numpy as np
 from probation._arrays import one_of
 from probation._core import __version__
 from probation.answers import plain
-from probation.blind.origin import commit
-from probation.bulk import METHODS, Method
+from probation.bulk import METHODS, SUBSTEPS_LIMIT, Method
 from probation.errors import InputError
-from probation.field.block import FieldTask, identify_block
+from probation.field.block import FieldTask, identify_block, kinds_of
 from probation.field.fingerprint import COVERS, fingerprint
 from probation.field.grid import block_grid
-from probation.field.pixels import Way
+from probation.field.pixels import Substeps, Way
 from probation.field.source import FieldSource, open_field
-from probation.field.store import MapStore, map_kinds, read_run
-from probation.identify.parameter import by_inside_name, outside_name
-from probation.law import DIFFERENTIABLE, Law
-from probation.law_answer import law_answer
+from probation.field.store import MapStore, read_run
+from probation.inference.parameter import by_inside_name, outside_name
+from probation.law.answer import law_answer
+from probation.law.modal import DIFFERENTIABLE, Law
+from probation.origin import commit
 from probation.pool import WorkersLostError, run_all
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ def identify_field(
     method: Method = "variable projection",
     hold: Mapping[str, float] | None = None,
     smoothing: bool = True,
+    substeps: Substeps = "auto",
     pixels: int = PIXELS,
     processes: int | None = None,
     threads: int = 0,
@@ -97,6 +98,9 @@ def identify_field(
     smoothing : bool
         Whether the strain's noise is taken out first, with a spline that each record chooses; leave it on unless the
         strain is free of noise or its rate jumps.
+    substeps : int or "auto"
+        Steps of the scheme from sample to sample; "auto": in each block as many as it needs for its own error to move
+        no parameter by more than a tenth of its standard error, up to 16.
     pixels : int
         Of a task, at most.
     processes : int, optional
@@ -125,11 +129,14 @@ def identify_field(
     one_of(method, "method", METHODS)
     if pixels < 1 or threads < 0:
         raise InputError(f"found pixels = {pixels}, threads = {threads}; expected at least 1 and 0")
+    if substeps != "auto" and (type(substeps) is not int or not 1 <= substeps <= SUBSTEPS_LIMIT):
+        raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number from 1 to {SUBSTEPS_LIMIT}")
     source = field if isinstance(field, FieldSource) else open_field(field)
     law, held = _law_with(law, hold or {})
     grid = block_grid(source.shape, source.chunks, pixels)
     path = Path(out).absolute()
-    run = _run(source, law, scheme, method, held, smoothing, grid.block)
+    way = Way(law, scheme, method, held, smoothing, substeps, threads if executor is None and processes == 1 else 1)
+    run = _run(source, way, grid.block)
     store = MapStore(str(path), grid)
     if afresh and path.exists():
         read_run(str(path))  # nothing else is ever removed
@@ -138,10 +145,8 @@ def identify_field(
         _check_same(path, run)
     else:
         begun = {**run, "version": __version__, "commit": commit(), "field": source.path, "sha256_covers": COVERS}
-        store.create(map_kinds(law), begun, source.coordinates())
-    alone = executor is None and processes == 1
-    task = FieldTask(source, store, Way(law, scheme, method, held, smoothing, threads if alone else 1))
-    return _run_blocks(task, processes=processes, executor=executor, progress=progress)
+        store.create(kinds_of(law), begun, source.coordinates())
+    return _run_blocks(FieldTask(source, store, way), processes=processes, executor=executor, progress=progress)
 
 
 def _run_blocks(
@@ -159,7 +164,7 @@ def _run_blocks(
         If a process of its own dies, workers of a cluster die of a block again and again, or a block that was done is
         not there.
     """
-    kinds = map_kinds(task.way.law)
+    kinds = kinds_of(task.way.law)
     marked = task.store.marked()
     whole = {block for block in task.store.grid.blocks() if marked[block] and task.store.done(block, kinds)}
     left = [block for block in task.store.grid.blocks() if block not in whole]
@@ -196,24 +201,17 @@ def _law_with(law: Law | None, hold: Mapping[str, float]) -> tuple[Law, tuple[st
     return law.with_parameters(values), tuple(name for name in law.parameter_names if name in held)
 
 
-def _run(
-    source: FieldSource,
-    law: Law,
-    scheme: str,
-    method: str,
-    held: tuple[str, ...],
-    smoothing: bool,
-    block: tuple[int, int],
-) -> dict[str, Any]:
+def _run(source: FieldSource, way: Way, block: tuple[int, int]) -> dict[str, Any]:
     """What must be the same for a run to go on."""
-    told = law_answer(law)
-    told["parameters"] = {outside_name(name): getattr(law, name) for name in held}
+    told = law_answer(way.law)
+    told["parameters"] = {outside_name(name): getattr(way.law, name) for name in way.held}
     content = {
         "field_sha256": fingerprint(source),
         "law": told,
-        "scheme": scheme,
-        "method": method,
-        "smoothing": smoothing,
+        "scheme": way.scheme,
+        "method": way.method,
+        "smoothing": way.smoothing,
+        "substeps": way.substeps,
         "block": list(block),
     }
     return {name: plain(value) for name, value in content.items()}
@@ -228,6 +226,7 @@ def _check_same(path: Path, run: Mapping[str, Any]) -> None:
         "scheme": "the scheme is another",
         "method": "the method is another",
         "smoothing": "the strain is smoothed, or not",
+        "substeps": "the steps from sample to sample are others",
         "block": "the blocks are others (--pixels)",
         "version": "the version of probation is another",
     }

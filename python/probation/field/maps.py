@@ -10,22 +10,27 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.field.extra import load
+from probation.field.chunks import array_of, read, require_chunks
+from probation.field.grid import BlockGrid
 from probation.field.status import MEANINGS, Status
-from probation.field.store import LEDGER, SECONDS, read_run
+from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of, read_run
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Mapping
 
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.field.store import MapKind
     from probation.field.truth import Closeness
 
+AGAIN = "probation field identify, called again,"
+
 CERTAIN, UNEVEN = 4.0, 2.0
-"""Standard deviations of rms_residual / noise - 1 from which on a residual is beyond the noise, and their square times
-the samples: 1/2 for even noise, more where it grows along the record."""
+"""Standard deviations of ln(rms_residual / noise) from which on a residual is beyond the noise, and their square times
+the samples: 1/2 for even noise that is known, more where it grows along the record and is estimated."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,8 @@ class FieldMaps:
         Of those; empty for pixels.
     cpu_seconds : float
         Of all blocks.
+    substeps : (int, int)
+        Fewest and most steps of the scheme from sample to sample that a block took.
     blocks, blocks_done : int
     closeness : tuple of Closeness
         To the truth, where that is known; see `FieldMaps.beside`.
@@ -59,6 +66,7 @@ class FieldMaps:
     x: FloatArray = field(repr=False)
     length_unit: str
     cpu_seconds: float
+    substeps: tuple[int, int]
     blocks: int
     blocks_done: int
     closeness: tuple[Closeness, ...] = ()
@@ -75,7 +83,7 @@ class FieldMaps:
         doubt = np.sqrt(UNEVEN / samples)
         with np.errstate(invalid="ignore"):
             return np.asarray(
-                self.identified & (self.maps["rms_residual"] > (1.0 + CERTAIN * doubt) * self.maps["noise"])
+                self.identified & (self.maps["rms_residual"] > np.exp(CERTAIN * doubt) * self.maps["noise"])
             )
 
     @property
@@ -132,6 +140,7 @@ class FieldMaps:
             "noise_MPa": _median(self.maps["noise"][good]),
             "blocks": {"done": self.blocks_done, "all": self.blocks},
             "cpu_seconds": self.cpu_seconds,
+            "substeps": list(self.substeps),
             "closeness": [vars(each) for each in self.closeness],
         }
         return json_answer("probation.field/1", content)
@@ -148,34 +157,71 @@ def open_maps(path: str | os.PathLike[str]) -> FieldMaps:
     Raises
     ------
     InputError
-        If `path` is no store of maps.
+        If `path` is no store of maps, or an array or chunk of it is not there or not what was written, naming it.
     """
     where = str(Path(path).absolute())
     if not Path(where).exists():
         raise InputError(f"{path}: found no such folder, expected maps as probation field identify writes them")
     run = read_run(where)
-    group = load("zarr").open_group(where, mode="r")
-    maps, units = {}, {}
-    for name, array in group.arrays():
-        if array.metadata.dimension_names == ("y", "x"):
-            maps[name] = np.asarray(array[...])
-            units[name] = str(array.attrs["units"])
-    rows, columns = maps["status"].shape
-    axes = {name: np.asarray(group[name][...]) for name in ("y", "x") if name in group}
-    unit = str(group["y"].attrs.get("units", "")) if len(axes) == 2 else ""
-    done = np.asarray(group[LEDGER][...]) != 0
+    kinds = map_kinds(companion=run["law"]["companion"] is not None)
+    shape = array_of(where, "status").shape
+    if len(shape) != 2 or 0 in shape:
+        raise InputError(f"{where}: status: found the shape {shape}, expected rows and columns")
+    grid = BlockGrid((shape[0], shape[1]), (run["block"][0], run["block"][1]))
+    marks = _numbers(where, LEDGER, grid.count, "u8", sparse=True)
+    maps = _maps(where, kinds, grid, marks)
+    here = [name for name in ("y", "x") if (Path(where) / name).exists()]
+    axes = {name: _numbers(where, name, (size,), "f8") for name, size in zip(("y", "x"), shape, strict=True) if here}
+    done = marks != 0
+    seconds = _numbers(where, SECONDS, grid.count, "f8", sparse=True)
+    steps = _numbers(where, SUBSTEPS, grid.count, "i4", sparse=True)[done]
     return FieldMaps(
         where,
         run,
         maps,
-        units,
-        axes["y"] if len(axes) == 2 else np.arange(float(rows)),
-        axes["x"] if len(axes) == 2 else np.arange(float(columns)),
-        unit,
-        float(np.asarray(group[SECONDS][...])[done].sum()),
+        {name: kind.unit for name, kind in kinds.items()},
+        axes["y"] if axes else np.arange(float(shape[0])),
+        axes["x"] if axes else np.arange(float(shape[1])),
+        str(array_of(where, "y").attrs.get("units", "")) if axes else "",
+        float(seconds[done].sum()),
+        (int(steps.min()), int(steps.max())) if len(steps) else (1, 1),
         done.size,
         int(np.count_nonzero(done)),
     )
+
+
+def _maps(where: str, kinds: Mapping[str, MapKind], grid: BlockGrid, marks: NDArray[Any]) -> dict[str, NDArray[Any]]:
+    """All maps: each there, whole, and in every block that is done what was written."""
+    marked = [block for block in grid.blocks() if marks[block]]
+    try:
+        for name in kinds:
+            for block in marked:
+                require_chunks(where, name, grid.slices(block))
+        maps = {name: _numbers(where, name, grid.shape, kind.dtype, sparse=True) for name, kind in kinds.items()}
+    except InputError as failure:
+        raise InputError(f"{failure}; {AGAIN} does such blocks anew") from None
+    for block in marked:
+        at = grid.slices(block)
+        if marks[block] != mark_of({name: values[at] for name, values in maps.items()}):
+            raise InputError(
+                f"{where}: block {block}: found maps that are not what was written; {AGAIN} does that block anew"
+            )
+    unknown = set(np.unique(maps["status"]).tolist()) - set(Status)
+    if unknown:
+        raise InputError(
+            f"{where}: status: found {min(unknown)}, expected one of {', '.join(map(str, map(int, Status)))}"
+        )
+    return maps
+
+
+def _numbers(where: str, name: str, shape: tuple[int, ...], dtype: str, *, sparse: bool = False) -> NDArray[Any]:
+    """An array, looked over."""
+    array = array_of(where, name)
+    if array.shape != shape or array.dtype != np.dtype(dtype):
+        raise InputError(
+            f"{where}: {name}: found {array.dtype} of the shape {array.shape}, expected {np.dtype(dtype)} of {shape}"
+        )
+    return read(where, name, sparse=sparse)
 
 
 def _median(values: FloatArray) -> float:

@@ -8,25 +8,30 @@ import numpy as np
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+    from probation.field.samples import IndexArray
     from probation.field.source import Samples
 
-SPAN, MOST = 40, 8
+SPAN, MOST = 10, 16
 """Samples of a part of the record with a noise of its own, at least, and parts at most."""
 
 _MEDIAN_TO_DEVIATION = 1.482602218505602  # of a normal distribution
+_FEW = 3.8  # over the number of differences: by how much the square of their median is too large in the mean
 
 
-def scatter(time: FloatArray, values: Samples) -> FloatArray:
+def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> FloatArray:
     """Standard deviation of white noise along each record, from third divided differences: they cancel any parabola.
 
-    The median over each part of a record shuts out jumps. Noise that is correlated from sample to sample is
-    underestimated.
+    How it changes along the record is that of the neighbourhood, part by part; how large it is, each record's own.
+    Medians shut out jumps. Their squares are right in the mean, for standard errors are pooled as squares. Noise that
+    is correlated from sample to sample is underestimated.
 
     Parameters
     ----------
     time : ndarray, shape (n_times,) [s]
         Increasing; at least 4.
     values : ndarray, shape (pixels, n_times)
+    neighbourhood : ndarray of int, shape (pixels,)
+        Its number for each pixel.
 
     Returns
     -------
@@ -39,6 +44,21 @@ def scatter(time: FloatArray, values: Samples) -> FloatArray:
     last = values.shape[1] - 3
     difference = np.abs(sum(weight[:, k] * values[:, k : k + last] for k in range(4)))
     parts = int(np.clip(values.shape[1] // SPAN, 1, MOST))
-    found = [np.median(part, axis=1) for part in np.array_split(difference, parts, axis=1)]
+    pieces = np.array_split(difference, parts, axis=1)
+    shape = np.stack([_pooled(_deviation(piece), neighbourhood) for piece in pieces], axis=1)
+    of_differences = np.repeat(shape, [piece.shape[1] for piece in pieces], axis=1)
+    size = _deviation(np.divide(difference, of_differences, out=np.zeros_like(difference), where=of_differences > 0.0))
     lengths = [len(part) for part in np.array_split(time, parts)]
-    return np.asarray(_MEDIAN_TO_DEVIATION * np.repeat(np.stack(found, axis=1), lengths, axis=1))
+    return np.asarray(size[:, None] * np.repeat(shape, lengths, axis=1))
+
+
+def _deviation(differences: FloatArray) -> FloatArray:
+    """From the moduli of differences, along the rows."""
+    few = np.sqrt(1.0 + _FEW / differences.shape[1])
+    return np.asarray(_MEDIAN_TO_DEVIATION / few * np.median(differences, axis=1))
+
+
+def _pooled(deviation: FloatArray, neighbourhood: IndexArray) -> FloatArray:
+    """Root mean square over each pixel's neighbourhood, shape (pixels,)."""
+    _, place, count = np.unique(neighbourhood, return_inverse=True, return_counts=True)
+    return np.asarray(np.sqrt(np.bincount(place, weights=deviation**2) / count)[place])

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from probation.bulk import identify_many
+from probation.field.between import between
 from probation.field.noise import scatter
 from probation.field.samples import alike, bridged
 from probation.field.smoothing import smoothed_records
@@ -19,9 +20,13 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.bulk import Method
-    from probation.field.samples import BoolArray
+    from probation.field.samples import BoolArray, IndexArray
     from probation.field.source import Samples
-    from probation.law import Law, Scheme
+    from probation.law.modal import Law, Scheme
+
+
+Substeps: TypeAlias = int | Literal["auto"]
+"""Steps of the scheme from sample to sample; "auto": as many as each block needs."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,8 @@ class Way:
         Parameters that are not identified.
     smoothing : bool
         Whether the noise of the strain is taken out first.
+    substeps : int or "auto"
+        Steps of the scheme from sample to sample.
     threads : int
         Of the engine; 0: all cores.
     """
@@ -46,6 +53,7 @@ class Way:
     method: Method
     held: tuple[str, ...]
     smoothing: bool
+    substeps: Substeps
     threads: int
 
 
@@ -64,7 +72,9 @@ class Pixels:
         return np.asarray(self.status == Status.IDENTIFIED)
 
 
-def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray) -> Pixels:
+def identify_pixels(
+    way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, substeps: int
+) -> Pixels:
     """Estimates on every pixel, from its samples in use.
 
     Parameters
@@ -72,6 +82,8 @@ def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples
     way : Way
     time : ndarray, shape (n_times,) [s]
     strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
+    substeps : int
+        Steps of the scheme from sample to sample; what `way` says of them is not looked at.
     """
     count = len(strain)
     empty = np.where(used.any(axis=1), Status.TOO_FEW_SAMPLES, Status.NO_DATA).astype(np.int8)
@@ -80,14 +92,16 @@ def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples
     for pixels, samples in alike(used):
         if np.count_nonzero(samples) < SHORTEST:
             continue
+        fine, driving = between(time[samples], drawn[np.ix_(pixels, samples)], substeps, smooth=way.smoothing)
         some = identify_many(
             way.law,
-            time[samples],
-            drawn[np.ix_(pixels, samples)],
+            fine,
+            driving,
             stress[np.ix_(pixels, samples)],
             way.scheme,
             method=way.method,
             held=way.held,
+            substeps=substeps,
             threads=way.threads,
         )
         found.parameters[pixels], found.standard_error[pixels] = some.parameters, some.standard_error
@@ -96,9 +110,14 @@ def identify_pixels(way: Way, time: FloatArray, strain: Samples, stress: Samples
 
 
 def with_more_noise(
-    time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
+    time: FloatArray,
+    strain: Samples,
+    stress: Samples,
+    used: BoolArray,
+    neighbourhood: IndexArray,
+    chance: np.random.Generator,
 ) -> tuple[Samples, Samples, FloatArray]:
-    """The same records with as much noise once more, of what each record scatters.
+    """The same records with as much noise once more, of what each record scatters; see `noise.scatter`.
 
     Returns
     -------
@@ -111,7 +130,7 @@ def with_more_noise(
         noise = np.zeros(values.shape)
         for pixels, samples, own in bridged(time, values, used):
             if np.count_nonzero(samples) >= SHORTEST:
-                part = scatter(time[samples], own)
+                part = scatter(time[samples], own, neighbourhood[pixels])
                 noise[np.ix_(pixels, samples)] = part
                 level[pixels] = np.sqrt(np.mean(part**2, axis=1))  # the stress comes last
         more = values.copy()

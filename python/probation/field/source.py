@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from probation.errors import InputError
+from probation.field.chunks import Region, array_of, damage, first_absent, require_chunks
 from probation.field.extra import load
 from probation.records.conversions import true_strain_from, true_stress_from
 from probation.records.units import convert
@@ -58,6 +59,8 @@ class FieldSource:
         Rows and columns that lie together in the file; the shape where it is not chunked.
     chunk_times : int
         Instants that lie together.
+    sparse : bool
+        Whether chunks that are not there hold no data.
     """
 
     path: str
@@ -67,6 +70,7 @@ class FieldSource:
     shape: tuple[int, int]
     chunks: tuple[int, int]
     chunk_times: int
+    sparse: bool = False
 
     @property
     def strain_role(self) -> str:
@@ -102,7 +106,7 @@ class FieldSource:
         with _opened(self.path) as data:
             return {
                 name: (
-                    np.asarray(data[name].values, dtype=np.float64),
+                    np.asarray(_values(self.path, data[name]), dtype=np.float64),
                     {k: str(v) for k, v in data[name].attrs.items()},
                 )
                 for name in ("y", "x")
@@ -116,7 +120,9 @@ class FieldSource:
         sizes = (rows.stop - rows.start, columns.stop - columns.start)
         lacking = {name: size for name, size in zip(("y", "x"), sizes, strict=True) if name not in part.dims}
         part = part.expand_dims(lacking).transpose("y", "x", ...)
-        values = np.asarray(part.values)
+        sides = {"y": rows, "x": columns}
+        region = tuple(sides.get(str(name), slice(0, size)) for name, size in variable.sizes.items())
+        values = _values(self.path, part, region, sparse=self.sparse)
         values = values.astype(np.float32 if values.dtype == np.float32 else np.float64, copy=False)
         factor = self.factors[role]
         if factor != 1.0:
@@ -124,7 +130,9 @@ class FieldSource:
         return np.ascontiguousarray(values.reshape(sizes[0] * sizes[1], -1))
 
 
-def open_field(path: str | os.PathLike[str], columns: Mapping[str, str] | None = None) -> FieldSource:
+def open_field(
+    path: str | os.PathLike[str], columns: Mapping[str, str] | None = None, *, sparse: bool = False
+) -> FieldSource:
     """See what a field holds, without reading its samples.
 
     Parameters
@@ -136,11 +144,14 @@ def open_field(path: str | os.PathLike[str], columns: Mapping[str, str] | None =
         Which variable plays which role, where they are not named for it: ``{"true_strain": "eyy"}``. The roles are
         time; one of true_strain, engineering_strain, stretch; one of true_stress, engineering_stress, force; with
         force, initial_area.
+    sparse : bool
+        Whether chunks of a zarr store that are not there hold no data, as where its writer leaves out chunks of
+        nothing but NaN; otherwise they are an error.
 
     Raises
     ------
     InputError
-        Naming the file and the variable, dimension or unit, what was found and what was expected.
+        Naming the file and the variable, dimension, unit or chunk, what was found and what was expected.
     """
     where = str(Path(path).absolute())
     for role in columns or {}:
@@ -152,7 +163,8 @@ def open_field(path: str | os.PathLike[str], columns: Mapping[str, str] | None =
         strain = data[names[next(role for role in STRAINS if role in names)]]
         for role, name in names.items():
             _check_dimensions(path, role, data[name], strain)
-        time = np.asarray(data[names["time"]].values, dtype=np.float64) * factors["time"]
+            _check_chunks(where, role, data[name], sparse=sparse)
+        time = np.asarray(_values(where, data[names["time"]]), dtype=np.float64) * factors["time"]
         _check_time(path, names["time"], time)
         sizes = dict(zip(strain.dims, strain.shape, strict=True))
         chunks = strain.encoding.get("preferred_chunks") or {}
@@ -164,6 +176,7 @@ def open_field(path: str | os.PathLike[str], columns: Mapping[str, str] | None =
             (sizes["y"], sizes["x"]),
             (int(chunks.get("y", sizes["y"])), int(chunks.get("x", sizes["x"]))),
             int(chunks.get("time", len(time))),
+            sparse,
         )
 
 
@@ -178,7 +191,7 @@ def _opened(path: str) -> xr.Dataset:
             opened = xarray.open_dataset(path, engine="zarr", decode_times=False, consolidated=False)
         else:
             opened = xarray.open_dataset(path, decode_times=False)
-    except (OSError, ValueError, KeyError, TypeError) as failure:
+    except Exception as failure:  # whatever a reader or a codec raises
         reason = " ".join(str(failure).split())
         raise InputError(f"{path}: expected a zarr store or a netCDF file that xarray opens, found: {reason}") from None
     found: xr.Dataset = opened
@@ -239,6 +252,39 @@ def _check_dimensions(path: object, role: str, variable: xr.DataArray, strain: x
         raise InputError(f"{path}: {variable.name}: found values of type {variable.dtype}, expected numbers")
     if role in STRAINS and 0 in strain.shape:
         raise InputError(f"{path}: {variable.name}: found the shape {variable.shape}, expected pixels and times")
+
+
+def _check_chunks(path: str, role: str, variable: xr.DataArray, *, sparse: bool) -> None:
+    """Every chunk of a zarr array there, or of those that are not, that they read as NaN."""
+    if not Path(path).is_dir():
+        return
+    lacking = first_absent(path, str(variable.name))
+    if lacking is None:
+        return
+    if not sparse or role == "time":
+        raise InputError(
+            f"{path}: {variable.name}: found no chunk {lacking}, expected it; where the writer leaves out chunks of "
+            "nothing but NaN, give --sparse"
+        )
+    fill = array_of(path, str(variable.name)).fill_value
+    if not (np.isnan(fill) or "_FillValue" in variable.encoding):
+        raise InputError(
+            f"{path}: {variable.name}: found no chunk {lacking}, which would read as {fill}, expected a fill value of "
+            "NaN with --sparse"
+        )
+
+
+def _values(path: str, variable: xr.DataArray, region: Region | None = None, *, sparse: bool = False) -> NDArray[Any]:
+    """The values of a variable, or of part of it; `region` says which part, as it lies in the file."""
+    name, in_chunks = str(variable.name), Path(path).is_dir()
+    if in_chunks and not sparse:
+        require_chunks(path, name, region)
+    try:
+        return np.asarray(variable.values)
+    except Exception as failure:  # whatever a reader or a codec raises
+        if in_chunks:
+            raise damage(path, name, region, failure) from None
+        raise InputError(f"{path}: {name}: cannot be read: {' '.join(str(failure).split())}") from None
 
 
 def _check_time(path: object, name: str, time: FloatArray) -> None:

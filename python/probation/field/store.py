@@ -6,29 +6,40 @@ import json
 import os
 import shutil
 import zlib
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation._files import refusal
 from probation.errors import InputError
+from probation.field.chunks import create, read, write
 from probation.field.extra import load
 from probation.field.status import MEANINGS, Status
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
-    import zarr
     from numpy.typing import NDArray
 
     from probation.field.grid import Block, BlockGrid
-    from probation.law import Law
 
 SCHEMA = "probation.field/1"
-LEDGER, SECONDS = "block_crc32", "block_cpu_seconds"
+LEDGER, SECONDS, SUBSTEPS = "block_crc32", "block_cpu_seconds", "block_substeps"
 _MARK = 1 << 32
 """Added to a checksum in the ledger: an entry is never 0, which stands for a block that is not done."""
+
+_RUN: dict[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("scheme", "method", "version", "field_sha256"), lambda value: isinstance(value, str)),
+    "law": lambda value: isinstance(value, dict) and "companion" in value,
+    "block": lambda value: (
+        isinstance(value, list) and len(value) == 2 and all(type(each) is int and each > 0 for each in value)
+    ),
+}
+"""What `read_run` needs to find, and whether it is of the right kind."""
 
 
 @dataclass(frozen=True)
@@ -49,15 +60,14 @@ class MapKind:
     meaning: str
 
 
-def map_kinds(law: Law) -> dict[str, MapKind]:
-    """The maps that an identification writes, by name."""
-    time_name, time_unit = law.parameter_names[1], "s" if law.companion is None else "1"
-    product = product_name(law)
+def map_kinds(*, companion: bool) -> dict[str, MapKind]:
+    """The maps that an identification writes, by name; with a companion relation, alpha stands for tau_max."""
+    time_name = "alpha" if companion else "tau_max"
     values = {
         "unrelaxed_modulus": ("MPa", "E_u"),
-        time_name: (time_unit, "longest relaxation time" if law.companion is None else "tau_max over the companion's"),
+        time_name: ("1", "tau_max over the companion's") if companion else ("s", "longest relaxation time"),
         "hardening_modulus": ("MPa", "G"),
-        product: ("MPa s" if law.companion is None else "MPa", f"E_u {time_name}, better known than its factors"),
+        product_name(time_name): ("MPa" if companion else "MPa s", f"E_u {time_name}, better known than its factors"),
     }
     kinds = {}
     for name, (unit, meaning) in values.items():
@@ -72,9 +82,9 @@ def map_kinds(law: Law) -> dict[str, MapKind]:
     }
 
 
-def product_name(law: Law) -> str:
+def product_name(time_name: str) -> str:
     """Of the map of E_u tau_max, or E_u alpha."""
-    return f"unrelaxed_modulus_times_{law.parameter_names[1]}"
+    return f"unrelaxed_modulus_times_{time_name}"
 
 
 @dataclass(frozen=True)
@@ -100,67 +110,74 @@ class MapStore:
             Path(part).parent.mkdir(parents=True, exist_ok=True)
             group = load("zarr").open_group(part, mode="w", attributes={"schema": SCHEMA, "run": dict(run)})
             for name, (values, attributes) in coordinates.items():
-                axis = group.create_array(name, shape=values.shape, dtype="<f8", dimension_names=(name,))
-                axis[...] = values
-                axis.attrs.update(attributes)
+                create(group, name, values.shape, (name,), attributes=attributes)[...] = values
             for name, kind in kinds.items():
-                group.create_array(
+                told = {"units": kind.unit, "long_name": kind.meaning}
+                create(
+                    group,
                     name,
-                    shape=self.grid.shape,
+                    self.grid.shape,
+                    ("y", "x"),
                     chunks=self.grid.block,
                     dtype=kind.dtype,
-                    fill_value=kind.fill,
-                    dimension_names=("y", "x"),
-                    attributes={"units": kind.unit, "long_name": kind.meaning},
+                    fill=kind.fill,
+                    attributes=told,
                 )
-            for name, dtype in ((LEDGER, "<u8"), (SECONDS, "<f8")):
-                group.create_array(
-                    name,
-                    shape=self.grid.count,
-                    chunks=(1, 1),
-                    dtype=dtype,
-                    fill_value=0,
-                    dimension_names=("block_y", "block_x"),
-                )
+            for name, dtype in ((LEDGER, "<u8"), (SECONDS, "<f8"), (SUBSTEPS, "<i4")):
+                create(group, name, self.grid.count, ("block_y", "block_x"), chunks=(1, 1), dtype=dtype, fill=0)
             Path(part).rename(self.path)
         except OSError as failure:
             shutil.rmtree(part, ignore_errors=True)
-            raise InputError(f"{self.path}: cannot be written: {failure.strerror or failure}") from None
+            raise refusal(self.path, failure) from None
 
-    def write(self, block: Block, maps: Mapping[str, NDArray[Any]], cpu_seconds: float) -> None:
+    def write(self, block: Block, maps: Mapping[str, NDArray[Any]], cpu_seconds: float, substeps: int) -> None:
         """One block of all maps, then its mark: killed in between, the block counts as not done.
 
         Every array has chunks that belong to this block alone, and each is replaced whole: written twice, or by two
         workers at once, it is the same.
         """
-        group = self._group("r+")
+        self._require()
         at = self.grid.slices(block)
-        for name, values in maps.items():
-            _array(group, name)[at] = values
-        _array(group, SECONDS)[block] = cpu_seconds
-        _array(group, LEDGER)[block] = _MARK + _checksum(maps)
+        try:
+            for name, values in maps.items():
+                write(self.path, name, at, values)
+            write(self.path, SECONDS, block, cpu_seconds)
+            write(self.path, SUBSTEPS, block, substeps)
+            write(self.path, LEDGER, block, mark_of(maps))
+        except OSError as failure:
+            reason = failure.strerror or failure
+            raise InputError(f"{self.path}: cannot be written: {reason}; what is done is kept") from None
 
-    def done(self, block: Block, names: Mapping[str, object]) -> bool:
-        """Whether a block is marked, and what is there is what was written."""
-        group = self._group("r")
-        mark = int(np.asarray(_array(group, LEDGER)[block]))
-        if mark == 0:
+    def done(self, block: Block, names: Iterable[str]) -> bool:
+        """Whether a block is marked, and what is there is what was written; a damaged chunk is not."""
+        self._require()
+        try:
+            mark = self._mark(block)
+            return mark != 0 and mark == mark_of(
+                {name: read(self.path, name, self.grid.slices(block)) for name in names}
+            )
+        except InputError:
             return False
-        at = self.grid.slices(block)
-        return mark == _MARK + _checksum({name: np.asarray(_array(group, name)[at]) for name in names})
 
     def marked(self) -> NDArray[np.bool_]:
-        """Which blocks are marked, without looking at what is there; of the grid's count."""
-        return np.asarray(np.asarray(_array(self._group("r"), LEDGER)[...]) != 0)
-
-    def _group(self, mode: str) -> zarr.Group:
+        """Which blocks are marked, without looking at what is there, of the grid's count; a damaged mark is none."""
+        self._require()
         try:
-            group: zarr.Group = load("zarr").open_group(self.path, mode=mode)
-        except (OSError, ValueError) as failure:
-            raise InputError(
-                f"{self.path}: found no store of maps that can be opened ({failure}); does every worker see the folder?"
-            ) from None
-        return group
+            return np.asarray(read(self.path, LEDGER, sparse=True) != 0)
+        except InputError:
+            marks: NDArray[np.bool_] = np.zeros(self.grid.count, dtype=bool)
+            for block in self.grid.blocks():
+                with suppress(InputError):
+                    marks[block] = self._mark(block) != 0
+            return marks
+
+    def _mark(self, block: Block) -> int:
+        at = tuple(slice(place, place + 1) for place in block)
+        return int(read(self.path, LEDGER, at, sparse=True).item())
+
+    def _require(self) -> None:
+        if not (Path(self.path) / "zarr.json").is_file():
+            raise InputError(f"{self.path}: found no store of maps; does every worker see the folder?")
 
 
 def read_run(path: str) -> dict[str, Any]:
@@ -174,19 +191,20 @@ def read_run(path: str) -> dict[str, Any]:
     try:
         attributes = json.loads((Path(path) / "zarr.json").read_text())["attributes"]
         found, run = attributes["schema"], attributes["run"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         found, run = "none", None
     if found != SCHEMA or not isinstance(run, dict):
         raise InputError(f"{path}: found the schema {found!r}, expected {SCHEMA!r}, as probation field identify writes")
+    for key, right in _RUN.items():
+        if not right(run.get(key)):
+            found = repr(run.get(key))[:60]
+            raise InputError(f"{path}: run: found {key} {found}, expected it as probation field identify writes")
     return run
 
 
-def _array(group: zarr.Group, name: str) -> zarr.Array[Any]:
-    return cast("zarr.Array[Any]", group[name])
-
-
-def _checksum(maps: Mapping[str, NDArray[Any]]) -> int:
+def mark_of(maps: Mapping[str, NDArray[Any]]) -> int:
+    """A block's entry in the ledger: the checksum of its maps."""
     checksum = 0
     for name in sorted(maps):
         checksum = zlib.crc32(np.ascontiguousarray(maps[name]).tobytes(), checksum)
-    return checksum
+    return _MARK + checksum

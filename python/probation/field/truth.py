@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import InputError
-from probation.field.extra import load
+from probation.field.chunks import read
 
 if TYPE_CHECKING:
     import os
@@ -44,13 +44,11 @@ class Closeness:
 def closeness(maps: FieldMaps, truth: str | os.PathLike[str]) -> tuple[Closeness, ...]:
     """One for the product and for each parameter."""
     product, *parameters = maps.names
-    try:
-        group = load("zarr").open_group(str(Path(truth).absolute()), mode="r")
-        true = {name: np.asarray(group[name][...]) for name in parameters}
-    except (OSError, ValueError, KeyError) as failure:
-        raise InputError(f"{truth}: found no maps of {', '.join(parameters)} ({failure}), expected them") from None
+    true = {name: read(str(Path(truth).absolute()), name) for name in parameters}
     good = maps.identified
     for name, values in true.items():
+        if values.dtype.kind not in "iuf":
+            raise InputError(f"{truth}: {name}: found values of type {values.dtype}, expected numbers")
         if values.shape != good.shape:
             raise InputError(f"{truth}: {name}: found the shape {values.shape}, expected {good.shape}, as of the maps")
     true[product] = true[parameters[0]] * true[parameters[1]]

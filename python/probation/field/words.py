@@ -80,9 +80,18 @@ def _origin(maps: FieldMaps) -> list[str]:
     had_data = int(np.count_nonzero(maps.maps["samples"] > 0))
     commit = f", commit {run['commit']}" if run.get("commit") else ""
     lines = [
-        f"  {run['scheme']}, {run['method']}; probation {run['version']}{commit}; field {run['field_sha256'][:16]}"
+        f"  {run['scheme']}, {_steps(maps.substeps)}, {run['method']}",
+        f"  probation {run['version']}{commit}; field {run['field_sha256'][:16]}",
     ]
     if maps.cpu_seconds > 0.0 and done:
         rate = had_data / maps.cpu_seconds
         lines.append(f"  {maps.cpu_seconds:.3g} s of CPU in all: {rate:.4g} pixels with data per second and core")
     return lines
+
+
+def _steps(substeps: tuple[int, int]) -> str:
+    """Of the scheme from sample to sample."""
+    fewest, most = substeps
+    if most == 1:
+        return "one step from sample to sample"
+    return f"{fewest if fewest == most else f'{fewest} to {most}'} steps from sample to sample"

@@ -6,7 +6,7 @@ import numpy as np
 
 from probation.histories.imposed import ImposedHistory
 from probation.histories.named import NamedHistory, Parameter, samples
-from probation.paper.necking import GRIP_SPEED, NECKING_SETS
+from probation.histories.necking import GRIP_SPEED, NECKING_SETS
 
 
 def _necking(*, set: str, grip_speed: float, samples: int) -> ImposedHistory:  # noqa: A002 - users write set=P2

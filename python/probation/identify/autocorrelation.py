@@ -59,6 +59,8 @@ def fitted_noise(
         By which all its noise was scaled.
     """
     left = noise.whiten(residual)
+    if not left.any():
+        return noise, 1.0
     neighbours = float(left[1:] @ left[:-1]) / float(left @ left)
     if len(residual) >= SHORTEST and neighbours > WORTH_A_LOOK / np.sqrt(len(left)):
 

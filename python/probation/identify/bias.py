@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.noise.moving_parabola import moving_parabola, parabola_weights
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
@@ -67,7 +69,7 @@ def low_frequency(residual: FloatArray) -> FloatArray:
     """The residual through a moving parabola over `WINDOW` of the record, shape (n_times,) [MPa]."""
     if len(residual) < SHORTEST:
         return np.full_like(residual, residual.mean())
-    return _smoothed(residual)
+    return moving_parabola(residual, _window(len(residual)))
 
 
 def bias_of(
@@ -90,30 +92,21 @@ def bias_of(
     carried : ndarray, shape (n_times, n_directions), or None
         Strain noise as stress [MPa], as in `NoiseModel`.
     """
-    from scipy.signal import savgol_coeffs  # noqa: PLC0415 - slow to load, and not every command fits
-
     low = low_frequency(residual)
     window = _window(len(residual))
     short = len(residual) < SHORTEST
-    passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(savgol_coeffs(window, 2)))
+    passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(parabola_weights(window)))
     passed *= float(np.sqrt((1.0 + correlation) / (1.0 - correlation)))
     deviation = np.full_like(low, passed * noise)
     if not short:  # near an end the parabola is held by one side only
         deviation[: window // 2] *= 2.0
         deviation[-(window // 2) :] *= 2.0
         if carried is not None:
-            deviation = np.hypot(deviation, np.linalg.norm(_smoothed(carried), axis=1))
+            deviation = np.hypot(deviation, np.linalg.norm(moving_parabola(carried, window), axis=1))
     threshold = SIGNIFICANT * deviation
     stands_out = np.abs(low) > threshold
     at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))
     return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), float(threshold[at]))
-
-
-def _smoothed(values: FloatArray) -> FloatArray:
-    """Values over time, the first axis, through the moving parabola."""
-    from scipy.signal import savgol_filter  # noqa: PLC0415
-
-    return np.asarray(savgol_filter(values, _window(len(values)), 2, axis=0), dtype=np.float64)
 
 
 def _window(count: int) -> int:

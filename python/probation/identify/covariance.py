@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.identify.parameter import IDENTIFIABLE, WEAKLY, Status
+from probation.inference.parameter import IDENTIFIABLE, WEAKLY, Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,10 +7,7 @@ strain and stress: no line of it is shared with the law, the schemes or the nois
 from __future__ import annotations
 
 import json
-import multiprocessing
-import os
 from collections import defaultdict
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,21 +16,24 @@ import numpy as np
 from scipy.special import betaincinv
 
 from probation._arrays import FloatArray, as_whole_number
+from probation._files import kind_of, read_whole, write_whole, written_to
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
-from probation.identify.parameter import SYMBOLS
-from probation.records import Campaign, Record
+from probation.inference.parameter import SYMBOLS
+from probation.pool import run_all
+from probation.records.campaign import Campaign
+from probation.records.record import Record
 from probation.report.table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
     from os import PathLike
 
     from matplotlib.figure import Figure
 
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.weighting import Weighting
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
 """Table 1's reference [MPa], [s], [MPa]."""
@@ -43,6 +43,9 @@ STRAIN_RATE, END_STRAIN, SAMPLES = 0.005, 2.0, 300
 NOMINAL = 0.95
 CONFIDENCE = 0.99
 """Of the interval of a coverage, which must contain `NOMINAL`."""
+
+LEAST_COVERAGE = 0.85
+"""A study tells that intervals hold if its draws could tell them from intervals of this coverage."""
 
 RECOMMENDED: Weighting = "auto"
 JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
@@ -113,6 +116,11 @@ class Counted:
         return low <= NOMINAL <= high
 
     @property
+    def tells(self) -> bool:
+        """Whether there are draws enough to say that an interval holds."""
+        return enough_draws(self.draws)
+
+    @property
     def all_hold(self) -> bool:
         """Whether the intervals of all parameters hold."""
         return all(self.holds(name) for name in self.hits)
@@ -144,6 +152,14 @@ class Coverage:
         if failing:
             kinds = ", ".join(failing)
             return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
+        if not enough_draws(draws):
+            lowest = min(each.interval(name)[0] for each in recommended for name in each.hits)
+            needed = next(count for count in range(draws, 1000) if enough_draws(count))
+            return (
+                f"{draws} draws are too few to tell whether the 95 % intervals of weighting {RECOMMENDED!r} hold: they "
+                f"allow a coverage of {100 * lowest:.0f} %. {needed} draws can tell 95 % from "
+                f"{100 * LEAST_COVERAGE:.0f} %."
+            )
         return (
             f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} "
             "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
@@ -179,7 +195,7 @@ class Coverage:
                     name: {
                         "coverage": each.coverage(name),
                         "interval99": list(each.interval(name)),
-                        "holds": each.holds(name),
+                        "holds": None if each.holds(name) and not each.tells else each.holds(name),
                         "bias": each.bias[name],
                     }
                     for name in each.hits
@@ -202,6 +218,11 @@ def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tup
     low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
     high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
     return low, high
+
+
+def enough_draws(draws: int) -> bool:
+    """Whether the interval of a coverage counted at `NOMINAL` would exclude `LEAST_COVERAGE`."""
+    return exact_interval(round(NOMINAL * draws), draws)[0] >= LEAST_COVERAGE
 
 
 def study(
@@ -242,14 +263,21 @@ def study(
     total = len(cases) * draws
     if progress:
         progress(total - len(jobs), total, "")
-    for done, (case, draw, result) in enumerate(_run(jobs, methods, seed, processes)):
+    done = total - len(jobs)
+
+    def keep(job: tuple[int, int], result: Result) -> None:
+        nonlocal done
+        done += 1
+        case, draw = cases[job[0]], job[1]
         found[_key(case, draw, methods)] = result
         if state is not None:
-            line = json.dumps([seed, *_key(case, draw, methods), result])
-            with Path(state).open("a", encoding="utf-8") as file:
-                file.write(line + "\n")
+            with written_to(state), Path(state).open("a", encoding="utf-8") as file:
+                file.write(json.dumps([seed, *_key(case, draw, methods), result]) + "\n")
         if progress:
-            progress(total - len(jobs) + done + 1, total, case.name)
+            progress(done, total, case.name)
+
+    arguments = {(cases.index(case), draw): (case, draw, methods, seed) for case, draw in jobs}
+    run_all(_judge, arguments, processes=processes, executor=None, progress=None, on_done=keep)
     return Coverage(
         tuple(
             _count(case, method, [found[_key(case, draw, methods)][method] for draw in range(draws)])
@@ -303,21 +331,6 @@ def _judge(case: Case, draw: int, methods: Sequence[Weighting], seed: int) -> Re
     return result
 
 
-def _run(
-    jobs: Sequence[tuple[Case, int]], methods: Sequence[Weighting], seed: int, processes: int
-) -> Iterator[tuple[Case, int, Result]]:
-    if processes == 1:
-        for case, draw in jobs:
-            yield case, draw, _judge(case, draw, methods, seed)
-        return
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # one thread each: the processes share the cores
-        os.environ.setdefault(name, "1")
-    with ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn")) as pool:
-        waiting = {pool.submit(_judge, case, draw, methods, seed): (case, draw) for case, draw in jobs}
-        for future in as_completed(waiting):
-            yield *waiting[future], future.result()
-
-
 def _count(case: Case, method: str, results: Sequence[dict[str, tuple[float, bool]]]) -> Counted:
     values: dict[str, list[float]] = defaultdict(list)
     hits: dict[str, int] = dict.fromkeys(TRUTH, 0)
@@ -334,16 +347,17 @@ def _key(case: Case, draw: int, methods: Sequence[str]) -> tuple[str, int, str]:
 
 
 def _kept(state: str | PathLike[str] | None, seed: int) -> dict[tuple[str, int, str], Any]:
-    if state is None or not Path(state).exists():
+    if state is None or kind_of(state) is None:
         return {}
     kept: dict[tuple[str, int, str], Any] = {}
-    lines = Path(state).read_text(encoding="utf-8").splitlines()
-    for number, line in enumerate(lines, 1):
+    text = read_whole(state).decode(errors="replace")
+    whole = text[: text.rfind("\n") + 1]
+    if whole != text:  # the last line was cut off while it was written; the next must not go on with it
+        write_whole(state, whole)
+    for number, line in enumerate(whole.splitlines(), 1):
         try:
             found_seed, case, draw, methods, result = json.loads(line)
-        except (json.JSONDecodeError, ValueError, TypeError):
-            if number == len(lines):
-                break  # cut off while it was written
+        except (ValueError, TypeError, RecursionError):
             raise InputError(f"{state}, line {number}: found {line[:40]!r}, expected a line of this study") from None
         if found_seed == seed:
             kept[case, draw, methods] = result

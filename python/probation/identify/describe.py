@@ -10,14 +10,12 @@ from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
-from probation.identify.parameter import SYMBOLS, UNITS, Parameter
-from probation.identify.profile import profile
+from probation.identify.ends import ends_of
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
-from probation.identify.search import search_range
 from probation.identify.strain_noise import strain_noise_warnings
-from probation.identify.variable_projection import EDGE
 from probation.identify.weighting import known_of
+from probation.inference.parameter import SYMBOLS, UNITS, Parameter
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -28,8 +26,11 @@ if TYPE_CHECKING:
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
     from probation.identify.weighting import Weighted, Weighting
-    from probation.law import Law, Scheme, Start
-    from probation.records import Campaign
+    from probation.law.modal import Law, Scheme, Start
+    from probation.records.campaign import Campaign
+
+LIKELY_MODULI = (1e-3, 1e6)
+"""Unrelaxed modulus, from the softest gel to diamond [MPa]."""
 
 
 def describe(
@@ -61,10 +62,14 @@ def describe(
     known, jacobian = known_of(problem, law, weighted)
     free, names, values = problem.free, law.parameter_names, law.parameters
     degrees = max(sum(problem.lengths) - len(free), 1)
+    ends = ends_of(problem, law, limits)
     profiles = {}
     if intervals == "profile":
+        from probation.identify.profile import profile  # noqa: PLC0415 - interpolation is slow to load
+
         quantile = float(stdtrit(degrees, 0.975))
-        profiles = {names[i]: profile(problem, weighted, known, int(i), quantile, limits) for i in free}
+        told = [int(i) for i in free if names[i] not in ends.withdrawn]
+        profiles = {names[i]: profile(problem, weighted, known, i, quantile, limits) for i in told}
     parameters: dict[str, Parameter] = {}
     warnings = list(campaign.warnings)
     for index, name in enumerate(names):
@@ -73,15 +78,17 @@ def describe(
             parameters[name] = Parameter(name, value, None, None, "held", UNITS[name])
             continue
         position = int(np.flatnonzero(free == index)[0])
-        error, relative = known.standard_error(position), float(known.relative_error[position])
+        error = None if name in ends.withdrawn else known.standard_error(position)
+        relative = float(known.relative_error[position])
         found = _parameter(name, value, error, relative, degrees, UNITS[name])
         if name in profiles:
             found = replace(found, interval95=profiles[name].interval95)
         parameters[name] = found
-        if not limits[name][0] < value * (1 + 1e-9) < limits[name][1] or value == 0.0:
-            warnings.append(f"{SYMBOLS[name]} ended at its bound, {value:.6g} {UNITS[name]}".rstrip())
-    warnings += _edge_warnings(problem, law, limits)
-    warnings += _rate_warnings(problem, law)
+    warnings += ends.warnings
+    if law.companion is not None:
+        warned = ((each.record.id, law.companion.extrapolation(each.excitation.rate)) for each in problem.records)
+        warnings += [f"{record}: {text}" for record, text in warned if text]
+    warnings += _modulus_warnings(problem, law)
     if weighting == "plain":
         warnings += strain_noise_warnings(problem.records, law)
     largest_error, shift = scheme_error(problem, problem.records, law, jacobian, known)
@@ -94,7 +101,7 @@ def describe(
         method=method,
         weighting=_used(weighting, problem, weighted),
         parameters=parameters,
-        product=_product(known, problem, law, degrees),
+        product=_product(known, problem, law, degrees, withdrawn=ends.product),
         names=tuple(names[i] for i in free),
         correlation=correlation(known.matrix),
         condition_number=known.condition_number,
@@ -118,25 +125,6 @@ def _used(weighting: Weighting, problem: Problem, weighted: Weighted) -> str:
     if weighted.resampled is not None:
         return "plain, strain noise resampled"
     return "autocorrelated" if any(noise.correlation > 0.0 for noise in problem.noises) else "plain"
-
-
-def _edge_warnings(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]]) -> list[str]:
-    """Where the search could not go on: the best tau_max (or alpha) is at an end of the range that it looks at."""
-    if problem.held[1]:
-        return []
-    name, value = law.parameter_names[1], float(law.parameters[1])
-    low, high = search_range(problem, limits)
-    if value <= low * EDGE and low > limits[name][0]:
-        end = "lower"
-    elif value >= high / EDGE and high < limits[name][1]:
-        end = "upper"
-    else:
-        return []
-    unit = f" {UNITS[name]}" if UNITS[name] else ""
-    return [
-        f"{SYMBOLS[name]}: the search ended at the {end} edge of its range, {value:.3g} of {low:.3g} to "
-        f"{high:.3g}{unit}; these records do not bound it"
-    ]
 
 
 def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
@@ -168,10 +156,11 @@ def _parameter(name: str, value: float, se: float | None, relative_error: float,
     if se is None:
         return Parameter(name, value, None, None, "not_identifiable", unit)
     reach = float(stdtrit(degrees, 0.975)) * se
-    return Parameter(name, value, se, (value - reach, value + reach), status_of(relative_error), unit)
+    interval = (max(value - reach, 0.0), value + reach)  # no parameter of the law is negative
+    return Parameter(name, value, se, interval, status_of(relative_error), unit)
 
 
-def _product(known: Covariance, problem: Problem, law: Law, degrees: int) -> Parameter:
+def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, withdrawn: bool) -> Parameter:
     """E_u tau_max (or E_u alpha) and its standard error, to first order."""
     values = law.parameters
     gradient = np.array([values[1], values[0], 0.0])[problem.free]
@@ -181,22 +170,18 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int) -> Par
     moved = [p for p, index in enumerate(problem.free) if index < 2]
     if not moved:
         return Parameter("product", value, None, None, "held", unit)
-    if not np.all(np.isfinite(known.relative_error[moved])):
+    if withdrawn or not np.all(np.isfinite(known.relative_error[moved])):
         return Parameter("product", value, None, None, "not_identifiable", unit)
     se = float(np.sqrt(max(variance, 0.0)))
     return _parameter("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
 
 
-def _rate_warnings(problem: Problem, law: Law) -> list[str]:
-    if law.companion is None:
+def _modulus_warnings(problem: Problem, law: Law) -> list[str]:
+    """No solid is softer or stiffer: a slip of the units is likelier."""
+    low, high = LIKELY_MODULI
+    if problem.held[0] or low <= law.unrelaxed_modulus <= high:
         return []
-    found = []
-    for each in problem.records:
-        outside = law.companion.outside(each.excitation.rate)
-        if outside and law.companion.calibrated:
-            low, high = law.companion.calibrated
-            found.append(
-                f"{each.record.id}: strain rates {outside[0]:.2g} to {outside[1]:.2g} 1/s leave the range in which the "
-                f"companion relation is calibrated, {low:.2g} to {high:.2g} 1/s"
-            )
-    return found
+    return [
+        f"{SYMBOLS['unrelaxed_modulus']} = {law.unrelaxed_modulus:.3g} MPa lies outside 1 kPa to 1 TPa: "
+        "are the units of stress and strain right? probation preview shows how a file is read"
+    ]

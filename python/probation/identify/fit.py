@@ -7,25 +7,25 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.companion import from_settings
 from probation.errors import InputError
-from probation.excitation import excite
 from probation.identify.describe import describe
-from probation.identify.parameter import by_inside_name, outside_name
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
 from probation.identify.scheme_error import needed_substeps
-from probation.identify.search import by_least_squares, by_simplex, first_guess
+from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
-from probation.law import SCHEMES, Law, Scheme, Start
-from probation.reduction import spectrum_of
+from probation.inference.parameter import by_inside_name, outside_name
+from probation.law.companion import from_settings
+from probation.law.modal import SCHEMES, Law, Scheme, Start
+from probation.law.reduction import spectrum_of
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from probation.excitation import Method as ExcitationMethod
-    from probation.records import Campaign
+    from probation.records.campaign import Campaign
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_modulus": 1.0}
 """Placeholders: variable projection needs no start."""
@@ -108,14 +108,15 @@ def fit(
             f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to "
             "identify; probation certify predicts with a law that is given"
         )
+    searched = {**limits, law.parameter_names[1]: search_range(problem, limits)}
     adapting = substeps == "auto" and scheme != "sa3"
     told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
-    best = _least_squares(problem, prepared, method, limits, adapting, told)
+    best = _least_squares(problem, prepared, method, searched, adapting, told)
     weighted = plainly(problem, best)
     if weighting != "plain":
-        weighted = weigh(problem, best, weighting, limits, excitation)
+        weighted = weigh(problem, best, weighting, searched, excitation)
         if adapting and weighted.carries_strain_noise:
-            weighted = _with_more_substeps(problem, weighted, weighting, limits, excitation)
+            weighted = _with_more_substeps(problem, weighted, weighting, searched, excitation)
     if progress:
         progress(0.9)
     found = describe(campaign, problem, weighted, scheme, start, method, weighting, limits, intervals)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
-from probation.excitation import excite
 from probation.identify.describe import describe
 from probation.identify.fit import base_law
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.weighting import plainly
+from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.result import Fit
-    from probation.law import Scheme, Start
-    from probation.records import Campaign
+    from probation.law.modal import Scheme, Start
+    from probation.records.campaign import Campaign
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 
 def given(

@@ -9,7 +9,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
+    from probation.smoothing.excitation import Excitation
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,8 @@ import numpy as np
 
 from probation import _core
 from probation.identify.noise_model import NoiseModel
-from probation.law import Law, Scheme, Start, make_solver
+from probation.law.modal import Law, Scheme, Start, make_solver
+from probation.records.checks import require_signal
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.excitation import Excitation
-    from probation.records import Record
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
 
 LEAST_NOISE = 1e-6
 """Least noise of a record, as a fraction of its stress range: a synthetic record has much weight, not all of it."""
@@ -53,7 +54,14 @@ class RecordProblem:
     def prepare(
         cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start, substeps: int = 1
     ) -> RecordProblem:
-        """Estimate the noise and set up the solver."""
+        """Estimate the noise and set up the solver.
+
+        Raises
+        ------
+        InputError
+            For a record whose strain does not move or that bears no stress.
+        """
+        require_signal(record)
         noise = record.noise.stress_MPa
         if noise is None:
             noise = scatter(record.time, record.true_stress)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation.identify.covariance import Covariance
     from probation.identify.problem import Problem
     from probation.identify.weighting import Weighted
-    from probation.law import Law
+    from probation.law.modal import Law
 
 Intervals = Literal["standard-error", "profile"]
 INTERVALS: tuple[Intervals, ...] = ("standard-error", "profile")

@@ -10,8 +10,9 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.identify.modelled_record import ModelledRecord
-from probation.identify.parameter import SYMBOLS, Parameter, outside_name
-from probation.law_answer import law_answer
+from probation.inference.parameter import SYMBOLS, Parameter, outside_name
+from probation.law.answer import law_answer
+from probation.report.estimate import percentage
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
-    from probation.law import Law, Scheme, Start
+    from probation.law.modal import Law, Scheme, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")
@@ -166,8 +167,8 @@ class Fit:
         """One sentence."""
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
         largest = max(float(np.max(np.abs(each.true_stress))) for each in self.records.values())
-        percent = 100.0 * self.bias_MPa / largest
-        bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({percent:.2g} % of the largest stress)"
+        part = percentage(self.bias_MPa / largest)
+        bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({part} % of the largest stress)"
         if self.bias_MPa > 2.0 * self.noise_MPa:
             quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:
@@ -194,7 +195,7 @@ class Fit:
         lines.append(f"  condition number of the scaled Jacobian: {self.condition_number:.3g}")
         lines += [
             "",
-            f"  fit residual: rms {self.rms_MPa:.4g} MPa = noise {self.noise_MPa:.4g} + bias {self.bias_MPa:.4g} MPa",
+            f"  fit residual [MPa]: rms {self.rms_MPa:.4g}, noise {self.noise_MPa:.4g}, bias {self.bias_MPa:.4g}",
         ]
         for each in self.records.values():
             lines.append(
@@ -274,9 +275,9 @@ def estimate_text(parameter: Parameter) -> str:
     if parameter.se is None or parameter.interval95 is None:
         return f"{parameter.value:.6g}"
     digits = max(int(np.ceil(-np.log10(parameter.se))) + 1, 0) if parameter.se > 0.0 else 6
-    relative = 100.0 * parameter.se / abs(parameter.value) if parameter.value else np.inf
+    relative = percentage(parameter.se / abs(parameter.value) if parameter.value else np.inf)
     low, high = parameter.interval95
     return (
-        f"{parameter.value:.{digits}f} ± {parameter.se:.{digits}f} ({relative:.2g} %), "
+        f"{parameter.value:.{digits}f} ± {parameter.se:.{digits}f} ({relative} %), "
         f"95 % [{low:.{digits}f}, {high:.{digits}f}]"
     )

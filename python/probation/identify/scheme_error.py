@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from probation.identify.covariance import Covariance
     from probation.identify.problem import Problem, RecordProblem
     from probation.identify.weighting import Weighted
-    from probation.law import Law
+    from probation.law.modal import Law
 
 NEGLIGIBLE = 0.1
 """Shift of a parameter by the scheme's own error that is let pass [standard errors]."""

@@ -15,9 +15,12 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.identify.problem import Problem
-    from probation.law import Law
+    from probation.law.modal import Law
 
 Bounds = tuple[float, float]
+
+ZERO = 1e-8
+"""A modulus over its start below which a search has ended at 0."""
 
 
 class _Scaled:
@@ -44,6 +47,10 @@ class _Scaled:
 
     def law(self, x: FloatArray) -> Law:
         return self.problem.law_at(np.where(self.is_time, np.exp(x), x) * self.size)
+
+    def ended(self, x: FloatArray) -> Law:
+        """The law where a search ended; a modulus that a search from inside left just above 0 is 0."""
+        return self.law(np.where(~self.is_time & (x < ZERO), self.lower, x))
 
     def slopes(self, x: FloatArray) -> FloatArray:
         """Derivatives of the parameters with respect to x."""
@@ -80,7 +87,7 @@ def by_least_squares(problem: Problem, start: Law, bounds: Mapping[str, Bounds])
         xtol=1e-12,
         gtol=1e-12,
     )
-    return scaled.law(found.x)
+    return scaled.ended(found.x)
 
 
 def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> Law:
@@ -104,7 +111,7 @@ def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> La
         found = result.x
         if moved < 1e-8:
             break
-    return scaled.law(found)
+    return scaled.ended(found)
 
 
 def first_guess(
@@ -122,7 +129,11 @@ def first_guess(
 
 
 def search_range(problem: Problem, bounds: Mapping[str, Bounds]) -> Bounds:
-    """Range of tau_max [s] (or alpha [-]) that is searched."""
+    """Range of tau_max [s] (or alpha [-]) that is searched: the bounds, and where one is open, what is worth it."""
     low, high = time_bounds(problem)
-    given = bounds.get(problem.law.parameter_names[1], (0.0, np.inf))
-    return max(low, given[0]), min(high, given[1])
+    lower, upper = bounds.get(problem.law.parameter_names[1], (0.0, np.inf))
+    if lower <= 0.0:
+        lower = low if upper > low else low / high * upper
+    if not np.isfinite(upper):
+        upper = high if lower < high else high / low * lower
+    return lower, upper

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.identify.problem import Problem
-    from probation.law import Law
+    from probation.law.modal import Law
 
 POINTS = 41
 """Points of the coarse search, evenly spaced in the logarithm."""

@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.excitation import excite
-from probation.excitation.segments import CLEAN
 from probation.identify.autocorrelation import fitted_noise
 from probation.identify.bias import low_frequency
 from probation.identify.covariance import Covariance, covariance
@@ -23,20 +21,22 @@ from probation.identify.search import first_guess
 from probation.identify.strain_noise import (
     CARRIED_NOISE,
     LARGEST,
-    StrainNoise,
     carried_at_end,
     left_over,
     resampled,
     share_of_error,
 )
+from probation.inference.strain_noise import StrainNoise
+from probation.smoothing.excitation import excite
+from probation.smoothing.segments import CLEAN
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.excitation import Method as ExcitationMethod
     from probation.identify.problem import Problem, RecordProblem
-    from probation.law import Law
+    from probation.law.modal import Law
+    from probation.smoothing.methods import Method as ExcitationMethod
 
 Weighting = Literal["auto", "plain", "strain-noise", "strain-noise-frozen"]
 WEIGHTINGS: tuple[Weighting, ...] = ("auto", "plain", "strain-noise", "strain-noise-frozen")
@@ -263,7 +263,9 @@ def _strain_noises(
                 moved = resampled(each, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue
-        noise = StrainNoise.of(each)
+        noise: StrainNoise | None = None
+        if each.excitation.strain_noise >= CLEAN:
+            noise = StrainNoise.of(each.excitation, each.scheme, each.start, each.substeps)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
             noise = noise if float(np.max(share)) > CARRIED_NOISE else None

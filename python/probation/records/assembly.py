@@ -1,7 +1,6 @@
 """A specimen's table to a record."""
 
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import replace
 
 from probation.records.conversions import true_stress_from
 from probation.records.extraction import dimension, dimension_warning, extract
@@ -10,11 +9,8 @@ from probation.records.profiles import Reading
 from probation.records.record import Noise, Record
 from probation.records.roles import OPTIONAL_ROLES, STRESS_ROLES
 from probation.records.source import Source
+from probation.records.start import start_doubts, with_loading
 from probation.records.table import Table
-
-FloatArray = NDArray[np.float64]
-
-_RELAXED_START = 0.02  # share of the largest strain that the first sample may already have
 
 
 def assemble(
@@ -28,6 +24,7 @@ def assemble(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
+    start: str = "relaxed",
 ) -> Record:
     """Turn the columns of one specimen into a record.
 
@@ -39,7 +36,7 @@ def assemble(
     found = extract(table, reading, options)
     measure = next(name for name in STRESS_ROLES if name in found.samples)
     area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
-    return Record(
+    record = Record(
         id=record_id,
         time=found.samples["time"],
         true_strain=found.true_strain,
@@ -54,20 +51,15 @@ def assemble(
             *found.warnings,
             *dimension_warning(reading, options, "area_mm2", area),
             *_volume_warning(measure),
-            *_start_warning(found.true_strain),
         ),
         profile=profile,
     )
+    if start == "loaded":
+        return with_loading(record)
+    return replace(record, warnings=(*record.warnings, *start_doubts(record)))
 
 
 def _volume_warning(measure: str) -> tuple[str, ...]:
     if measure == "true_stress":
         return ()
     return (f"true stress made from {measure.replace('_', ' ')} by constant volume",)
-
-
-def _start_warning(true_strain: FloatArray) -> tuple[str, ...]:
-    first, largest = float(true_strain[0]), float(np.abs(true_strain).max())
-    if abs(first) <= _RELAXED_START * largest:
-        return ()
-    return (f"the record starts at true strain {first:.4g}: the law takes that state as relaxed",)

@@ -1,19 +1,29 @@
 """Which column plays which role: what the user said, else what the profile knows, else the headings."""
 
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 
+from probation._complaint import bad_input, likely, listed, quoted
 from probation.errors import InputError
-from probation.records.complaint import bad_input, likely, listed, quoted
+from probation.records.header import without_brackets
 from probation.records.options import ReadOptions
 from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, normalised, role_of
 from probation.records.table import Column, Table
+from probation.records.units import is_percent, measures
+
+# Roles that a heading of nothing but a unit implies, where no column plays one of these already. A stress or
+# a strain may be true or engineering, so its unit alone does not tell.
+_ROLES_OF_UNITS = {"time": ("time",), "displacement": STRAIN_ROLES, "force": STRESS_ROLES}
+_WORD_END = re.compile(r"[\s_,;:]+")
 
 
 def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = True) -> dict[str, Column]:
     """Give each role its column: time, one strain, one stress, and the optional ones there are.
 
     Where a file offers several strains (or stresses), the truest is taken. Without stress, only time and
-    a strain are asked for.
+    a strain are asked for. A heading that ends in a unit of the role that it plays, or is one ("Kraft kN", "kN"),
+    gives the column that unit.
 
     Raises
     ------
@@ -31,6 +41,7 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
     for role in OPTIONAL_ROLES:
         if column := named.get(role) or implied.get(role):
             assigned[role] = column
+    assigned = {role: _with_unit_of_label(role, column) for role, column in assigned.items()}
     for role in options.units:
         if role not in assigned:
             raise InputError(
@@ -59,7 +70,29 @@ def _from_headings(table: Table) -> dict[str, Column]:
             )
         if role is not None:
             implied[role] = column
+    for role, rivals in _ROLES_OF_UNITS.items():
+        if not set(rivals) & set(implied):
+            headed = [column for column in table.columns if is_role_of_unit(role, column)]
+            if len(headed) == 1:
+                implied[role] = headed[0]
     return implied
+
+
+def is_role_of_unit(role: str, column: Column) -> bool:
+    """Tell whether the heading is nothing but a unit of the role's quantity, such as "kN" of a force."""
+    return role_of(column.name) is None and measures(without_brackets(column.label), ROLES[role].unit)
+
+
+def _with_unit_of_label(role: str, column: Column) -> Column:
+    """Take the unit from the end of the heading, where nothing else gives it and it measures what the role needs."""
+    if column.unit is not None:
+        return column
+    needed = ROLES[role].unit
+    for text in (column.label, _WORD_END.split(column.label)[-1]):
+        unit = without_brackets(text)
+        if is_percent(unit) if needed == "dimensionless" else measures(unit, needed):
+            return replace(column, unit=unit)
+    return column
 
 
 def _find(table: Table, label: str | int) -> Column:

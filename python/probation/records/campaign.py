@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
+from probation._complaint import quoted, suggestion
+from probation._text import printable
 from probation.errors import InputError
+from probation.law.settings import LawSettings
 from probation.records.campaign_file import load_campaign_file
-from probation.records.complaint import quoted, suggestion
 from probation.records.reading import read_records
 from probation.records.record import Record
 from probation.records.saving import save_campaign
-from probation.records.settings import LawSettings
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class Campaign:
     Attributes
     ----------
     name : str
+        One printable line, in which control characters are escaped.
     records : tuple of Record
         In the order of the campaign file.
     law : LawSettings
@@ -45,6 +47,7 @@ class Campaign:
     file_sha256: str = ""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "name", printable(self.name))
         object.__setattr__(self, "records", tuple(self.records))
         if not self.records:
             raise InputError(f"campaign {quoted(self.name)}: found no records, expected at least one")
@@ -155,7 +158,7 @@ class Campaign:
             If there is none.
         """
         for record in self.records:
-            if record.id == record_id:
+            if record.id == printable(record_id):
                 return record
         hint = suggestion(record_id, [record.id for record in self.records])
         raise InputError(f"campaign {quoted(self.name)}: found no record {quoted(record_id)}; {hint}")

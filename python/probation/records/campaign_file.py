@@ -6,16 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
+from probation._complaint import bad_input, quoted, suggestion
+from probation._files import kind_of, read_whole
 from probation.errors import InputError
-from probation.records.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
-from probation.records.complaint import bad_input, quoted, suggestion
+from probation.law.calibration_settings import CALIBRATION_KEYS, CalibrationSettings
+from probation.law.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
+from probation.limits import TOML_BYTES
 from probation.records.encoding import decode
 from probation.records.options import SPECIMEN_KEYS
 from probation.records.profiles import PROFILES
 from probation.records.reading import read_record
 from probation.records.record import CONTROLS, RECORD_ROLES, Noise, Record
 from probation.records.roles import ROLES
-from probation.records.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
+from probation.records.start import STARTS
 from probation.records.temperatures import with_temperature
 from probation.records.toml_table import TomlTable
 
@@ -32,6 +35,7 @@ _RECORD_KEYS = (
     "specimen_index",
     "sheet",
     "noise",
+    "start",
     "temperature_file",
     "temperature_C",
 )
@@ -62,10 +66,7 @@ def load_campaign_file(path: Path) -> CampaignFile:
         At the first thing that is wrong in the campaign or in one of its files.
     """
     path = _campaign_path(path)
-    try:
-        data = path.read_bytes()
-    except OSError as failure:
-        raise InputError(f"{path}: cannot be read: {failure.strerror}") from None
+    data = read_whole(path, TOML_BYTES)
     top = TomlTable.load(path, decode(path, data)[0])
     top.only(("name", "law", "record"))
     law = _law(top.table("law"))
@@ -86,11 +87,12 @@ def load_campaign_file(path: Path) -> CampaignFile:
 
 
 def _campaign_path(path: Path) -> Path:
-    if path.is_dir():
-        if not (path / FILE_NAME).is_file():
+    what = kind_of(path)
+    if what == "a folder":
+        if kind_of(path / FILE_NAME) is None:
             raise bad_input(path, f"no {FILE_NAME}", "a campaign folder", remedy=f"write {FILE_NAME} into it")
         return path / FILE_NAME
-    if not path.is_file():
+    if what is None:
         raise InputError(f"{path}: found no such file or folder; expected a campaign folder or its {FILE_NAME}")
     return path
 
@@ -163,8 +165,11 @@ def _record(folder: Path, entry: TomlTable) -> Record:
     noise.only(("stress_MPa", "strain"))
     levels = {name: noise.number(name) for name in noise.values}
     for name, level in levels.items():
-        if level < 0:
-            raise noise.complain(name, f"{name} = {level}", "a number of at least 0")
+        try:
+            Noise(**{name: level})
+        except InputError as failure:
+            expected = str(failure).partition(", expected ")[2]
+            raise noise.complain(name, f"{name} = {level}", expected) from None
     profiles = [profile.name for profile in PROFILES]
     index = entry.whole_number("specimen_index") if "specimen_index" in entry.values else None
     record = read_record(
@@ -179,6 +184,7 @@ def _record(folder: Path, entry: TomlTable) -> Record:
         control=entry.text("control", default="other", known=CONTROLS),
         role=entry.text("role", default="identify", known=RECORD_ROLES),
         noise=Noise(stress_MPa=levels.get("stress_MPa"), strain=levels.get("strain")),
+        start=entry.text("start", default="relaxed", known=STARTS),
     )
     if "temperature_file" in entry.values:
         return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
@@ -199,10 +205,11 @@ def _label(columns: TomlTable, role: str) -> str | int:
 def _existing(folder: Path, entry: TomlTable, key: str) -> Path:
     name = entry.text(key)
     path = folder / name
-    if not path.exists():
-        beside = sorted(p.name for p in path.parent.iterdir() if p.is_file()) if path.parent.is_dir() else []
+    if kind_of(path) is None:
+        folder = path.parent
+        beside = sorted(p.name for p in folder.iterdir() if p.is_file()) if kind_of(folder) == "a folder" else []
         beside = [other for other in beside if other != FILE_NAME]
-        remedy = suggestion(name, beside) if beside else f"{path.parent} holds no file"
+        remedy = suggestion(name, beside) if beside else f"{folder} holds no file"
         raise entry.complain(key, f"{key} = {quoted(name)}", "a file that exists", remedy)
     return path
 

@@ -2,9 +2,18 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from probation._complaint import quoted
+from probation.errors import InputError
+from probation.limits import LARGEST, SHORTEST_STEP, SMALLEST
+from probation.records.roles import ROLES
+
+if TYPE_CHECKING:
+    from probation.records.record import Record
 
 FloatArray = NDArray[np.float64]
 
@@ -29,6 +38,27 @@ class Fault:
     found: str
     expected: str
     remedy: str = ""
+
+
+def require_signal(record: "Record") -> None:
+    """Refuse a record that a law cannot be put against: its strain does not move, or it bears no stress.
+
+    Raises
+    ------
+    InputError
+        It names the record.
+    """
+    strain = record.true_strain
+    if np.ptp(strain) == 0.0:
+        raise InputError(
+            f"record {quoted(record.id)}: found a true strain of {strain[0]:.4g} at every sample, expected a strain "
+            "that changes; check the column, or leave the record out"
+        )
+    if not record.true_stress.any():
+        raise InputError(
+            f"record {quoted(record.id)}: found a true stress of 0 MPa at every sample, expected a test under load; "
+            "check the column and its unit, or leave the record out"
+        )
 
 
 def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES) -> Fault | None:
@@ -59,5 +89,46 @@ def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES
             f"{time[at]:.10g} again" if repeats else f"time going back from {time[at - 1]:.10g} to {time[at]:.10g}",
             "time that increases from row to row",
             "remove the repeated row" if steps[at - 1] == 0 else "sort the rows, or split the file where time restarts",
+        )
+    return None
+
+
+def find_excess(samples: Mapping[str, FloatArray]) -> Fault | None:
+    """First sample beyond what physics allows (`limits.LARGEST`, `limits.SHORTEST_STEP`), or None.
+
+    Parameters
+    ----------
+    samples : mapping of str to ndarray, shape (n,)
+        By quantity, in internal units and without other faults; the first of them is the time.
+    """
+    for quantity, values in samples.items():
+        largest = LARGEST[quantity]
+        beyond = np.flatnonzero(np.abs(values) > largest)
+        if beyond.size:
+            unit = ROLES[quantity].unit.removeprefix("dimensionless")
+            return Fault(
+                quantity,
+                int(beyond[0]),
+                f"{values[beyond[0]]:.4g} {unit}".rstrip(),
+                f"at most {largest:g} {unit}".rstrip() + " in magnitude",
+                'strain in percent? say units = { true_strain = "%" }'
+                if quantity == "true_strain"
+                else "check the number and its unit",
+            )
+        magnitude = float(np.abs(values).max())
+        if 0.0 < magnitude < SMALLEST.get(quantity, 0.0):
+            at = int(np.abs(values).argmax())
+            least = f"at least {SMALLEST[quantity]:g} {ROLES[quantity].unit.removeprefix('dimensionless')}".rstrip()
+            return Fault(quantity, at, f"{magnitude:.4g} as the largest", least, "check the numbers and their unit")
+    quantity, time = next(iter(samples.items()))
+    short = np.flatnonzero(np.diff(time) < SHORTEST_STEP)
+    if short.size:
+        step = time[short[0] + 1] - time[short[0]]
+        return Fault(
+            quantity,
+            int(short[0]) + 1,
+            f"{step:.4g} s after the sample before",
+            f"at least {SHORTEST_STEP:g} s",
+            "check the unit of time",
         )
     return None

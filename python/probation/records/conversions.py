@@ -29,7 +29,7 @@ def stretch_from(role: str, values: FloatArray, gauge_length: float | None = Non
     """
     match role:
         case "true_strain":
-            with np.errstate(over="ignore"):  # strain in percent may overflow; a warning is on its way
+            with np.errstate(over="ignore"):  # strain in percent may overflow; it is refused next
                 return np.exp(values)
         case "engineering_strain":
             return 1.0 + values

@@ -4,8 +4,8 @@ import codecs
 import re
 from pathlib import Path
 
+from probation._complaint import bad_input
 from probation.errors import InputError
-from probation.records.complaint import bad_input
 
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 _HIGH_BYTES = re.compile(rb"[\x80-\xff]+")

@@ -1,24 +1,30 @@
 """A table's columns to checked samples in MPa, s, mm and true strain; the padding cut, every doubt noted."""
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._complaint import bad_input, joined, listed, quoted
 from probation.errors import InputError
-from probation.records.assignment import assign_columns
-from probation.records.checks import MINIMUM_SAMPLES, find_fault
-from probation.records.complaint import bad_input, quoted
+from probation.records.assignment import assign_columns, is_role_of_unit
+from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
 from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES
+from probation.records.strain_limits import (
+    expected_strain,
+    impossible_sample,
+    remedy_for_strain,
+    stating_percent,
+    strain_doubts,
+)
 from probation.records.table import Column, Table
 from probation.records.units import convert
 
 FloatArray = NDArray[np.float64]
-
-_LARGEST_LIKELY_STRAIN = 5.0
 
 
 @dataclass(frozen=True)
@@ -80,17 +86,23 @@ def extract(
     samples = {
         role: _in_internal_units(table, role, columns[role], values, options) for role, values in raw.samples.items()
     }
+    _check_extent(table, columns, samples)
     role = next(role for role in STRAIN_ROLES if role in columns)
+    column = columns[role]
+    stated = role in options.units or column.unit is not None or bool(table.roles)  # a profile knows its strain
     length = dimension(table, reading, options, "gauge_length_mm", role) if role == "displacement" else None
     stretch = stretch_from(role, samples[role], length)
-    _check_stretch(table, columns[role], raw.samples[role], stretch, raw.rows)
+    _check_stretch(table, role, column, raw, stretch, stated)
     true_strain = true_strain_from(role, samples[role], length)
+    _check_strain(table, role, column, raw, samples[role], true_strain, stated)
     warnings = (
         *reading.warnings,
         *raw.notes,
         *_unit_warnings(columns, options),
+        *_unstated_units(table, columns, raw.samples, options),
+        *_roles_of_units(table, columns, options),
         *dimension_warning(reading, options, "gauge_length_mm", length),
-        *_percent_warning(role, columns[role], samples[role], true_strain, options),
+        *strain_doubts(role, column, samples[role], stated),
     )
     return Extraction(samples=samples, true_strain=true_strain, stretch=stretch, warnings=warnings)
 
@@ -159,6 +171,19 @@ def _check_samples(table: Table, columns: dict[str, Column], samples: dict[str, 
     )
 
 
+def _check_extent(table: Table, columns: dict[str, Column], samples: dict[str, FloatArray]) -> None:
+    """Refuse numbers beyond what physics allows, once their unit is known."""
+    if fault := find_excess(samples):
+        raise bad_input(
+            table.path,
+            fault.found,
+            fault.expected,
+            row=table.row_numbers[fault.sample],
+            column=columns[fault.quantity].label,
+            remedy=fault.remedy,
+        )
+
+
 def _in_internal_units(table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions) -> FloatArray:
     unit = options.units.get(role) or column.unit
     if unit is None:
@@ -176,16 +201,33 @@ def _in_internal_units(table: Table, role: str, column: Column, values: FloatArr
         ) from None
 
 
-def _check_stretch(table: Table, column: Column, raw: FloatArray, stretch: FloatArray, rows: list[int]) -> None:
+def _check_stretch(table: Table, role: str, column: Column, raw: _Raw, stretch: FloatArray, stated: bool) -> None:
     bad = np.flatnonzero(stretch <= 0)
     if bad.size:
+        percent = "" if stated or role != "engineering_strain" else f"; if it is in percent, {stating_percent(role)}"
         raise bad_input(
             table.path,
-            f"{raw[bad[0]]:.10g}, a stretch of {stretch[bad[0]]:.6g}",
+            f"{raw.samples[role][bad[0]]:.10g}, a stretch of {stretch[bad[0]]:.6g}",
             "a positive stretch",
-            row=rows[bad[0]],
+            row=raw.rows[bad[0]],
             column=column.label,
-            remedy="check which strain measure, unit and gauge length this column has",
+            remedy="check which strain measure, unit and gauge length this column has" + percent,
+        )
+
+
+def _check_strain(
+    table: Table, role: str, column: Column, raw: _Raw, values: FloatArray, true_strain: FloatArray, stated: bool
+) -> None:
+    bad = impossible_sample(role, values, true_strain, stated)
+    if bad is not None:
+        unit = f" {column.unit}" if column.unit else "" if stated else " without a unit"
+        raise bad_input(
+            table.path,
+            f"{role.replace('_', ' ')} {raw.samples[role][bad]:.10g}{unit}",
+            expected_strain(role, stated),
+            row=raw.rows[bad],
+            column=column.label,
+            remedy=remedy_for_strain(role, stated),
         )
 
 
@@ -197,16 +239,41 @@ def _unit_warnings(columns: dict[str, Column], options: ReadOptions) -> list[str
     ]
 
 
-def _percent_warning(
-    role: str, column: Column, values: FloatArray, true_strain: FloatArray, options: ReadOptions
+def _unstated_units(
+    table: Table, columns: Mapping[str, Column], used: Collection[str], options: ReadOptions
 ) -> tuple[str, ...]:
-    """Doubt strains above 5: always true ones, engineering ones where no unit was given."""
-    unit_is_given = role in options.units or column.unit is not None
-    doubted = values if role == "engineering_strain" and not unit_is_given else true_strain
-    largest = float(np.abs(doubted).max())
-    if largest <= _LARGEST_LIKELY_STRAIN:
+    """Say which unit is assumed for a column that states none; a strain without unit is a number and needs none.
+
+    Parameters
+    ----------
+    table : Table
+    columns : mapping of str to Column
+        By role.
+    used : collection of str
+        The roles that are read.
+    options : ReadOptions
+    """
+    bare = {
+        role: column
+        for role, column in columns.items()
+        if role in used and column.unit is None and role not in options.units and ROLES[role].unit != "dimensionless"
+    }
+    if not bare:
         return ()
+    noun = "column" if len(bare) == 1 else "columns"
+    labels = listed((column.label for column in bare.values()), "and")
+    assumed = joined((ROLES[role].unit.replace("degC", "°C") for role in bare), "and")
+    entries = ", ".join(f'{role} = "…"' for role in bare)
     return (
-        f"strain in percent? column {quoted(column.label)} reaches {largest:.4g}; "
-        f'if so, say units = {{ {role} = "%" }}',
+        f"no unit is stated for {noun} {labels} of {table.path.name}: {assumed} assumed; "
+        f"if that is wrong, say units = {{ {entries} }}",
     )
+
+
+def _roles_of_units(table: Table, columns: Mapping[str, Column], options: ReadOptions) -> list[str]:
+    return [
+        f"column {quoted(column.label)} is read as {role}: its heading is a unit and nothing else; "
+        f"if that is wrong, say columns = {{ … }}"
+        for role, column in columns.items()
+        if role not in options.columns and not table.roles and is_role_of_unit(role, column)
+    ]

@@ -6,14 +6,15 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from probation.records.complaint import bad_input
+from probation._complaint import bad_input
+from probation.limits import CELL_CHARACTERS, CELLS, COLUMNS, LINE_CHARACTERS, ROWS
 from probation.records.source import Source
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}
 _SNIFFED_LINES = 200
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
-_WITH_COMMA = re.compile(r"^\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*$", re.MULTILINE)
-_WITH_POINT = re.compile(r"^\s*[+-]?\d*\.\d+([eE][+-]?\d+)?\s*$", re.MULTILINE)
+_WITH_COMMA = re.compile(r"^[^\S\n]*[+-]?\d*,\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
+_WITH_POINT = re.compile(r"^[^\S\n]*[+-]?\d*\.\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,10 @@ def read_grid(source: Source) -> Grid:
     Raises
     ------
     InputError
-        If no line holds a separator, or a quote is never closed.
+        If no line holds a separator, a quote is never closed, or a limit is exceeded.
     """
     text = source.text.replace("\r\n", "\n").replace("\r", "\n")
+    _check_lines(source, text)
     separator = sniff_separator(text)
     if separator is None:
         raise bad_input(
@@ -56,21 +58,68 @@ def read_grid(source: Source) -> Grid:
     rows: list[list[str]] = []
     row_numbers: list[int] = []
     reader = csv.reader(io.StringIO(text, newline="\n"), delimiter=separator, skipinitialspace=True)
-    last_line = 0
+    last_line = cells = 0
     try:
         for row in reader:
             if row:
                 rows.append(row)
                 row_numbers.append(last_line + 1)
+                cells += len(row)
+                check_extent(source, last_line + 1, len(row), cells)
             last_line = reader.line_num
     except csv.Error as failure:
+        too_long = f"a cell of more than {CELL_CHARACTERS} characters" if "field limit" in str(failure) else ""
         raise bad_input(
             source.path,
-            f"text that is no CSV ({failure})",
+            f"text that is no CSV ({too_long or failure})",
             "quotes that close on their own row",
             row=last_line + 1,
         ) from None
     return Grid(rows=rows, row_numbers=row_numbers, separator=SEPARATORS[separator])
+
+
+def _check_lines(source: Source, text: str) -> None:
+    """Refuse a flood of lines, or an endless one, before anything is split."""
+    if text.count("\n") > ROWS:
+        check_extent(source, ROWS + 1, 0, 0)
+    for number, line in enumerate(text.split("\n"), start=1):
+        if len(line) > LINE_CHARACTERS:
+            raise bad_input(
+                source.path,
+                f"a line of {len(line)} characters",
+                f"at most {LINE_CHARACTERS}",
+                row=number,
+                remedy="write one row of the table on each line",
+            )
+
+
+def check_extent(source: Source, row: int, columns: int, cells: int) -> None:
+    """Refuse a table beyond the limits, while it is read.
+
+    Parameters
+    ----------
+    source : Source
+    row : int
+        Of the file, counted from 1.
+    columns : int
+        Cells of this row.
+    cells : int
+        Of all rows so far.
+
+    Raises
+    ------
+    InputError
+        Naming the row.
+    """
+    for found, most, what in ((row, ROWS, "rows"), (columns, COLUMNS, "columns"), (cells, CELLS, "cells")):
+        if found > most:
+            raise bad_input(
+                source.path,
+                f"more than {most} {what}",
+                f"at most {most}",
+                row=row,
+                remedy="keep fewer samples, or only the columns that are used",
+            )
 
 
 def sniff_separator(text: str) -> str | None:
@@ -93,7 +142,10 @@ def _number_share(lines: Sequence[str], separator: str) -> float:
     """Sum over the lines of the share of filled cells that are numbers."""
     total = 0.0
     for line in lines:
-        cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+        try:
+            cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+        except csv.Error:  # a cell beyond the limit: `read_grid` names its row
+            continue
         filled = [cell for cell in cells if cell.strip()]
         if len(cells) > 1 and filled:
             total += sum(map(is_number, filled)) / len(filled)

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from probation.records.grid import Grid, is_number
 from probation.records.roles import normalised, role_of, split_suffix
 from probation.records.table import Column
-from probation.records.units import is_unit
+from probation.records.units import is_percent, is_unit, measures
 
 _SEARCHED_ROWS = 400
+_LABORATORY_UNITS = ("s", "mm", "N", "MPa", "1/s")
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]([^()\[\]]*)[)\]]\s*")
 _BRACKETED_ALONE = re.compile(r"[(\[](.*)[)\]]")
 _SLASHED = re.compile(r"([^/]*[^/\s])\s*/\s*(\S{1,12})")
@@ -38,7 +39,9 @@ def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
     """Find the headings, whatever metadata stands above and units stand below them.
 
     The heading row is the one that names the wanted columns or, by the usual names, at least two
-    quantities; failing that, the row of text above the first row of numbers.
+    quantities; failing that, the row of text above the first row of numbers, or the row above it where
+    that one holds units. A row of text between headings and numbers that holds any unit is a row of
+    units, whatever its other cells say.
 
     Parameters
     ----------
@@ -47,22 +50,20 @@ def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
         Labels that the user named.
     """
     rows = grid.rows[:_SEARCHED_ROWS]
-    units_row: Sequence[str]
     header = _row_naming(rows, wanted)
-    if header is not None:
-        after = header + 1
-        first = after + 1 if after < len(rows) and _is_units_row(rows[after]) else after
-        units_row = rows[after] if first > after else []
-    else:
-        first = next((at for at, row in enumerate(rows) if _is_data_row(row)), len(rows))
-        header, units_row = first - 1, []
-        if header > 0 and _is_units_row(rows[header]):
-            header, units_row = header - 1, rows[header]
+    if header is None:
+        first = _first_data_row(rows, 0)
+        header = first - 1
+        if header > 0 and _names_units_of(rows[header - 1], rows[header]):
+            header -= 1
         if header < 0 or not any(cell.strip() for cell in rows[header]):
             return Heading(columns=_numbered(len(rows[0])), row=None, first=first)
+    units = next((at for at in range(header + 1, _first_data_row(rows, header + 1)) if _is_units_row(rows[at])), None)
+    first = header + 1 if units is None else units + 1
     while first < len(rows) and not any(cell.strip() for cell in rows[first]):
         first += 1
-    return Heading(columns=_columns(rows[header], units_row), row=header, first=first)
+    columns = _columns(rows[header], [] if units is None else rows[units])
+    return Heading(columns=columns, row=header, first=first)
 
 
 def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str]) -> int | None:
@@ -85,11 +86,31 @@ def _is_data_row(row: Sequence[str]) -> bool:
     return count >= 2 and count > len(filled) / 2
 
 
+def _first_data_row(rows: Sequence[Sequence[str]], start: int) -> int:
+    """Index of the first row of numbers from `start` on; the number of rows where there is none."""
+    return next((at for at in range(start, len(rows)) if _is_data_row(rows[at])), len(rows))
+
+
 def _is_units_row(row: Sequence[str]) -> bool:
+    """At least one cell is a unit, and none is a number or the name of a quantity; 1 is the unit of a strain."""
     filled = [cell.strip() for cell in row if cell.strip()]
-    if not filled or any(map(is_number, filled)):
+    if any(cell != "1" and (is_number(cell) or role_of(cell) is not None) for cell in filled):
         return False
-    return all(is_unit(_without_brackets(cell)) for cell in filled)
+    return any(map(_is_laboratory_unit, filled))
+
+
+def _names_units_of(names: Sequence[str], units: Sequence[str]) -> bool:
+    """The second row is one of units, and the first has a name, no number, above each of them."""
+    if not _is_units_row(units) or any(map(is_number, names)):
+        return False
+    named = {at for at, cell in enumerate(names) if cell.strip()}
+    return all(at in named for at, cell in enumerate(units) if _is_laboratory_unit(cell))
+
+
+def _is_laboratory_unit(cell: str) -> bool:
+    """The cell is a unit that a heading cannot be mistaken for: not "strain", "cycle" or "t"."""
+    text = without_brackets(cell)
+    return is_percent(text) or any(measures(text, unit) for unit in _LABORATORY_UNITS)
 
 
 def _columns(row: Sequence[str], units_row: Sequence[str]) -> tuple[Column, ...]:
@@ -98,7 +119,7 @@ def _columns(row: Sequence[str], units_row: Sequence[str]) -> tuple[Column, ...]
         label = _one_line(cell)
         name, unit = split_unit(label)
         if position < len(units_row) and units_row[position].strip():
-            unit = _without_brackets(units_row[position])
+            unit = without_brackets(units_row[position])
         columns.append(Column(label=label, name=name, unit=unit, position=position))
     return tuple(columns)
 
@@ -125,7 +146,8 @@ def _numbered(width: int) -> tuple[Column, ...]:
     return tuple(Column(label=f"{at + 1}", name=f"{at + 1}", unit=None, position=at) for at in range(width))
 
 
-def _without_brackets(text: str) -> str:
+def without_brackets(text: str) -> str:
+    """Strip the brackets that may stand around a unit: "(kN)" becomes "kN"."""
     match = _BRACKETED_ALONE.fullmatch(text.strip())
     return match[1].strip() if match else text.strip()
 

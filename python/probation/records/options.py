@@ -4,8 +4,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from probation._complaint import quoted, suggestion
 from probation.errors import InputError
-from probation.records.complaint import quoted, suggestion
 from probation.records.roles import ROLES, STRAIN_ROLES, STRESS_ROLES
 
 SPECIMEN_KEYS = ("area_mm2", "gauge_length_mm")

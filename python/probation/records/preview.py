@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._text import printable
 from probation.records.assignment import assign_columns
 from probation.records.noise import scatter
 from probation.records.options import ReadOptions, read_options
@@ -78,16 +79,17 @@ class Preview:
         """All of it as text, the verdict first, with a plot of each record."""
         parts = [self._verdict(), self._layout(), self._columns()]
         if self.metadata:
-            parts.append("\n".join(["metadata", *(f"  {key}: {text}" for key, text in self.metadata.items())]))
+            facts = (printable(f"{key}: {text}") for key, text in self.metadata.items())
+            parts.append("\n".join(["metadata", *(f"  {fact}" for fact in facts)]))
         parts += [_describe(record) for record in self.records]
         parts.append(self._first_rows())
         return "\n\n".join(parts)
 
     def plot(self) -> "Figure":
         """Stress over strain, and both over time, of every record."""
-        from matplotlib.figure import Figure  # noqa: PLC0415 - a second that reading need not wait for
+        from probation.report.figures import new_figure  # noqa: PLC0415 - a second that reading need not wait for
 
-        figure = Figure(figsize=(10.0, 4.0), layout="constrained")
+        figure = new_figure(10.0, 4.0)
         over_strain, over_time = figure.subplots(1, 2)
         strain_axis = over_time.twinx()
         for record in self.records:
@@ -102,7 +104,7 @@ class Preview:
         return figure
 
     def _verdict(self) -> str:
-        known = f"{self.path}: reads as {self.profile} ({self.title})"
+        known = f"{printable(str(self.path))}: reads as {self.profile} ({self.title})"
         if self.auxiliary:
             return f"{known}: {self.auxiliary}, no stress-strain record"
         count = len(self.records)
@@ -118,18 +120,16 @@ class Preview:
         return "layout    " + ", ".join(([f"encoding {self.encoding}"] if self.encoding else []) + facts)
 
     def _columns(self) -> str:
-        width = max(len(label) for label, _, _ in self.columns)
-        lines = [
-            f"  {label:<{width}}  {unit or 'no unit':<8}  {'→ ' + role if role else 'not used'}"
-            for label, unit, role in self.columns
-        ]
+        shown = [(printable(label), printable(unit or "no unit"), role) for label, unit, role in self.columns]
+        width = max(len(label) for label, _, _ in shown)
+        lines = [f"  {label:<{width}}  {unit:<8}  {'→ ' + role if role else 'not used'}" for label, unit, role in shown]
         return "\n".join(["columns", *lines])
 
     def _first_rows(self) -> str:
         """Show the first rows of the columns in use; of all where none is."""
         used = [at for at, (_, _, role) in enumerate(self.columns) if role] or list(range(len(self.columns)))
         headed = [tuple(label for label, _, _ in self.columns), *self.first_rows]
-        lines = ("  " + "  ".join(row[at].strip() for at in used) for row in headed)
+        lines = ("  " + "  ".join(printable(row[at].strip()) for at in used) for row in headed)
         return "\n".join(["first rows", *lines])
 
 
@@ -185,10 +185,11 @@ def _columns_with_roles(
 ) -> tuple[tuple[str, str | None, str | None], ...]:
     assigned: dict[str, Column] = {} if reading.auxiliary else assign_columns(table, options)
     roles = {column.position: role for role, column in assigned.items()}
+    stated = {column.position: column.unit for column in assigned.values()}
     return tuple(
         (
             column.label or "(no heading)",
-            options.units.get(roles.get(column.position, "")) or column.unit,
+            options.units.get(roles.get(column.position, "")) or stated.get(column.position, column.unit),
             roles.get(column.position),
         )
         for column in table.columns

@@ -4,13 +4,14 @@ from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
+from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
 from probation.records.assembly import assemble
-from probation.records.complaint import bad_input, quoted
 from probation.records.options import ReadOptions, read_options
 from probation.records.profiles import Profile, Reading, find_profile
 from probation.records.record import Noise, Record
 from probation.records.source import Source
+from probation.records.start import STARTS
 from probation.records.table import Table
 
 
@@ -27,6 +28,7 @@ def read_records(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
+    start: str = "relaxed",
 ) -> tuple[Record, ...]:
     """Read every specimen of a file.
 
@@ -54,6 +56,8 @@ def read_records(
         By default the file's name without ending, and the specimen's number where there are several.
     control, role, noise
         As in `Record`.
+    start : {"relaxed", "loaded"}
+        "loaded": the record is cut at its start, and the ramp from zero strain that is missing is put before it.
 
     Returns
     -------
@@ -77,7 +81,11 @@ def read_records(
     source, found, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
-    return assemble_all(source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise)
+    if start not in STARTS:
+        raise InputError(f"{path}: start: found {start!r}; {suggestion(start, STARTS)}")
+    return assemble_all(
+        source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise, start=start
+    )
 
 
 def read_record(
@@ -93,6 +101,7 @@ def read_record(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
+    start: str = "relaxed",
 ) -> Record:
     """Read one specimen of a file; parameters as in `read_records`.
 
@@ -113,6 +122,7 @@ def read_record(
         control=control,
         role=role,
         noise=noise,
+        start=start,
     )
     if len(records) > 1:
         raise several_specimens(Path(path), len(records))
@@ -148,6 +158,7 @@ def assemble_all(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
+    start: str = "relaxed",
 ) -> tuple[Record, ...]:
     """Turn the specimens asked for into records, named after the file unless named."""
     stem = record_id or source.path.name.split(".")[0] or source.path.name
@@ -163,6 +174,7 @@ def assemble_all(
             control=control,
             role=role,
             noise=noise,
+            start=start,
         )
         for number, table in chosen_tables(source.path, reading, options.specimen_index)
     )

@@ -7,9 +7,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._complaint import quoted, suggestion
+from probation._text import printable
 from probation.errors import InputError
-from probation.records.checks import find_fault
-from probation.records.complaint import quoted, suggestion
+from probation.limits import LARGEST, SMALLEST_PARAMETER
+from probation.records.checks import find_excess, find_fault
+from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
 
 FloatArray = NDArray[np.float64]
 
@@ -35,6 +38,11 @@ class Noise:
         for name, value in (("stress_MPa", self.stress_MPa), ("strain", self.strain)):
             if value is not None and not 0.0 <= value < np.inf:
                 raise InputError(f"noise.{name}: found {value!r}, expected a number of at least 0")
+            largest = LARGEST["true_stress" if name == "stress_MPa" else "true_strain"]
+            if value is not None and value != 0.0 and not SMALLEST_PARAMETER <= value <= largest:
+                raise InputError(
+                    f"noise.{name}: found {value!r}, expected 0 or a number from {SMALLEST_PARAMETER:g} to {largest:g}"
+                )
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +54,7 @@ class Record:
     Attributes
     ----------
     id : str
-        Unique within a campaign.
+        Unique within a campaign; one printable line, in which control characters are escaped.
     time : ndarray, shape (n,) [s]
         Strictly increasing, at least ten samples; need not start at zero.
     true_strain : ndarray, shape (n,) [-]
@@ -72,8 +80,9 @@ class Record:
     Raises
     ------
     InputError
-        If a sample is not finite, the shapes differ, time does not increase, there are fewer than
-        ten samples, or control or role is unknown.
+        If a sample is not finite or beyond what physics allows (`limits.LARGEST`), the shapes differ, time does not
+        increase, there are fewer than ten samples, a true strain is beyond 5 (a stretch of 148), or control or role is
+        unknown.
     """
 
     id: str
@@ -94,13 +103,20 @@ class Record:
     def __post_init__(self) -> None:
         if not isinstance(self.id, str) or not self.id.strip():
             raise InputError(f"record: found the id {self.id!r}, expected some text")
+        object.__setattr__(self, "id", printable(self.id))
         for name in SAMPLED:
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, self._as_samples(name))
-        if fault := find_fault(self.samples):
+        if fault := find_fault(self.samples) or find_excess(self.samples):
             raise InputError(
                 f"record {quoted(self.id)}, {fault.quantity}, sample {fault.sample}: "
                 f"found {fault.found}, expected {fault.expected}"
+            )
+        largest = int(np.argmax(np.abs(self.true_strain)))
+        if abs(self.true_strain[largest]) > LARGEST_TRUE_STRAIN:
+            raise InputError(
+                f"record {quoted(self.id)}, true_strain, sample {largest}: found {self.true_strain[largest]:.10g}, "
+                f"expected {expected_strain('true_strain', stated=True)}; divide by 100 if it is in percent"
             )
         for name, value, known in (("control", self.control, CONTROLS), ("role", self.role, RECORD_ROLES)):
             if value not in known:

@@ -11,7 +11,7 @@ class Role:
     Attributes
     ----------
     unit : str
-        The internal unit, as pint spells it.
+        The internal unit, as `units` spells it.
     kind : str
         What the unit must measure, with an example, for error messages.
     headings : frozenset of str

@@ -1,14 +1,13 @@
 """Records and settings to files: campaign.toml and default CSVs, whole or not at all."""
 
 import json
-import os
 import re
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from probation._files import make_folder, write_whole
+from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.record import Record
-from probation.records.settings import CompanionSettings, LawSettings
 
 _HEADINGS = {
     "time": "time_s",
@@ -28,12 +27,12 @@ def save_campaign(folder: Path, name: str, law: LawSettings, records: Sequence[R
     Path
         The campaign.toml.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     file_names = _file_names([record.id for record in records])
     for record, file_name in zip(records, file_names, strict=True):
-        write_atomically(folder / file_name, csv_text(record))
+        write_whole(folder / file_name, csv_text(record))
     path = folder / "campaign.toml"
-    write_atomically(path, campaign_text(name, law, records, file_names))
+    write_whole(path, campaign_text(name, law, records, file_names))
     return path
 
 
@@ -77,19 +76,6 @@ def companion_text(companion: CompanionSettings) -> str:
         }
         entry |= {key: value for key, value in optional.items() if value is not None}
     return "[law.companion]\n" + _lines(entry)
-
-
-def write_atomically(path: Path, text: str) -> None:
-    """Write a temporary file beside the path and rename it, so that nobody reads half a file."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
-            stream.write(text)
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
 
 
 def _lines(values: Mapping[str, object]) -> str:

@@ -2,13 +2,16 @@
 
 import gzip
 import hashlib
+import io
 import zlib
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from probation._complaint import bad_input
+from probation._files import read_whole
 from probation.errors import InputError
-from probation.records.complaint import bad_input
+from probation.limits import INFLATED_BYTES, MEBIBYTE
 from probation.records.encoding import decode
 
 _GZIP_MAGIC = b"\x1f\x8b"
@@ -39,16 +42,9 @@ class Source:
         Raises
         ------
         InputError
-            If the file is missing, unreadable, empty, or a damaged gzip.
+            If the file is missing, no regular file, unreadable, empty, too large, or a damaged gzip.
         """
-        try:
-            stored = path.read_bytes()
-        except FileNotFoundError:
-            raise InputError(f"{path}: found no such file; check the name and the folder") from None
-        except IsADirectoryError:
-            raise bad_input(path, "a folder", "a file with a record") from None
-        except OSError as failure:
-            raise InputError(f"{path}: cannot be read: {failure.strerror}") from None
+        stored = read_whole(path)
         data = _decompressed(path, stored) if stored.startswith(_GZIP_MAGIC) else stored
         if not data.strip():
             raise _empty(path)
@@ -83,6 +79,10 @@ def _empty(path: Path) -> InputError:
 
 def _decompressed(path: Path, stored: bytes) -> bytes:
     try:
-        return gzip.decompress(stored)
+        data = gzip.GzipFile(fileobj=io.BytesIO(stored)).read(INFLATED_BYTES + 1)
     except (OSError, EOFError, zlib.error):
         raise bad_input(path, "a damaged gzip file", "a complete one", remedy="fetch it again") from None
+    if len(data) > INFLATED_BYTES:
+        limit = f"{INFLATED_BYTES // MEBIBYTE} MiB"
+        raise bad_input(path, f"a gzip file of more than {limit} unpacked", f"at most {limit}", remedy="split it")
+    return data

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from probation.records.complaint import bad_input
+from probation._complaint import bad_input
 from probation.records.extraction import extract
 from probation.records.options import read_options
 from probation.records.reading import chosen_tables, open_file, several_specimens

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from probation.records.complaint import bad_input, quoted
+from probation._complaint import bad_input, quoted
 
 FloatArray = NDArray[np.float64]
 

@@ -7,10 +7,27 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar, cast
 
+from probation._complaint import bad_input, likely, listed, quoted, suggestion
 from probation.errors import InputError
-from probation.records.complaint import bad_input, likely, listed, quoted, suggestion
+from probation.limits import LARGEST_PARAMETER, NESTING, NUMBER_DIGITS
 
-_HEADER = re.compile(r"\s*\[{1,2}\s*([^\[\]]+?)\s*\]{1,2}\s*(#.*)?")
+_HEADER = re.compile(r"\s*\[{1,2}([^\[\]]+)\]{1,2}\s*(#.*)?")
+_TOKEN = re.compile(
+    "|".join(
+        [
+            r'"""(?:[^"\\]+|\\.|"(?!""))*+(?:""")?',  # strings and comments, which may hold anything
+            r"'''(?:[^']+|'(?!''))*+(?:''')?",
+            r'"(?:[^"\\\n]+|\\.)*+"?',
+            r"'[^'\n]*+'?",
+            r"#[^\n]*+",
+            r"[\[{\]}.=\n]",
+            rf"[0-9_]{{{NUMBER_DIGITS + 1},}}",
+        ]
+    ),
+    re.DOTALL,
+)
+_LONGEST_VALUE = 60
+_NOT_TOO_LARGE = f"a magnitude of at most {LARGEST_PARAMETER:g}"
 _T = TypeVar("_T")
 _TYPES: dict[type, str] = {
     str: "text",
@@ -55,14 +72,16 @@ class TomlTable:
         Raises
         ------
         InputError
-            If it is no TOML, with row and column.
+            If it is no TOML, with row and column, or is nested or has numbers beyond the limits.
         """
+        _check_nesting(path, text)
         try:
             values = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as failure:
+        except ValueError as failure:  # TOMLDecodeError, or a whole number beyond Python's own limit
             reason = str(failure).replace("at line ", "at row ")
             raise InputError(f"{path}: found no valid TOML: {reason}; correct it there") from None
-        lines = text.splitlines()
+        _check_whole_numbers(path, values)
+        lines = text.replace("\r\n", "\n").split("\n")
         return cls(path=path, name="", dotted="", values=values, lines=lines, first=0, last=len(lines))
 
     def only(self, known: Collection[str]) -> None:
@@ -85,6 +104,8 @@ class TomlTable:
         value = self._typed(key, float, default)
         if not float("-inf") < value < float("inf"):
             raise self.complain(key, f"{key} = {value}", "a finite number")
+        if abs(value) > LARGEST_PARAMETER:
+            raise self.complain(key, f"{key} = {value}", _NOT_TOO_LARGE)
         return float(value)
 
     def whole_number(self, key: str, default: int | None = None) -> int:
@@ -100,7 +121,9 @@ class TomlTable:
         for value in values:
             finite = isinstance(value, int | float) and float("-inf") < value < float("inf")
             if isinstance(value, bool) or not finite:
-                raise self.complain(key, f"{value!r} in {key}", "finite numbers only")
+                raise self.complain(key, f"{_shown(value)} in {key}", "finite numbers only")
+            if isinstance(value, int | float) and abs(value) > LARGEST_PARAMETER:
+                raise self.complain(key, f"{_shown(value)} in {key}", _NOT_TOO_LARGE)
         return tuple(float(value) for value in values if isinstance(value, int | float))
 
     def rows_of_numbers(self, key: str) -> tuple[tuple[float, ...], ...]:
@@ -109,7 +132,7 @@ class TomlTable:
         rows = []
         for value in values:
             if not isinstance(value, list):
-                raise self.complain(key, f"{value!r} in {key}", "a list of lists of numbers")
+                raise self.complain(key, f"{_shown(value)} in {key}", "a list of lists of numbers")
             rows.append(self._finite(key, value))
         return tuple(rows)
 
@@ -130,7 +153,7 @@ class TomlTable:
         ends = [*headers[1:], len(self.lines)]
         for number, value in enumerate(values):
             if not isinstance(value, dict):
-                raise self.complain(key, f"{value!r} in {key}", f"[[{key}]] tables")
+                raise self.complain(key, f"{_shown(value)} in {key}", f"[[{key}]] tables")
             first, last = (headers[number], ends[number]) if number < len(headers) else (0, self.last)
             yield TomlTable(self.path, f"[[{key}]] {number + 1}", key, value, self.lines, first, last)
 
@@ -149,7 +172,7 @@ class TomlTable:
         value = self.values[key]
         fits = isinstance(value, (int, float) if kind is float else kind)
         if isinstance(value, bool) or not fits:
-            raise self.complain(key, f"{key} = {quoted(value) if isinstance(value, str) else value}", _TYPES[kind])
+            raise self.complain(key, f"{key} = {_shown(value)}", _TYPES[kind])
         return cast(_T, value)
 
     def _below(self, key: str) -> str:
@@ -173,6 +196,44 @@ class TomlTable:
             if header and not _is_within(header[1], dotted):
                 return at
         return self.last
+
+
+def _check_nesting(path: Path, text: str) -> None:
+    """Refuse TOML nested beyond the limit, or with endless numbers, before a parser goes down into it."""
+    depth = dots = 0
+    for token in _TOKEN.finditer(text):
+        first = token[0][0]
+        depth += (first in "[{") - (first in "]}")
+        dots = dots + 1 if first == "." else 0 if first in "=\n[{" else dots
+        found = (
+            f"tables and lists nested deeper than {NESTING}"
+            if max(depth, dots) >= NESTING
+            else f"a number of more than {NUMBER_DIGITS} digits"
+            if first in "0123456789_"
+            else ""
+        )
+        if found:
+            raise bad_input(path, found, "fewer", row=text.count("\n", 0, token.start()) + 1)
+
+
+def _check_whole_numbers(path: Path, value: object, name: str = "") -> None:
+    """Refuse whole numbers beyond the range that TOML gives them."""
+    if isinstance(value, dict):
+        for key, entry in value.items():
+            _check_whole_numbers(path, entry, f"{name}.{key}" if name else key)
+    elif isinstance(value, list):
+        for entry in value:
+            _check_whole_numbers(path, entry, name)
+    elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise bad_input(path, f"a whole number beyond 64 bits in {quoted(name)}", "a smaller one, or a decimal number")
+
+
+def _shown(value: object) -> str:
+    """A value as it may stand in a line: text quoted, lists and tables cut."""
+    if isinstance(value, str):
+        return quoted(value)
+    text = repr(value)
+    return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}…"
 
 
 def _is_within(header: str, dotted: str) -> bool:

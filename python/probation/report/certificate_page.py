@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.certificate.hardening import FROM_STRAIN
-from probation.identify.parameter import SYMBOLS, UNITS
-from probation.kinematics import haward_thackray_strain
+from probation.inference.parameter import SYMBOLS, UNITS
+from probation.law.kinematics import haward_thackray_strain
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.certificate import Certificate
+    from probation.certificate.result import Certificate
 
 _DOTS = 250  # measured points that are drawn
 

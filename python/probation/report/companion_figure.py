@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
-from probation.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.errors import InputError
+from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour, series_colour
 

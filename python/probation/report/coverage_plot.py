@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.coverage import NOMINAL, TRUTH
-from probation.identify.parameter import SYMBOLS
+from probation.inference.parameter import SYMBOLS
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour, series_colour
 

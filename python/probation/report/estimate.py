@@ -5,6 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 
+def percentage(part: float, sign: str = "") -> str:
+    """A part in percent to two significant digits, without the unit and without exponent: "0.086", "13", "130".
+
+    Parameters
+    ----------
+    part : float
+    sign : {"", "+"}
+        "+" shows the sign of positive ones, too.
+    """
+    text = f"{100.0 * part:{sign}.2g}"
+    return f"{float(text):{sign}.0f}" if "e+" in text else text
+
+
 def plus_minus(value: float, se: float) -> str:
     """Both to two significant digits of the error: "1.8500 ± 0.0012".
 

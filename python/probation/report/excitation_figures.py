@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.excitation.answer import RecordExcitation
-    from probation.excitation.comparison import Comparison
-    from probation.excitation.necking import NeckingFit
+    from probation.smoothing.answer import RecordExcitation
+    from probation.smoothing.comparison import Comparison
+    from probation.smoothing.necking import NeckingFit
 
 _TIME = "time [s]"
 _STRAIN = "true strain [–]"

@@ -12,9 +12,9 @@ from probation.report.table import Table
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from probation.excitation.answer import ExcitationAnswer, RecordExcitation
-    from probation.excitation.necking import NeckingFit
     from probation.report.page import Picture
+    from probation.smoothing.answer import ExcitationAnswer, RecordExcitation
+    from probation.smoothing.necking import NeckingFit
 
 
 def write_excitation_page(answer: ExcitationAnswer, path: Path) -> Path:

@@ -13,14 +13,19 @@ from typing import TYPE_CHECKING, Any, cast
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.ticker import LogFormatter
 
 from probation._files import write_whole
+from probation._text import printable, printable_lines
 from probation.errors import InputError
 from probation.report.style import COLOURS, MATPLOTLIB
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from os import PathLike
+
+    from matplotlib.backend_bases import RendererBase
 
     from probation._arrays import FloatArray
 
@@ -42,7 +47,28 @@ def house_style() -> Iterator[None]:
 
 def new_figure(width: float = 7.2, height: float = 4.2) -> Figure:
     """A figure of that size [inch], bound to no window; use within `house_style`."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return SafeFigure(figsize=(width, height), layout="constrained")
+
+
+class SafeFigure(Figure):
+    """A figure in which text is data: nothing in it is taken for mathematics, and what does not print is escaped."""
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw, in a window as into a file."""
+        numbers = {
+            label
+            for axes in self.axes
+            for axis in (axes.xaxis, axes.yaxis)
+            if isinstance(axis.get_major_formatter(), LogFormatter)  # it writes powers of ten as mathematics
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())
+            for label in (tick.label1, tick.label2)
+        }
+        for text in self.findobj(Text):
+            if isinstance(text, Text) and text not in numbers:
+                text.set_parse_math(False)
+                if (shown := printable_lines(text.get_text())) != text.get_text():
+                    text.set_text(shown)
+        super().draw(renderer)
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
@@ -77,7 +103,7 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     """
     stream = io.StringIO()
     with house_style():
-        mpl.rcParams["svg.hashsalt"] = label
+        mpl.rcParams["svg.hashsalt"] = printable(label)
         figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     svg = stream.getvalue()
     svg = svg[svg.index("<svg") :]
@@ -92,7 +118,7 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     return re.sub(
         r"<svg[^>]*?(viewBox=\"[^\"]*\")[^>]*>",
         lambda match: (
-            f'<svg {match[1]} role="img" aria-label="{escape(label)}" xmlns="http://www.w3.org/2000/svg" '
+            f'<svg {match[1]} role="img" aria-label="{escape(printable(label))}" xmlns="http://www.w3.org/2000/svg" '
             f'xmlns:xlink="http://www.w3.org/1999/xlink">'
         ),
         svg,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.identify.parameter import SYMBOLS, Parameter
 from probation.identify.result import estimate_text
+from probation.inference.parameter import SYMBOLS, Parameter
 from probation.report.page import Page, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
 from probation.report.provenance import provenance

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from matplotlib.patches import Rectangle
 
+from probation.design.telling_apart import DETECTED
 from probation.diagnosis.words import count_text
-from probation.gap.telling_apart import DETECTED
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.gap.isolability import Isolability
+    from probation.design.isolability import Isolability
 
 LEVELS = (0.95, 0.8, 0.6)
 """Chances of naming the right one of two below which a cell darkens; 0.5 is a toss of a coin."""

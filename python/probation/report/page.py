@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoes
 from markupsafe import Markup
 
 from probation._files import write_whole
+from probation._text import printable_lines
 from probation.report.figures import figure_to_svg
 from probation.report.provenance import Provenance, provenance
 from probation.report.style import css_variables
@@ -102,12 +103,18 @@ def picture(figure: Figure, caption: str) -> Picture:
     return Picture(figure_to_svg(figure, caption), caption, figure.get_figwidth())
 
 
+def _escaped(value: object) -> object:
+    """What a page shows, printable; markup made here stays."""
+    return printable_lines(value) if type(value) is str else value
+
+
 @cache
 def _template() -> Template:
     environment = Environment(
         loader=FileSystemLoader(Path(__file__).parent),
         autoescape=select_autoescape(("html", "j2")),
         undefined=StrictUndefined,
+        finalize=_escaped,
         trim_blocks=True,
         lstrip_blocks=True,
     )

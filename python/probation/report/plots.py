@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.simulate import Simulation
+    from probation.simulation import Simulation
 
 
 _DOTS = 400  # measured points that are drawn

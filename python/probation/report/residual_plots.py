@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.bias import low_frequency
-from probation.identify.parameter import SYMBOLS
+from probation.inference.parameter import SYMBOLS
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour, series_colour
 

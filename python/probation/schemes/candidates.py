@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.change import Change
 from probation.errors import ConvergenceError, InputError
-from probation.ramp import ramp_stress
+from probation.law.change import Change
+from probation.law.ramp import ramp_stress
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from probation import _core
     from probation._arrays import FloatArray
-    from probation.law import Law, Scheme, Start
+    from probation.law.modal import Law, Scheme, Start
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.law import Law
-from probation.paper.necking import NECKING_SETS
-from probation.paper.twins import GRIP_LAWS, experiment, necking_history
+from probation.histories.necking import NECKING_SETS
+from probation.law.modal import Law
+from probation.published.experiments import GRIP_LAWS, experiment, necking_history
 from probation.report.provenance import samples_sha256
 from probation.schemes.candidates import StrainPath
 from probation.schemes.smooth import RampHistory, SmoothHistory
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.records import Record
+    from probation.records.record import Record
 
 _FINER = 50
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.ramp import ramp_stress
+from probation.law.ramp import ramp_stress
 from probation.schemes.candidates import CANDIDATES, StrainPath, solve
 from probation.schemes.smooth import RampHistory
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from probation._arrays import FloatArray
-    from probation.law import Law
+    from probation.law.modal import Law
     from probation.schemes.smooth import SmoothHistory
 
 _COARSEST, _HALVINGS = 125, 6

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference_case.hpp"
@@ -104,7 +105,7 @@ TEST_CASE("UMAT: what cannot be is said through Abaqus and cuts the increment") 
   };
   AbaqusPoint point(3, 3);
   point.constants[4] = -1.0;
-  CHECK(complaint(point) == "probation: constant 5 (alpha) must be a positive number");
+  CHECK(complaint(point) == "probation: constant 5 (alpha) must be a number from 1e-30 to 1e30");
   CHECK(complaint(AbaqusPoint(2, 1)).find("this element is not offered") != std::string::npos);
   CHECK(complaint(AbaqusPoint(3, 3, reference_state - 1)).find("too few state variables") !=
         std::string::npos);
@@ -127,4 +128,54 @@ TEST_CASE("UMAT: hosts without Abaqus' routine can ask what is wrong") {
   function_of<Message>("probation_abaqus", "probation_umat_message")(constants.data(), &count, text,
                                                                      &capacity);
   CHECK(std::string(text) == "probation: constant 10 (modes) must be a whole number from 1 to 64");
+}
+
+TEST_CASE("UMAT: an increment that is cut leaves state, stress and tangent as they were") {
+  const auto untouched = [](AbaqusPoint point, const std::array<double, 9>& f, double rise, double dt) {
+    const std::vector<double> state = point.state;
+    std::fill(std::begin(point.stress), std::end(point.stress), 7.0);
+    std::fill(std::begin(point.tangent), std::end(point.tangent), 7.0);
+    point.step(f, rise, dt);
+    CHECK(point.pnewdt == 0.25);
+    CHECK(point.state == state);
+    for (const double component : point.stress) CHECK(component == 7.0);
+    for (const double entry : point.tangent) CHECK(entry == 7.0);
+  };
+  AbaqusPoint point(3, 3), truss(1, 0, 3 + reference_modes);
+  std::array<double, 9> stretched = unit;
+  stretched[0] = 1.01;
+  point.step(stretched, 0.0, 1.0);
+  truss.step(unit, 0.01, 1.0);
+  stretched[0] = 1e7;  // no deformation
+  untouched(point, stretched, 0.0, 1.0);
+  untouched(truss, unit, 200.0, 1.0);
+  stretched[0] = 1.02;
+  point.state.back() = INFINITY;  // shows only once the modes are summed
+  untouched(point, stretched, 0.0, 1.0);
+  truss.state.back() = INFINITY;
+  untouched(truss, unit, 0.01, 1.0);
+  point.constants[10] = 400.0;  // decades
+  untouched(point, stretched, 0.0, 1.0);
+}
+
+TEST_CASE("UMAT: a coarse increment is made, and PNEWDT asks for a smaller one; a fine one leaves it") {
+  std::array<double, 9> stretched = unit;
+  stretched[0] = 1.05, stretched[4] = stretched[8] = 1.0 / std::sqrt(1.05);
+  AbaqusPoint coarse(3, 3), unwatched(3, 3), truss(1, 0, 3 + reference_modes);
+  coarse.constants.push_back(0.1);
+  truss.constants.push_back(0.1);
+  coarse.step(stretched, 0.0, 10.0);
+  unwatched.step(stretched, 0.0, 10.0);
+  truss.step(unit, std::log(1.05), 10.0);
+  CHECK(coarse.pnewdt >= 0.25);
+  CHECK(coarse.pnewdt < 1.0);
+  CHECK(unwatched.pnewdt == 1.0);
+  CHECK(truss.pnewdt == doctest::Approx(coarse.pnewdt).epsilon(1e-12));
+  CHECK(coarse.state == unwatched.state);
+  CHECK(coarse.stress[0] == unwatched.stress[0]);
+  AbaqusPoint fine(3, 3);
+  fine.constants.push_back(0.1);
+  stretched[0] = 1.0001, stretched[4] = stretched[8] = 1.0 / std::sqrt(1.0001);
+  fine.step(stretched, 0.0, 0.02);
+  CHECK(fine.pnewdt == 1.0);
 }

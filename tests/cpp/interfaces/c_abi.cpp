@@ -106,7 +106,7 @@ TEST_CASE("the C interface: many points at once are each point by itself, with P
 TEST_CASE("the C interface: a constant that cannot be is named") {
   CHECK(message(constant_list()).empty());
   CHECK(message_with(1, -1.0) ==
-        "probation: constant 1 (unrelaxed_modulus) must be a modulus in MPa, not negative");
+        "probation: constant 1 (unrelaxed_modulus) must be a modulus from 0 to 1e12 MPa");
   CHECK(message_with(3, 0.0).find("constant 3 (bulk_modulus)") != std::string::npos);
   CHECK(message_with(4, 1.5).find("constant 4 (form)") != std::string::npos);
   CHECK(message_with(5, NAN).find("constant 5 (alpha)") != std::string::npos);
@@ -118,8 +118,12 @@ TEST_CASE("the C interface: a constant that cannot be is named") {
   CHECK(message({3220.0}).find("constant 2 (hardening_modulus)") != std::string::npos);
   CHECK(message({3220.0, 1.8, 2e3, 0.0, 0.0}).find("constant 5 (tau_max)") != std::string::npos);
   std::vector<double> longer = constant_list();
+  longer.push_back(1.0);  // the stress tolerance
+  CHECK(message(longer).empty());
   longer.push_back(1.0);
-  CHECK(message(longer).find("constant 12 ") != std::string::npos);
+  CHECK(message(longer).find("constant 13 ") != std::string::npos);
+  CHECK(message_with(11, 400.0).find("constant 11 (decades) must be a positive number of at most 30") !=
+        std::string::npos);
 }
 
 TEST_CASE("the C interface: the state's size follows the modes, and is 0 where the constants cannot be") {
@@ -130,4 +134,60 @@ TEST_CASE("the C interface: the state's size follows the modes, and is 0 where t
   CHECK(uniaxial(reference_constants.data(), 11) == 3 + reference_modes);
   CHECK(size(reference_constants.data(), 10) == 0);
   CHECK(uniaxial(reference_constants.data(), 10) == 0);
+}
+
+TEST_CASE("the C interface: an increment that is cut leaves what the caller gave as it was") {
+  auto* uniaxial = function_of<decltype(probation_uniaxial)>("probation_c", "probation_uniaxial");
+  auto* many = function_of<decltype(probation_first_piola)>("probation_c", "probation_first_piola");
+  auto* cauchy = function_of<decltype(probation_cauchy)>("probation_c", "probation_cauchy");
+  std::vector<double> line(3 + reference_modes), state(2 * reference_state);
+  double stress = 7.0, tangent = 7.0;
+  line.back() = INFINITY;  // shows once the modes are summed
+  const std::vector<double> line_before = line;
+  CHECK(uniaxial(reference_constants.data(), 11, 0.01, 1.0, line.data(), line.data(), &stress, &tangent) ==
+        PROBATION_CUT_STEP);
+  CHECK(line == line_before);
+  CHECK(stress == 7.0);
+  CHECK(tangent == 7.0);
+
+  // In place, the second point fails: the first, which would not, keeps its state.
+  std::vector<double> f(18), p(18, 7.0), a(162, 7.0), six(6, 7.0);
+  f[0] = f[9] = 1.01;
+  for (const std::size_t k : {4U, 8U, 13U, 17U}) f[k] = 1.0;
+  state.back() = INFINITY;
+  const std::vector<double> state_before = state;
+  int failed = 0;
+  CHECK(many(reference_constants.data(), 11, 2, f.data(), 1.0, state.data(), state.data(), p.data(), a.data(),
+             &failed) == PROBATION_CUT_STEP);
+  CHECK(failed == 1);
+  CHECK(state == state_before);
+  CHECK(p == std::vector<double>(18, 7.0));
+  CHECK(a == std::vector<double>(162, 7.0));
+  double* second = state.data() + reference_state;
+  CHECK(cauchy(reference_constants.data(), 11, f.data(), 1.0, second, second, six.data(), a.data()) ==
+        PROBATION_CUT_STEP);
+  CHECK(state == state_before);
+  CHECK(six == std::vector<double>(6, 7.0));
+}
+
+TEST_CASE("the C interface: a coarse increment is made and says so") {
+  auto* uniaxial = function_of<decltype(probation_uniaxial)>("probation_c", "probation_uniaxial");
+  auto* many = function_of<decltype(probation_first_piola)>("probation_c", "probation_first_piola");
+  std::vector<double> constants = constant_list(), line(3 + reference_modes), after = line;
+  constants.push_back(0.1);
+  double stress = 0.0, tangent = 0.0;
+  CHECK(uniaxial(constants.data(), 12, 0.05, 10.0, line.data(), after.data(), &stress, &tangent) ==
+        PROBATION_COARSE_STEP);
+  CHECK(stress > 1.0);
+  CHECK(uniaxial(constants.data(), 12, 1e-4, 0.02, line.data(), after.data(), &stress, &tangent) ==
+        PROBATION_OK);
+
+  std::vector<double> f(18), p(18), state(2 * reference_state);
+  for (const std::size_t k : {0U, 4U, 8U, 13U, 17U}) f[k] = 1.0;
+  f[9] = 1.05;
+  int failed = 0;
+  CHECK(many(constants.data(), 12, 2, f.data(), 10.0, state.data(), state.data(), p.data(), nullptr,
+             &failed) == PROBATION_COARSE_STEP);
+  CHECK(failed == 1);
+  CHECK(p[9] > 1.0);
 }

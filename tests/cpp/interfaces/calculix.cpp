@@ -24,7 +24,7 @@ struct CalculixModel {
   CalculixModel() {
     for (std::size_t k = 0; k < reference_state; ++k) before[first + k] = 0.0;
   }
-  void step(const std::array<double, 9>& f, double dt, int command) {
+  void step(const std::array<double, 9>& f, double dt, int command, double factor_so_far = 1.0) {
     constexpr int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
     double strain[6], zero[9] = {};
     for (int k = 0; k < 6; ++k) {
@@ -34,7 +34,7 @@ struct CalculixModel {
     }
     const int element = 2, point = 2, mi[3] = {3, 0, 0}, states = reference_state, none = 0;
     const int type = -100 - static_cast<int>(constants.size());
-    pnewdt = 1.0;
+    pnewdt = factor_so_far;
     function_of<Native>("probation_calculix", "DNLR")(
         "@PROBATION_DNLR", &element, &point, &type, constants.data(), strain, zero, zero, zero, zero, zero,
         zero, &none, zero, &dt, zero, zero, &command, &none, mi, &states, before.data(), after.data(), stress,
@@ -86,4 +86,36 @@ TEST_CASE("CalculiX: constants that cannot be cut the increment and touch nothin
   model.step(reference_case().front().f, 1.0, 0);
   CHECK(model.pnewdt == 0.25);
   CHECK(model.stress[0] == 0.0);
+}
+
+TEST_CASE("CalculiX: an increment that is cut leaves state, stress and stiffness as they were") {
+  CalculixModel model;
+  std::array<double, 9> f = reference_case().front().f;
+  model.before[CalculixModel::first + reference_state - 1] = INFINITY;  // shows once the modes are summed
+  const std::vector<double> after = model.after;
+  model.step(f, 1.0, 0);
+  CHECK(model.pnewdt == 0.25);
+  CHECK(model.after == after);
+  CHECK(model.stress[0] == 0.0);
+  CHECK(model.stiffness[0] == 0.0);
+}
+
+TEST_CASE(
+    "CalculiX: a coarse increment is made and asks for a smaller one; of all points the smallest factor "
+    "counts") {
+  CalculixModel coarse, fine;
+  coarse.constants.push_back(0.1);
+  fine.constants.push_back(0.1);
+  const double stretch = 1.05, across = 1.0 / std::sqrt(stretch);
+  coarse.step({stretch, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, across}, 10.0, 0);
+  CHECK(coarse.pnewdt >= 0.25);
+  CHECK(coarse.pnewdt < 1.0);
+  CHECK(coarse.stress[0] > 1.0);
+  const double factor = coarse.pnewdt;
+  coarse.step({stretch, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, across}, 10.0, 0, -1.0);
+  CHECK(coarse.pnewdt == factor);
+  coarse.step({stretch, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, across}, 10.0, 0, 0.2);
+  CHECK(coarse.pnewdt == 0.2);
+  fine.step({1.0001, 0.0, 0.0, 0.0, 0.99995, 0.0, 0.0, 0.0, 0.99995}, 0.02, 0);
+  CHECK(fine.pnewdt == 1.0);
 }

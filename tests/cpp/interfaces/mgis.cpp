@@ -38,6 +38,8 @@ struct MgisPoint {
   double gradient_before[9] = {1, 1, 1}, gradient[9] = {}, stress[9] = {}, k[81] = {}, rdt = 1.0;
   char error[512] = {};
 
+  const char* library = "probation_mgis";
+
   int step(const std::array<double, 9>& f, double dt, double operation, double stress_measure,
            double tangent_measure) {
     for (int c = 0; c < 9; ++c) gradient[c] = f[static_cast<std::size_t>(order[c])];
@@ -51,7 +53,7 @@ struct MgisPoint {
         nullptr,
         {gradient_before, stress, nullptr, constants.data(), before.data(), nullptr, nullptr, &temperature},
         {gradient, stress, nullptr, constants.data(), after.data(), nullptr, nullptr, &temperature}};
-    return function_of<int(Data*)>("probation_mgis", "ProbationDNLR_Tridimensional")(&data);
+    return function_of<int(Data*)>(library, "ProbationDNLR_Tridimensional")(&data);
   }
   void accept() {
     before = after;
@@ -60,8 +62,8 @@ struct MgisPoint {
 };
 
 template <class T>
-const T* declared(const char* name) {
-  return static_cast<const T*>(symbol_of("probation_mgis", (std::string("ProbationDNLR_") + name).c_str()));
+const T* declared(const char* name, const char* library = "probation_mgis") {
+  return static_cast<const T*>(symbol_of(library, (std::string("ProbationDNLR_") + name).c_str()));
 }
 
 double factor(int c) { return c < 3 ? 1.0 : root; }
@@ -141,7 +143,7 @@ TEST_CASE("MGIS: what cannot be is said in the error message") {
   point.constants[1] = NAN;
   CHECK(point.step(reference_case()[0].f, 1.0, 4.0, 1.0, 1.0) == -1);
   CHECK(std::string(point.error) ==
-        "probation: constant 2 (hardening_modulus) must be a modulus in MPa, not negative");
+        "probation: constant 2 (hardening_modulus) must be a modulus from 0 to 1e12 MPa");
   CHECK(point.rdt == 0.25);
 }
 
@@ -157,4 +159,36 @@ TEST_CASE("MGIS: what the library declares fits what it does") {
   CHECK(std::string(declared<Text>("InternalStateVariables")[309]) == "State[309]");
   CHECK(std::string(declared<Text>("Gradients")[0]) == "DeformationGradient");
   CHECK(std::string(declared<Text>("ThermodynamicForces")[0]) == "Stress");
+}
+
+TEST_CASE("MGIS: an increment that is cut leaves state, stress and operator as they were") {
+  MgisPoint point;
+  point.before.back() = INFINITY;  // shows once the modes are summed
+  point.after.assign(point.after.size(), 7.0);
+  CHECK(point.step(reference_case()[0].f, 1.0, 4.0, 1.0, 1.0) == -1);
+  CHECK(point.rdt == 0.25);
+  for (const double value : point.after) CHECK(value == 7.0);
+  CHECK(point.stress[0] == 0.0);
+  CHECK(point.k[0] == 4.0);  // the request
+}
+
+TEST_CASE("MGIS: a coarse increment is made, returns 0 and asks for a smaller one by rdt") {
+  MgisPoint coarse, unwatched;
+  coarse.library = "probation_mgis_tolerance";
+  CHECK(*declared<unsigned short>("nMaterialProperties", coarse.library) == 12);
+  CHECK(std::string(declared<const char*>("MaterialProperties", coarse.library)[11]) == "StressTolerance");
+  coarse.constants.push_back(0.1);
+  const double stretch = 1.05, across = 1.0 / std::sqrt(stretch);
+  const std::array<double, 9> f{stretch, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, across};
+  CHECK(coarse.step(f, 10.0, 4.0, 1.0, 1.0) == 0);
+  CHECK(coarse.rdt >= 0.25);
+  CHECK(coarse.rdt < 1.0);
+  CHECK(unwatched.step(f, 10.0, 4.0, 1.0, 1.0) == 1);
+  CHECK(unwatched.rdt == 1.0);
+  CHECK(coarse.after == unwatched.after);
+  MgisPoint fine;
+  fine.library = coarse.library;
+  fine.constants.push_back(0.1);
+  CHECK(fine.step({1.0001, 0.0, 0.0, 0.0, 0.99995, 0.0, 0.0, 0.0, 0.99995}, 0.02, 4.0, 1.0, 1.0) == 1);
+  CHECK(fine.rdt == 1.0);
 }

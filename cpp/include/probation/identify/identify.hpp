@@ -37,9 +37,10 @@ struct IdentifyOptions {
   Eigen::Array3d lower = Eigen::Array3d::Zero();  ///< of E_u [MPa], tau_max [s] or alpha [-], G [MPa]
   Eigen::Array3d upper = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   bool find_jumps = true;  ///< of the strain rate, record by record
+  int substeps = 1;        ///< steps of the scheme from sample to sample
 
-  /// @throws InputError  if nothing is left to identify, a bound is not possible or the scheme has no
-  /// sensitivities
+  /// @throws InputError  if nothing is left to identify, a bound is not possible, the scheme has no
+  /// sensitivities or there is no step from sample to sample
   void validate() const;
 };
 
@@ -61,9 +62,10 @@ class Identifier {
   Identifier& operator=(Identifier&&) noexcept;
 
   /// A bad record gets a status and NaN; nothing is thrown on its account.
-  /// @param time, true_strain, true_stress  [s], [-], [MPa]; shape (n_times)
-  /// @param noise  standard deviation of the stress, for its ratios within the record [MPa]; shape (n_times)
-  /// or empty
+  /// @param time, true_strain  at every substep [s], [-]; shape ((n_samples - 1) * substeps + 1)
+  /// @param true_stress  at the samples [MPa]; shape (n_samples)
+  /// @param noise  standard deviation of the stress, for its ratios within the record [MPa]; shape
+  /// (n_samples) or empty
   Identified operator()(const Eigen::ArrayXd& time, const Eigen::ArrayXd& true_strain,
                         const Eigen::ArrayXd& true_stress, const Eigen::ArrayXd& noise);
 

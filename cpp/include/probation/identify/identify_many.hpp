@@ -11,11 +11,11 @@
 namespace probation {
 
 struct BulkRecords {
-  Eigen::Index records, n_times;
-  SampleRows time;         ///< [s]
-  SampleRows true_strain;  ///< [-]
-  SampleRows true_stress;  ///< [MPa]
-  SampleRows noise;        ///< standard deviation of the stress [MPa]
+  Eigen::Index records, n_times;  ///< n_times: of every substep
+  SampleRows time;                ///< at every substep [s]
+  SampleRows true_strain;         ///< at every substep [-]
+  SampleRows true_stress;         ///< at the samples [MPa]
+  SampleRows noise;               ///< standard deviation of the stress at the samples [MPa]
   bool noise_given = false;
 };
 

@@ -1,18 +1,27 @@
 #pragma once
 // The parameters as finite-element codes hand them over: one list of numbers, checked entry by entry.
+// Positive: 1e-30 to 1e30. Moduli and stresses: at most 1e12 MPa. Within these ranges nothing overflows.
 //
 //    1  unrelaxed_modulus  E_u [MPa], not negative
 //    2  hardening_modulus  G [MPa], not negative
 //    3  bulk_modulus       K [MPa], positive
 //    4  form               0 constant, 1 weissenberg, 2 exponential, 3 power, 4 table
 //    5  tau_max [s] where the form is constant, else alpha [-]; positive
-//    6  slope [-], coefficient [s] or, for a table, its number of points (2 to 32); else 0
-//    7  intercept [-] or exponent [-]; else 0
+//    6  slope [-], coefficient [s] or, for a table, its number of points (2 to 32); else 0; at most 1e30
+//    either
+//       way
+//    7  intercept [-] or exponent [-]; else 0; at most 1e30 either way
 //    8  rate_floor [1/s], positive; at it the form must give a positive time
 //    9  rate_filter [-], a strain, not negative; 0: the companion relation sees the rate itself
 //   10  modes              N, 1 to 64
-//   11  decades            d, positive: log-spaced modes, eqs. (4), (5); 0: N ratios and N weights follow
-//   12… ratios tau_j / tau_max, then weights p_j, where decades is 0; then rates and times of a table
+//   11  decades            d, positive, at most 30: log-spaced modes, eqs. (4), (5); 0: N ratios and N
+//   weights
+//                          follow
+//   12… ratios tau_j / tau_max, then weights p_j (0 to 1e6), where decades is 0; then rates and times of a
+//       table
+// last  stress_tolerance   [MPa], may be left out: above 0, increments whose estimated error is larger ask
+// for a
+//                          smaller one
 
 #include <cmath>
 #include <limits>
@@ -23,7 +32,8 @@
 namespace probation::material {
 
 constexpr int fixed_constants = 11;
-constexpr int most_constants = fixed_constants + 2 * most_modes + 2 * most_table_points;
+constexpr int most_constants = fixed_constants + 2 * most_modes + 2 * most_table_points + 1;
+constexpr double least_positive = 1e-30, most_positive = 1e30, most_modulus = 1e12, most_weight = 1e6;
 
 namespace detail {
 
@@ -32,16 +42,12 @@ class ConstantReader {
  public:
   ConstantReader(const double* values, int count) noexcept : values_(values), count_(count) {}
 
-  double finite() noexcept { return next(-std::numeric_limits<double>::max()); }
-  double not_negative() noexcept { return next(0.0); }
-  double positive() noexcept {
-    const double value = next(0.0);
-    if (value == 0.0) refuse();
-    return value;
-  }
+  double finite() noexcept { return next(-most_positive, most_positive); }
+  double not_negative(double most) noexcept { return next(0.0, most); }
+  double positive(double most = most_positive) noexcept { return next(least_positive, most); }
   int whole(int least, int most) noexcept {
-    const double value = next(least);
-    if (!(value <= most) || value != std::floor(value)) refuse();
+    const double value = next(least, most);
+    if (value != std::floor(value)) refuse();
     return bad_ ? least : static_cast<int>(value);
   }
   /// The entry just read is bad, unless an earlier one is.
@@ -57,12 +63,13 @@ class ConstantReader {
     return bad_ == 0 ? Outcome{} : Outcome{Status::bad_constant, bad_};
   }
   bool good() const noexcept { return bad_ == 0; }
+  bool more() const noexcept { return read_ < count_; }
 
  private:
-  double next(double least) noexcept {
+  double next(double least, double most) noexcept {
     const double value = read_ < count_ ? values_[read_] : std::numeric_limits<double>::quiet_NaN();
     ++read_;
-    if (!(value >= least) || !std::isfinite(value)) refuse();
+    if (!(value >= least && value <= most)) refuse();
     return value;
   }
 
@@ -75,9 +82,9 @@ class ConstantReader {
 /// Fills the parameters from the list; on bad_constant they are not to be used.
 inline Outcome read_constants(const double* values, int count, Parameters& out) noexcept {
   detail::ConstantReader reader(values, count);
-  out.unrelaxed_modulus = reader.not_negative();
-  out.hardening_modulus = reader.not_negative();
-  out.bulk_modulus = reader.positive();
+  out.unrelaxed_modulus = reader.not_negative(most_modulus);
+  out.hardening_modulus = reader.not_negative(most_modulus);
+  out.bulk_modulus = reader.positive(most_modulus);
   out.form = static_cast<Form>(reader.whole(0, 4));
   const double time_or_factor = reader.positive();
   (out.form == Form::constant ? out.tau_max : out.alpha) = time_or_factor;
@@ -86,22 +93,23 @@ inline Outcome read_constants(const double* values, int count, Parameters& out) 
   out.coefficients[0] = table ? 0.0 : reader.finite();
   out.coefficients[1] = reader.finite();
   out.rate_floor = reader.positive();
-  out.rate_filter = reader.not_negative();
+  out.rate_filter = reader.not_negative(most_positive);
   out.modes = reader.whole(1, most_modes);
-  const double decades = reader.not_negative();
+  const double decades = reader.not_negative(most_decades);
   if (!reader.good()) return reader.end();
 
   if (decades > 0.0) {
     out.set_log_spaced(out.modes, decades);
   } else {
     for (int j = 0; j < out.modes; ++j) out.relaxation_ratio[j] = reader.positive();
-    for (int j = 0; j < out.modes; ++j) out.modal_weight[j] = reader.not_negative();
+    for (int j = 0; j < out.modes; ++j) out.modal_weight[j] = reader.not_negative(most_weight);
   }
   for (int i = 0; i < out.table_points; ++i) {
     out.table_rate[i] = reader.positive();
     if (i > 0 && !(out.table_rate[i] > out.table_rate[i - 1])) reader.refuse();
   }
   for (int i = 0; i < out.table_points; ++i) out.table_tau_max[i] = reader.positive();
+  out.stress_tolerance = reader.more() ? reader.not_negative(most_modulus) : 0.0;
   if (reader.good() && !possible_time(out.relaxation(out.rate_floor).tau_max)) reader.refuse(8);
   return reader.end();
 }
@@ -115,16 +123,16 @@ struct ConstantText {
 inline ConstantText constant_text(int constant, Form form) noexcept {
   switch (constant) {
     case 1:
-      return {"unrelaxed_modulus", "a modulus in MPa, not negative"};
+      return {"unrelaxed_modulus", "a modulus from 0 to 1e12 MPa"};
     case 2:
-      return {"hardening_modulus", "a modulus in MPa, not negative"};
+      return {"hardening_modulus", "a modulus from 0 to 1e12 MPa"};
     case 3:
-      return {"bulk_modulus", "a positive modulus in MPa"};
+      return {"bulk_modulus", "a positive modulus of at most 1e12 MPa"};
     case 4:
       return {"form", "0 (constant), 1 (weissenberg), 2 (exponential), 3 (power) or 4 (table)"};
     case 5:
-      return form == Form::constant ? ConstantText{"tau_max", "a positive time in s"}
-                                    : ConstantText{"alpha", "a positive number"};
+      return form == Form::constant ? ConstantText{"tau_max", "a time from 1e-30 to 1e30 s"}
+                                    : ConstantText{"alpha", "a number from 1e-30 to 1e30"};
     case 6:
       return form == Form::table         ? ConstantText{"table_points", "a whole number from 2 to 32"}
              : form == Form::weissenberg ? ConstantText{"slope", "a finite number"}
@@ -136,18 +144,19 @@ inline ConstantText constant_text(int constant, Form form) noexcept {
                  ? ConstantText{"(unused)", "a finite number, best 0"}
                  : ConstantText{"exponent", "a finite number"};
     case 8:
-      return {"rate_floor", "a positive rate in 1/s at which the form gives a positive time"};
+      return {"rate_floor", "a rate from 1e-30 to 1e30 1/s at which the form gives a positive time"};
     case 9:
-      return {"rate_filter", "a strain, not negative"};
+      return {"rate_filter", "a strain from 0 to 1e30"};
     case 10:
       return {"modes", "a whole number from 1 to 64"};
     case 11:
-      return {"decades", "a positive number, or 0 where ratios and weights follow"};
+      return {"decades", "a positive number of at most 30, or 0 where ratios and weights follow"};
     default:
-      return {"beyond decades",
-              "as many ratios and weights (positive, not negative) as modes where decades is 0, then as many "
-              "rates "
-              "(increasing) and times (positive) as table_points, and nothing more"};
+      return {
+          "beyond decades",
+          "as many ratios (positive) and weights (0 to 1e6) as modes where decades is 0, then as many rates "
+          "(increasing) and times (positive) as table_points, then at most one number more, the "
+          "stress_tolerance, from 0 to 1e12 MPa"};
   }
 }
 

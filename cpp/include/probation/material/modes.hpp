@@ -5,6 +5,7 @@
 // order is 2. The modal state is z_j = sigma_j - p_j sigma^r: zero in the relaxed state, which is where all
 // start.
 
+#include <algorithm>
 #include <cmath>
 
 #include "probation/material/parameters.hpp"
@@ -38,7 +39,7 @@ inline RateStep rate_step(const Parameters& parameters, double rate, double prev
   const double seen = above ? filtered : parameters.rate_floor;
   const Relaxation relaxation = parameters.relaxation(seen);
   return {seen, relaxation.tau_max, above ? -relaxation.log_slope * slope * rate / seen : 0.0,
-          possible_time(relaxation.tau_max)};
+          possible_time(relaxation.tau_max) && std::isfinite(seen)};
 }
 
 /// The forcing of one component: what sa2_step makes of its strain and its relaxed stress at unit weight.
@@ -56,6 +57,12 @@ inline StepForcing<double> modal_forcing(double modulus, double strain_increment
   return sa2_step(step);
 }
 
+/// x_j = dt / tau_j. Beyond the limit a mode has relaxed to the last digit; without it inf times 0 comes up.
+inline double modal_scale(double scale, double ratio) noexcept {
+  constexpr double relaxed = 1e100;
+  return std::min(scale / ratio, relaxed);
+}
+
 /// What is left of the modes once they are summed.
 template <int Components>
 struct ModalSums {
@@ -65,14 +72,14 @@ struct ModalSums {
   double weight = 0.0;                ///< sum of p_j
 };
 
-/// z_j+ = a z_j + p_j phi U, mode by mode. `before` and `after` hold the components of each mode in turn;
-/// they may be the same array. The slopes are formed only if asked for.
+/// z_j+ = a z_j + p_j phi U, mode by mode. `before` and `after` hold the components of each mode in turn. The
+/// slopes are formed only if asked for.
 template <int Components>
 inline ModalSums<Components> step_modes(const Parameters& parameters, double scale, const double* forcing,
                                         bool with_slopes, const double* before, double* after) noexcept {
   ModalSums<Components> sums;
   for (int j = 0; j < parameters.modes; ++j, before += Components, after += Components) {
-    const double x = scale / parameters.relaxation_ratio[j], weight = parameters.modal_weight[j];
+    const double x = modal_scale(scale, parameters.relaxation_ratio[j]), weight = parameters.modal_weight[j];
     const StepCoefficients<double> step = ExponentialStep::coefficients(x, 1.0);
     if (with_slopes) {
       const StepCoefficients<double> slope = ExponentialStep::log_slopes(x, 1.0);
@@ -87,6 +94,49 @@ inline ModalSums<Components> step_modes(const Parameters& parameters, double sca
     sums.weight += weight;
   }
   return sums;
+}
+
+/// What the size of the increment leaves in each component of the stress [MPa], estimated.
+///
+/// The update takes the forcing as straight over the increment. SA3 bends it, by the curvature V = (U - U0) /
+/// 2, U0 what the forcing would be had it gone on as before: psi_j V more in mode j (schemes/step.hpp), and
+/// psi_j / (1 - a_j) V once increments like this one have added up. What was before is told by the fastest
+/// mode, which follows the forcing: y = U0 tau / dt. Whether the forcing went on evenly in time or, as at a
+/// constant Weissenberg number, in reduced time is not known: the larger bend counts. A jump of the rate
+/// reads as a bend.
+/// @param tau_max         [s], of this increment
+/// @param tau_max_before  [s], of the one before; 0 at the very start
+template <int Components>
+inline void step_errors(const Parameters& parameters, double scale, double tau_max, double tau_max_before,
+                        const double* forcing, const double* before, double* errors) noexcept {
+  double share = 0.0;
+  int fastest = -1;
+  for (int j = 0; j < parameters.modes; ++j) {
+    const double ratio = parameters.relaxation_ratio[j], weight = parameters.modal_weight[j];
+    if (!(weight > 0.0)) continue;
+    if (fastest < 0 || ratio < parameters.relaxation_ratio[fastest]) fastest = j;
+    const double x = modal_scale(scale, ratio);
+    const StepCoefficients<double> step = ExponentialStep::coefficients(x, 1.0);
+    if (x > 0.0) share += weight * step.curvature / (x * step.forcing);
+  }
+  for (int c = 0; c < Components; ++c) errors[c] = 0.0;
+  if (fastest < 0) return;
+  const double reduced = scale / parameters.relaxation_ratio[fastest] / parameters.modal_weight[fastest];
+  const double in_time = tau_max_before > 0.0 ? reduced * (tau_max / tau_max_before) : 0.0;
+  for (int c = 0; c < Components; ++c) {
+    const double y = before[fastest * Components + c];
+    errors[c] =
+        0.5 * share * std::max(std::abs(forcing[c] - reduced * y), std::abs(forcing[c] - in_time * y));
+  }
+}
+
+/// The factor for the next increment, given the estimated error [MPa] of this one: 1 where it is within the
+/// tolerance. The error goes with the square of the increment. It is an estimate from two increments, and
+/// adds up over others that were larger: it counts three times.
+inline double step_factor(double error, double tolerance) noexcept {
+  constexpr double safety = 3.0, aim = 0.9;
+  if (!(safety * error > tolerance)) return 1.0;
+  return std::max(smallest_cut, aim * std::sqrt(tolerance / (safety * error)));
 }
 
 }  // namespace probation::material

@@ -10,6 +10,7 @@ namespace probation::material {
 
 constexpr int most_modes = 64;
 constexpr int most_table_points = 32;
+constexpr double most_decades = 30.0;
 
 /// How tau_max follows the rate; the numbers are those of the list of constants (constants.hpp).
 enum class Form { constant = 0, weissenberg = 1, exponential = 2, power = 3, table = 4 };
@@ -26,11 +27,12 @@ struct Parameters {
   double hardening_modulus = 0.0;  ///< G [MPa]
   double bulk_modulus = 0.0;       ///< K [MPa]; not used in one dimension
   Form form = Form::constant;
-  double tau_max = 0.0;         ///< [s], where the form is constant
-  double alpha = 1.0;           ///< [-], elsewhere: tau_max = alpha form(rate)
-  double coefficients[2] = {};  ///< of the form: (slope, intercept) or (coefficient, exponent)
-  double rate_floor = 0.0;      ///< [1/s]; what the companion relation sees at least
-  double rate_filter = 0.0;     ///< [-], strain over which the rate is filtered; 0: the rate itself
+  double tau_max = 0.0;           ///< [s], where the form is constant
+  double alpha = 1.0;             ///< [-], elsewhere: tau_max = alpha form(rate)
+  double coefficients[2] = {};    ///< of the form: (slope, intercept) or (coefficient, exponent)
+  double rate_floor = 0.0;        ///< [1/s]; what the companion relation sees at least
+  double rate_filter = 0.0;       ///< [-], strain over which the rate is filtered; 0: the rate itself
+  double stress_tolerance = 0.0;  ///< [MPa], of the error that the size of increments makes; 0: not looked at
   int modes = 0;
   double relaxation_ratio[most_modes] = {};  ///< tau_j / tau_max [-]
   double modal_weight[most_modes] = {};      ///< p_j [-]
@@ -38,9 +40,10 @@ struct Parameters {
   double table_rate[most_table_points] = {};     ///< [1/s], increasing
   double table_tau_max[most_table_points] = {};  ///< [s]
 
-  /// The paper's modes; false, and nothing changed, unless 1 <= number <= most_modes and decades > 0.
+  /// The paper's modes; false, and nothing changed, unless 1 <= number <= most_modes and 0 < decades <=
+  /// most_decades.
   bool set_log_spaced(int number, double decades) noexcept {
-    if (number < 1 || number > most_modes || !(decades > 0.0)) return false;
+    if (number < 1 || number > most_modes || !(decades > 0.0) || !(decades <= most_decades)) return false;
     modes = number;
     log_spaced_modes(number, decades, relaxation_ratio, modal_weight);
     return true;

@@ -15,6 +15,7 @@
 //   0  rate that the companion relation saw last [1/s]    1  tau_max [s]    2  equivalent strain sqrt(2/3 e_d
 //   : e_d) 3  J - 1    4…9  e_d    10…  Z_j = T_j - p_j G D [MPa], six components each
 
+#include <algorithm>
 #include <cmath>
 
 #include "probation/divided_differences.hpp"
@@ -33,6 +34,15 @@ struct PointStress {
   Fourth tangent{};
 };
 
+/// Principal values of C, and their inverses, above which a deformation is one.
+constexpr double least_square_stretch = 1e-12;
+
+/// Whether F has a volume that such a C can have: it does not turn the material inside out.
+inline bool possible_volume(const Matrix3& f) noexcept {
+  constexpr double least_volume = 1e-18;  // least_square_stretch^(3/2)
+  return determinant(f) > least_volume;
+}
+
 namespace detail {
 
 /// C in its principal axes, and what the law makes of it.
@@ -46,11 +56,11 @@ struct Deformation {
 /// False unless C is a deformation at all.
 inline bool deform(const Symmetric& right_cauchy_green, Deformation& out) noexcept {
   for (const double component : right_cauchy_green)
-    if (!(std::abs(component) < 1e12)) return false;
+    if (!(std::abs(component) < 1.0 / least_square_stretch)) return false;
   out.right = principal(right_cauchy_green);
   const auto& c = out.right.value;
   for (const double value : c)
-    if (!(value > 1e-12)) return false;
+    if (!(value > least_square_stretch)) return false;
   const std::array<double, 3> e{0.5 * std::log(c[0]), 0.5 * std::log(c[1]), 0.5 * std::log(c[2])};
   out.log_volume = e[0] + e[1] + e[2];
   const double isochoric = std::exp(-2.0 / 3.0 * out.log_volume), mean = (c[0] + c[1] + c[2]) / 3.0;
@@ -131,8 +141,9 @@ inline Matrix3 transposed(const Matrix3& m) noexcept {
 
 }  // namespace detail
 
-/// One increment to the deformation C (at its end) in dt [s] (0: at once). `before` is left alone, unless it
-/// is `after`, too. out.tangent is filled only if asked for.
+/// One increment to the deformation C (at its end) in dt [s] (0: at once). `after` may be `before`, or null:
+/// then no state is kept. out.tangent is filled only if asked for. Where there is no update, nothing is
+/// written.
 inline Outcome point_update(const Parameters& parameters, const Symmetric& right_cauchy_green, double dt,
                             const double* before, double* after, PointStress& out,
                             bool with_tangent = true) noexcept {
@@ -161,8 +172,10 @@ inline Outcome point_update(const Parameters& parameters, const Symmetric& right
     scale = step.scale;
   }
   const bool rate_matters = with_tangent && rate.log_scale != 0.0 && rise_squared > 0.0;
-  const ModalSums<6> sums = step_modes<6>(parameters, scale, forcing.data(), rate_matters,
-                                          before + point_state_header, after + point_state_header);
+  const double* const modes_before = before + point_state_header;
+  double modes_after[6 * most_modes];  // kept only once all is known to be finite
+  const ModalSums<6> sums =
+      step_modes<6>(parameters, scale, forcing.data(), rate_matters, modes_before, modes_after);
 
   // In the principal axes of C: S = L o T.
   const Fourth to_principal = congruence(detail::transposed(now.right.axes));
@@ -173,7 +186,9 @@ inline Outcome point_update(const Parameters& parameters, const Symmetric& right
   Symmetric second_piola{};
   for (int c = 0; c < 6; ++c)
     second_piola[c] = log_difference(now.right.value[pairs[c].i], now.right.value[pairs[c].j]) * stress[c];
-  out.stress = transform(now.from_principal, second_piola);
+  PointStress made;
+  made.stress = transform(now.from_principal, second_piola);
+  if (!all_finite(made.stress)) return {Status::cut_step};
 
   if (with_tangent) {
     Symmetric slope{}, direction{};
@@ -185,17 +200,25 @@ inline Outcome point_update(const Parameters& parameters, const Symmetric& right
     const Fourth tangent =
         detail::principal_tangent(now, stress, sums.mean * modulus, (sums.weight - sums.mean) * hardening,
                                   slope, direction, parameters.bulk_modulus);
-    out.tangent = carry(now.from_principal, tangent);
+    made.tangent = carry(now.from_principal, tangent);
+    if (!all_finite(made.tangent)) return {Status::cut_step};
   }
-  for (const double component : out.stress)
-    if (!std::isfinite(component)) return {Status::cut_step};
 
+  Outcome outcome;
+  if (parameters.stress_tolerance > 0.0) {
+    Symmetric errors{};
+    step_errors<6>(parameters, scale, rate.tau_max, before[1], forcing.data(), modes_before, errors.data());
+    outcome.step_factor = step_factor(std::sqrt(1.5 * contract(errors, errors)), parameters.stress_tolerance);
+  }
+  out = made;
+  if (after == nullptr) return outcome;
   after[0] = rate.seen;
   after[1] = rate.tau_max;
   after[2] = std::sqrt(2.0 / 3.0 * contract(now.e_d, now.e_d));
   after[3] = std::expm1(now.log_volume);
   for (int c = 0; c < 6; ++c) after[4 + c] = now.e_d[c];
-  return {};
+  std::copy(modes_after, modes_after + 6 * parameters.modes, after + point_state_header);
+  return outcome;
 }
 
 }  // namespace probation::material

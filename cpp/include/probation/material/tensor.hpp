@@ -21,6 +21,18 @@ constexpr int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 /// How often a component counts in a double contraction.
 constexpr Symmetric multiplicity{1.0, 1.0, 1.0, 2.0, 2.0, 2.0};
 
+inline bool all_finite(const Symmetric& a) noexcept {
+  double sum = 0.0;  // of zeros, unless one is inf or nan
+  for (const double component : a) sum += component - component;
+  return sum == 0.0;
+}
+inline bool all_finite(const Fourth& a) noexcept {
+  double sum = 0.0;
+  for (const auto& row : a)
+    for (const double component : row) sum += component - component;
+  return sum == 0.0;
+}
+
 constexpr double trace(const Symmetric& a) noexcept { return a[0] + a[1] + a[2]; }
 
 inline double contract(const Symmetric& a, const Symmetric& b) noexcept {

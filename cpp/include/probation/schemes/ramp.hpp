@@ -15,7 +15,7 @@ double exponential_difference(double x, double y);
 ///
 /// As printed, eq. (7) is infinite at tau_j = 1 / rate, undefined at rate = 0 and -1 / (2 tau_j), and loses
 /// all digits at small t; this form is the same function without these holes.
-/// @throws InputError  if a time is negative or the rate is not finite
+/// @throws InputError  if a time is negative, the rate is not finite, or a stress is beyond all numbers
 Eigen::ArrayXd ramp_stress(const Law& law, double strain_rate, const Samples& time);
 
 }  // namespace probation

@@ -1,6 +1,6 @@
 """Forms of companion relation that can be calibrated; a new one is one file here and one line in `FORMS`.
 
-One that campaigns can name needs its class in `probation.companion`, too.
+One that campaigns can name needs its class in `probation.law.companion`, too.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 
 from probation.calibration.forms.form import Form
-from probation.companion import PowerLaw
+from probation.law.companion import PowerLaw
 
 FORM = Form(
     name="constant-weissenberg",

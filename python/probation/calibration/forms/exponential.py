@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from probation.calibration.forms.form import Form
-from probation.companion import Companion, Exponential
+from probation.law.companion import Companion, Exponential
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

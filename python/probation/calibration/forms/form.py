@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.companion import Companion
+    from probation.law.companion import Companion
 
 Measure = Literal["We", "τ_max", "ln τ_max"]
 """In which quantity residuals are squared where no standard errors are known."""

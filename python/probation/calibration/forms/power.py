@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from probation.calibration.forms.form import Form
-from probation.companion import Companion, PowerLaw
+from probation.law.companion import Companion, PowerLaw
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

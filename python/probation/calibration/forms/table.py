@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from probation.calibration.forms.form import Form
-from probation.companion import Companion, Table
+from probation.law.companion import Companion, Table
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from probation.calibration.forms.form import Form
-from probation.companion import Companion, Weissenberg
+from probation.law.companion import Companion, Weissenberg
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
 def _start(rates: FloatArray, tau_max: FloatArray) -> FloatArray:
-    """Linear regression of We = tau_max r on log10 r."""
-    return np.polyfit(np.log10(rates), rates * tau_max, 1)
+    """Linear regression of We = tau_max r on log10 r; their mean where the line would be negative at some rate."""
+    line: FloatArray = np.polyfit(np.log10(rates), rates * tau_max, 1)
+    if np.any(np.polyval(line, np.log10(rates)) <= 0.0):
+        return np.array([0.0, np.mean(rates * tau_max)])
+    return line
 
 
 def _log_gradient(companion: Companion, rates: FloatArray) -> FloatArray:

@@ -14,13 +14,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation.companion import WEISSENBERG_AS_PRINTED
 from probation.errors import InputError
 from probation.fe.calculix.dumbbell import Dumbbell
 from probation.fe.calculix.element import stretch_element, turn_element
 from probation.fe.calculix.necking import neck
 from probation.fe.calculix.program import find_ccx
-from probation.law import Law
+from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.modal import Law
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

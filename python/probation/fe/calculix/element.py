@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.fe.calculix.deck import Degree
-    from probation.law import Law
+    from probation.law.modal import Law
 
 LOADING = ((0.004, 4.0),) * 25 + ((0.006, 0.6),) * 20
 """A ramp, then a rate ten times higher: increments of true strain [-], and of time [s]."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.fe.calculix.dumbbell import Dumbbell
     from probation.fe.calculix.printed import Printed
-    from probation.law import Law
+    from probation.law.modal import Law
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.paper.twins import experiment_1, experiment_2, experiment_3
+from probation.published.experiments import experiment_1, experiment_2, experiment_3
 from probation.report.figures import house_style, new_figure, save_figure, thinned
 from probation.report.style import series_colour
 

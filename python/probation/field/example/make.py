@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import shutil
 from pathlib import Path
@@ -9,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation._files import make_folder, written_to
 from probation.errors import InputError
+from probation.field.chunks import create, write
 from probation.field.example import specimen
 from probation.field.example.superposition import superpose
 from probation.field.extra import load
@@ -25,8 +28,8 @@ if TYPE_CHECKING:
 
 CHUNK = 64
 """Pixels along each side of a chunk of a large field."""
-SUBSTEPS = 4
-"""Steps of the integration from sample to sample: the stress errs by less than 1e-4 MPa."""
+LONGEST_STEP = 0.1
+"""Of the integration [s], however far apart the samples are: its error falls with the square of the step."""
 STRAIN_NOISE = 1e-4
 FORCE_NOISE = 0.04
 """Of the stress over the initial cross-section [MPa]: that of the true stress grows as e^strain."""
@@ -76,14 +79,13 @@ def make_example(
     grid = BlockGrid((size, size), (chunk, chunk))
     part = Path(folder) / f"field.zarr.{os.getpid()}.part"
     try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        _create(part, grid, times, seed)
-        jobs = {block: (str(part), grid, times, seed, block) for block in grid.blocks()}
-        run_all(make_block, jobs, processes=processes, executor=executor, progress=progress, on_done=None)
-        _write_truth(truth, size)
-        part.rename(field)
-    except OSError as failure:
-        raise InputError(f"{folder}: cannot be written: {failure.strerror or failure}") from None
+        make_folder(folder)
+        with written_to(folder):
+            _create(part, grid, times, seed)
+            jobs = {block: (str(part), grid, times, seed, block) for block in grid.blocks()}
+            run_all(make_block, jobs, processes=processes, executor=executor, progress=progress, on_done=None)
+            _write_truth(truth, size)
+            part.rename(field)
     finally:
         shutil.rmtree(part, ignore_errors=True)
     return field, truth
@@ -96,17 +98,17 @@ def make_block(path: str, grid: BlockGrid, times: int, seed: int, block: Block) 
     y, x = (each.ravel() for each in np.meshgrid(across[at[0]], across[at[1]], indexing="ij"))
     there = np.flatnonzero(specimen.inside(y, x))
     strain, stress = np.full((2, len(y), times), np.nan, dtype=np.float32)
-    instants = np.linspace(0.0, specimen.DURATION, SUBSTEPS * (times - 1) + 1)
+    substeps = math.ceil(specimen.DURATION / (times - 1) / LONGEST_STEP)
+    instants = np.linspace(0.0, specimen.DURATION, substeps * (times - 1) + 1)
     chance = np.random.default_rng([seed, *block])
     for some in np.split(there, range(_AT_ONCE, len(there), _AT_ONCE)):
         drawn = specimen.true_strain(instants, y[some], x[some])
         made = specimen.material(y[some], x[some])
         true = superpose(instants[1], drawn, made.unrelaxed_modulus, made.tau_max, made.hardening_modulus)
-        strain[some], stress[some] = _measured(drawn[:, ::SUBSTEPS], true[:, ::SUBSTEPS], chance)
+        strain[some], stress[some] = _measured(drawn[:, ::substeps], true[:, ::substeps], chance)
     shape = (at[0].stop - at[0].start, at[1].stop - at[1].start, times)
-    group = load("zarr").open_group(path, mode="r+")
-    group["true_strain"][at] = strain.reshape(shape)
-    group["true_stress"][at] = stress.reshape(shape)
+    write(path, "true_strain", at, strain.reshape(shape))
+    write(path, "true_stress", at, stress.reshape(shape))
 
 
 def _measured(strain: FloatArray, stress: FloatArray, chance: np.random.Generator) -> tuple[FloatArray, FloatArray]:
@@ -129,18 +131,11 @@ def _create(path: Path, grid: BlockGrid, times: int, seed: int) -> None:
     title = "synthetic necking specimen: made by probation field example, not measured"
     group = load("zarr").open_group(path, mode="w", attributes={"title": title, "seed": seed})
     _axes(group, grid.shape[0])
-    time = group.create_array("time", shape=(times,), dtype="<f8", dimension_names=("time",), attributes={"units": "s"})
+    time = create(group, "time", (times,), ("time",), attributes={"units": "s"})
     time[...] = np.linspace(0.0, specimen.DURATION, times)
     for name, unit in (("true_strain", "1"), ("true_stress", "MPa")):
-        group.create_array(
-            name,
-            shape=(*grid.shape, times),
-            chunks=(*grid.block, times),
-            dtype="<f4",
-            fill_value=np.nan,
-            dimension_names=("y", "x", "time"),
-            attributes={"units": unit},
-        )
+        shape, chunks = (*grid.shape, times), (*grid.block, times)
+        create(group, name, shape, ("y", "x", "time"), chunks=chunks, dtype="<f4", attributes={"units": unit})
 
 
 def _write_truth(path: Path, size: int) -> None:
@@ -152,13 +147,9 @@ def _write_truth(path: Path, size: int) -> None:
     _axes(group, size)
     for name, unit in TRUTH.items():
         values = np.where(specimen.inside(y, x), getattr(made, name), np.nan)
-        array = group.create_array(
-            name, shape=values.shape, dtype="<f8", dimension_names=("y", "x"), attributes={"units": unit}
-        )
-        array[...] = values
+        create(group, name, values.shape, ("y", "x"), attributes={"units": unit})[...] = values
 
 
 def _axes(group: Any, size: int) -> None:
     for name in ("y", "x"):
-        axis = group.create_array(name, shape=(size,), dtype="<f8", dimension_names=(name,), attributes={"units": "mm"})
-        axis[...] = specimen.positions(size)
+        create(group, name, (size,), (name,), attributes={"units": "mm"})[...] = specimen.positions(size)

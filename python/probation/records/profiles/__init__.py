@@ -1,7 +1,7 @@
 """Import profiles: one kind of file each. A new one is a file here and a line in ``PROFILES``."""
 
+from probation._complaint import quoted, suggestion
 from probation.errors import InputError
-from probation.records.complaint import quoted, suggestion
 from probation.records.profiles import (
     delimited,
     etfe,

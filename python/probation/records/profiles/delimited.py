@@ -1,6 +1,6 @@
 """Profile ``csv``: comma, semicolon or tab between the cells, headings found wherever they stand."""
 
-from probation.records.complaint import bad_input
+from probation._complaint import bad_input
 from probation.records.grid import Grid, decimal_mark, read_grid
 from probation.records.header import find_heading
 from probation.records.options import ReadOptions

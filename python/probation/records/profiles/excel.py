@@ -6,10 +6,11 @@ import zipfile
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
+from probation.limits import INFLATED_BYTES, MEBIBYTE
 from probation.records.checks import MINIMUM_SAMPLES
-from probation.records.complaint import bad_input, quoted, suggestion
-from probation.records.grid import Grid
+from probation.records.grid import Grid, check_extent
 from probation.records.options import ReadOptions
 from probation.records.profiles.delimited import table_from
 from probation.records.profiles.profile import Profile, Reading
@@ -29,6 +30,19 @@ def recognises(source: Source) -> bool:
 
 def read(source: Source, options: ReadOptions) -> Reading:
     """Read one sheet as a table of cells."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # openpyxl warns of styles, validations and dates, never of numbers
+            return _read(source, options)
+    except InputError:
+        raise
+    except Exception:  # openpyxl answers damaged archives and XML with a dozen unrelated exception types
+        raise bad_input(
+            source.path, "no Excel workbook, or a damaged one", "an .xlsx file", remedy="save it again, as .xlsx or CSV"
+        ) from None
+
+
+def _read(source: Source, options: ReadOptions) -> Reading:
     workbook = _open(source)
     try:
         sheets = [options.sheet] if options.sheet is not None else workbook.sheetnames
@@ -37,7 +51,7 @@ def read(source: Source, options: ReadOptions) -> Reading:
                 f"{source.path}: found no sheet {quoted(options.sheet)}; "
                 + suggestion(options.sheet, workbook.sheetnames)
             )
-        filled = [(name, grid) for name in sheets if (grid := _grid(workbook, name)).rows]
+        filled = [(name, grid) for name in sheets if (grid := _grid(source, workbook, name)).rows]
     finally:
         workbook.close()
     if not filled:
@@ -57,22 +71,28 @@ def _open(source: Source) -> "Workbook":
         raise bad_input(source.path, "an old Excel file (.xls)", "an .xlsx workbook", remedy="save it as .xlsx")
     import openpyxl  # noqa: PLC0415 - a quarter of a second that text files need not wait for
 
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # openpyxl warns of styles and validations, never of cells
-            return openpyxl.load_workbook(io.BytesIO(source.data), read_only=True, data_only=True)
-    except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError):
-        raise bad_input(source.path, "no Excel workbook", "an .xlsx file", remedy="save it as .xlsx or CSV") from None
+    content = io.BytesIO(source.data)
+    with zipfile.ZipFile(content) as archive:  # unpacking stops at the sizes that stand there
+        unpacked = sum(entry.file_size for entry in archive.infolist())
+    if unpacked > INFLATED_BYTES:
+        limit = f"{INFLATED_BYTES // MEBIBYTE} MiB"
+        raise bad_input(
+            source.path, f"a workbook of more than {limit} unpacked", f"at most {limit}", remedy="save the sheet as CSV"
+        )
+    return openpyxl.load_workbook(content, read_only=True, data_only=True, keep_links=False)
 
 
-def _grid(workbook: "Workbook", name: str) -> Grid:
+def _grid(source: Source, workbook: "Workbook", name: str) -> Grid:
     sheet = workbook[name]
     rows: list[list[str]] = []
     row_numbers: list[int] = []
+    count = 0
     if hasattr(sheet, "iter_rows"):  # a chart sheet has none
         if hasattr(sheet, "reset_dimensions"):
             sheet.reset_dimensions()  # some programs write a wrong extent
         for number, cells in enumerate(sheet.iter_rows(values_only=True), start=1):
+            count += len(cells)
+            check_extent(source, number, len(cells), count)
             if row := _texts(cells):
                 rows.append(row)
                 row_numbers.append(number)

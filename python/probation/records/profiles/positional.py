@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from probation.records.complaint import bad_input
+from probation._complaint import bad_input
 from probation.records.grid import Grid, decimal_mark
 from probation.records.source import Source
 from probation.records.table import Column, Table

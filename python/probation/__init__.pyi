@@ -1,0 +1,92 @@
+from . import batch
+from ._core import __version__
+from .bulk import BulkIdentification, identify_many
+from .calibration.calibrate import calibrate_companion
+from .calibration.calibrated import CalibratedCompanion
+from .calibration.rate_table import RateTable
+from .calibration.result import Calibration
+from .certificate.certify import certify
+from .certificate.result import Certificate
+from .comparison.compare import compare
+from .comparison.reference import Reference
+from .comparison.result import Comparison
+from .diagnosis.diagnose import diagnose
+from .diagnosis.result import Diagnosis
+from .errors import ConvergenceError, InputError
+from .exporting.exporting import export
+from .exporting.result import Export
+from .histories import named_history
+from .histories.file import read_history
+from .histories.imposed import ImposedHistory
+from .identify.fit import fit
+from .identify.result import Fit
+from .inference.callable_law import CallableLaw
+from .law.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
+from .law.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
+from .law.creep import creep
+from .law.kinematics import haward_thackray_strain
+from .law.modal import Law, Spectrum
+from .law.ramp import ramp_stress
+from .law.reduction import Reduction, reduce_spectrum
+from .records.campaign import Campaign
+from .records.preview import preview
+from .records.record import Noise, Record
+from .schemes.crosscheck import crosscheck
+from .schemes.result import CrossCheck
+from .simulation import Simulation, simulate
+from .smoothing.excitation import Excitation, excite
+
+__all__ = [
+    "BulkIdentification",
+    "CalibratedCompanion",
+    "Calibration",
+    "CallableLaw",
+    "Campaign",
+    "Certificate",
+    "Change",
+    "Comparison",
+    "ConvergenceError",
+    "CrossCheck",
+    "Diagnosis",
+    "Direction",
+    "Excitation",
+    "Exponential",
+    "Export",
+    "Fit",
+    "ImposedHistory",
+    "InputError",
+    "Law",
+    "Noise",
+    "PowerActivation",
+    "PowerLaw",
+    "RateFunction",
+    "RateTable",
+    "Record",
+    "Reduction",
+    "Reference",
+    "SelfHeating",
+    "Simulation",
+    "Spectrum",
+    "StressActivation",
+    "Table",
+    "Weissenberg",
+    "__version__",
+    "batch",
+    "calibrate_companion",
+    "certify",
+    "compare",
+    "creep",
+    "crosscheck",
+    "diagnose",
+    "excite",
+    "export",
+    "fit",
+    "haward_thackray_strain",
+    "identify_many",
+    "named_history",
+    "preview",
+    "ramp_stress",
+    "read_history",
+    "reduce_spectrum",
+    "simulate",
+]

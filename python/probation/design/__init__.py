@@ -1,0 +1,1 @@
+"""What tests can tell apart, and which test to do next."""

@@ -1,0 +1,228 @@
+"""What effects of usual size do to the recorded stress: not derivatives, since some effects are far from linear."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.cause import Cause
+from probation.errors import ConvergenceError, InputError
+from probation.parallel import in_parallel
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from probation._arrays import FloatArray
+    from probation.effects.effect import Effect, EffectParameter, Form
+    from probation.effects.record_view import RecordView
+    from probation.inference.model import CampaignModel
+
+_SMALL = 0.02
+"""Part of the usual size that shows what an effect looks like where it is small."""
+
+_FURTHER = (-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5)
+"""Prior scales off the centre at which shapes are tried beside their starts; every other one of two shapes or more."""
+
+_SMALLER = 4.0
+_ATTEMPTS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class EffectSignal:
+    """What one cause of some size, at one start of its shapes, adds to the recorded stress.
+
+    Attributes
+    ----------
+    cause : Cause
+    values : tuple of float
+        Of the cause's parameters, amplitude first.
+    stress : ndarray, shape (n_samples,) [MPa]
+        With the effect less without, over all records of the model, in proportion to `values[0]` where the law could
+        only be solved at a smaller amplitude.
+    usual : bool
+        Of usual size, at one of the form's own starts: what may stand for the effect. The others only show what else it
+        can look like.
+    """
+
+    cause: Cause
+    values: tuple[float, ...]
+    stress: FloatArray
+    usual: bool = True
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Bounds of the amplitude as multiples of this one's, the lower first."""
+        amplitude, size = self.cause.form.amplitude, self.values[0]
+        ends = sorted((amplitude.lower / size, amplitude.upper / size))
+        return ends[0], ends[1]
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether the amplitude can have one sign only."""
+        return 0.0 in self.reach
+
+
+def effect_signals(
+    model: CampaignModel, parameters: FloatArray, effects: Iterable[Effect], *, threads: int = 1
+) -> tuple[list[EffectSignal], dict[str, str]]:
+    """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
+
+    Beside them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of
+    a form are a grid and not a function. In all records with one amplitude; a form that can sit in single records
+    only: in each of them.
+
+    Parameters
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+    effects : iterable of Effect
+    threads : int
+        Signals are worked out in parallel.
+
+    Returns
+    -------
+    signals : list of EffectSignal
+        In the order of the effects.
+    left_out : dict of str to str
+        Names of effects without any signal, and why: the law does not know what they change, cannot be solved with
+        them, or they are in the model already.
+    """
+    effects = tuple(effects)
+    present = {each.effect.name for each in model.causes}
+    wanted = [
+        (Cause(effect, form, records), values, usual)
+        for effect in effects
+        if effect.name not in present
+        for form in _placed_forms(effect)
+        if not model.missing_notions(Cause(effect, form))
+        for records, views in _places(model, effect, form)
+        for values, usual in _sizes_and_shapes(form, views)
+    ]
+    still = {view.id: at_rest(model, view, parameters) for view in model.views}
+
+    def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal | str:
+        cause, values, usual = item
+        try:
+            return EffectSignal(cause, values, signal(model, parameters, cause, values, still), usual)
+        except InputError as unsolved:
+            return str(unsolved)
+
+    worked = in_parallel(work, wanted, threads)
+    signals = [each for each in worked if isinstance(each, EffectSignal)]
+    shown = {each.cause.effect.name for each in signals if each.usual}
+    left_out = {}
+    for effect in effects:
+        if effect.name not in shown:
+            failed = (each for item, each in zip(wanted, worked, strict=True) if item[0].effect == effect)
+            known = (
+                "it is in the model already" if effect.name in present else "the law does not know what it would change"
+            )
+            left_out[effect.name] = next((each for each in failed if isinstance(each, str)), known)
+    return [each for each in signals if each.cause.effect.name in shown], left_out
+
+
+def at_rest(model: CampaignModel, view: RecordView, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Stress of the specimen and as recorded by the model as it is, each of shape (n,) [MPa]."""
+    base, active = model.split(parameters)
+    here = tuple(each for each in active if each[0].touches(view.id))
+    specimen = model.specimen(view, base, here).stress
+    return specimen, model.recorded(view, base, active, specimen)
+
+
+def signal(
+    model: CampaignModel,
+    parameters: FloatArray,
+    cause: Cause,
+    values: tuple[float, ...],
+    still: dict[str, tuple[FloatArray, FloatArray]] | None = None,
+) -> FloatArray:
+    """What a cause adds to the recorded stress of all records, shape (n_samples,) [MPa].
+
+    Where the law cannot be solved at that amplitude a smaller one is taken, and its signal in proportion.
+
+    Parameters
+    ----------
+    model, parameters
+        Without the cause.
+    cause : Cause
+    values : tuple of float
+        Amplitude first.
+    still : dict, optional
+        `at_rest` of every record by id, if that is known.
+
+    Raises
+    ------
+    InputError
+        If a 256th of the amplitude cannot be solved either.
+    """
+    base, active = model.split(parameters)
+    added = np.zeros(len(model.data))
+    for attempt in range(_ATTEMPTS + 1):
+        part = _SMALLER**-attempt
+        moved = (*active, (cause, (part * values[0], *values[1:])))
+        try:
+            for view in model.views:
+                if not cause.touches(view.id):
+                    continue
+                specimen, recorded = still[view.id] if still else at_rest(model, view, parameters)
+                stress = model.recorded(view, base, moved, None if cause.form.needs_solve else specimen)
+                added[model.rows(view.id)] = view.sampled(stress - recorded) / part
+        except (ConvergenceError, InputError, FloatingPointError):
+            continue
+        if np.isfinite(added).all():
+            return added
+    raise InputError(
+        f"{cause.label}: found no solution of the law with {cause.form.amplitude.name} = {values[0]:g} "
+        "nor with a 256th of it; expected one at its usual size, check the effect or the base parameters"
+    )
+
+
+def usual_size(amplitude: EffectParameter) -> float:
+    """One scale of the prior, in the direction that the bounds allow."""
+    if amplitude.upper > 0.0:
+        return min(amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper, amplitude.upper)
+    return max(-amplitude.scale if np.isfinite(amplitude.scale) else amplitude.lower, amplitude.lower)
+
+
+def _placed_forms(effect: Effect) -> tuple[Form, ...]:
+    """The forms that may sit in all records; if there are none, all forms."""
+    shared = tuple(form for form in effect.forms if "all" in effect.placements(form))
+    return shared or effect.forms
+
+
+def _places(
+    model: CampaignModel, effect: Effect, form: Form
+) -> list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]]:
+    if "all" in effect.placements(form):
+        return [(None, model.views)]
+    return [((view.id,), (view,)) for view in model.views]
+
+
+def _sizes_and_shapes(form: Form, views: tuple[RecordView, ...]) -> list[tuple[tuple[float, ...], bool]]:
+    """Values, and whether they are of usual size at a start; a threshold's own amplitudes."""
+    starts = form.shapes_at(views)
+    if form.threshold:
+        return [(values, True) for values in starts]
+    size = usual_size(form.amplitude)
+    found = [((size, *shapes), True) for shapes in starts]
+    if form.starts is not None:
+        return found
+    if form.needs_solve:
+        found += [((_SMALL * size, *shapes), False) for shapes in starts]
+    return found + [((size, *shapes), False) for shapes in _further_shapes(form) if shapes not in starts]
+
+
+def _further_shapes(form: Form) -> list[tuple[float, ...]]:
+    """A grid over what the priors of the shapes expect."""
+    steps = _FURTHER if len(form.parameters) < 3 else _FURTHER[1::2]
+    grid: list[tuple[float, ...]] = [()]
+    for shape in form.parameters[1:]:
+        if not np.isfinite(shape.scale):
+            return []
+        centre = shape.to_search(shape.centre)
+        values = [shape.from_search(centre + step * shape.scale) for step in steps]
+        inside = dict.fromkeys(min(max(value, shape.lower), shape.upper) for value in values)
+        grid = [(*point, value) for point in grid for value in inside]
+    return grid if form.parameters[1:] else []

@@ -1,0 +1,262 @@
+"""What every explanation foretells of a test that is not done yet, and how often that test would find the right one.
+
+Under explanation k, whose parameters the records there are leave uncertain with covariance C_k, the whitened result is
+normal: y ~ N(f_k, I + J_k C_k J_k^T). That is the rival refitted to old and new records together, to first order, and
+the old records holding it back; the choice between explanations by these densities is Box & Hill's (1967).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import solve_triangular
+from scipy.special import entr
+
+from probation.design.planned_record import planned_noise, planned_view
+from probation.inference.model import CampaignModel
+from probation.noise.whitener import Whitener
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.design.planned_tests import PlannedTest
+    from probation.effects.cause import Cause
+    from probation.effects.record_view import RecordView
+    from probation.noise.model import NoiseModel
+
+REPEATS_ITSELF = 0.5
+"""Probability that a fault seen in single records is there again in a new test on the same rig."""
+
+PER_GAUGE_LENGTH = ("machine_compliance", "strain_offset", "grip_slip")
+"""Effects that add a displacement, so that their strain falls with the gauge length."""
+
+_LOOSE = 1e-12
+"""Information on a direction of the parameters below which, beside the others, it is taken as this."""
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """One explanation of the records there are.
+
+    Attributes
+    ----------
+    model : CampaignModel
+        With its causes.
+    parameters : ndarray, shape (n_parameters,)
+        At their optimum.
+    probability : float
+    effects : tuple of str
+    root : ndarray, shape (n_parameters, n_parameters)
+        R with R R^T = C, the covariance that the records and the priors leave.
+    """
+
+    model: CampaignModel
+    parameters: FloatArray
+    probability: float
+    effects: tuple[str, ...]
+    root: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        model: CampaignModel,
+        parameters: FloatArray,
+        probability: float,
+        effects: Sequence[str],
+        noises: Sequence[NoiseModel],
+    ) -> Explanation:
+        """With what the model's own records, one noise each, tell of its parameters."""
+        jacobian = model.jacobian(parameters)
+        white = Whitener(tuple(noises)).columns(jacobian)
+        known = np.zeros(len(parameters))
+        known[model.base_count :] = [
+            _prior_precision(each.scale, each.log, value)
+            for each, value in zip(model.effect_parameters, parameters[model.base_count :], strict=True)
+        ]
+        information = white.T @ white + np.diag(known)
+        size = np.sqrt(np.diag(information))
+        size[size == 0.0] = 1.0
+        values, vectors = np.linalg.eigh(information / np.outer(size, size))
+        root = vectors / np.sqrt(np.maximum(values, _LOOSE * values[-1])) / size[:, None]
+        return cls(model, parameters, probability, tuple(effects), root)
+
+
+@dataclass(frozen=True, eq=False)
+class Foretelling:
+    """One way in which a planned test may come out.
+
+    Attributes
+    ----------
+    owner : int
+        Whose: an index into the explanations.
+    weight : float
+        Of its explanation's ways: they sum to 1.
+    mean : ndarray, shape (n_samples,)
+        Whitened.
+    spread : ndarray, shape (n_samples, n_parameters)
+        A with A A^T the covariance that uncertain parameters give, whitened.
+    """
+
+    owner: int
+    weight: float
+    mean: FloatArray
+    spread: FloatArray
+
+    def through(self, noise: float) -> Foretelling:
+        """The same seen through `noise` times the noise."""
+        return replace(self, mean=self.mean / noise, spread=self.spread / noise)
+
+
+def foretold(
+    test: PlannedTest,
+    model: CampaignModel,
+    base: FloatArray,
+    explanations: Sequence[Explanation],
+    noises: Sequence[NoiseModel],
+) -> list[Foretelling]:
+    """What every explanation foretells of a test.
+
+    A cause that touches all records touches the new one too. A fault of single records may or may not be there again
+    (`REPEATS_ITSELF`), unless its form can sit nowhere but in one record: a slip does not repeat itself.
+
+    Parameters
+    ----------
+    test : PlannedTest
+    model : CampaignModel
+        The law without causes, on the records there are.
+    base : ndarray
+        Its parameters, for the force that the frame feels.
+    explanations : sequence of Explanation
+    noises : sequence of NoiseModel
+        Of the records there are.
+    """
+    view = _view(test, model)
+    noise = planned_noise(view, noises, model.views)
+    view = view.with_data(view.sampled(model.law.stress(view, base)))
+    found = []
+    for owner, each in enumerate(explanations):
+        confined = [cause for cause in each.model.causes if _may_come_back(cause)]
+        ways = [((), 1.0)] if not confined else [((), 1.0 - REPEATS_ITSELF), (tuple(confined), REPEATS_ITSELF)]
+        for back, weight in ways:
+            stress, slopes = _on(view, each, back, test)
+            found.append(Foretelling(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))
+    return found
+
+
+def _view(test: PlannedTest, model: CampaignModel) -> RecordView:
+    """A repeat is driven as its record was, smoothing and all."""
+    for view in model.views:
+        if view.id == test.repeats:
+            return replace(view, id=test.name, index=view.count)
+    return planned_view(test.name, test.time, test.true_strain, test.jumps, model.views)
+
+
+def _may_come_back(cause: Cause) -> bool:
+    return cause.records is not None and "all" in cause.effect.placements(cause.form)
+
+
+def _on(view: RecordView, each: Explanation, back: Sequence[Cause], test: PlannedTest) -> tuple[FloatArray, FloatArray]:
+    """Stress (n_samples,) [MPa] and slopes (n_samples, n_parameters) of an explanation on a planned record."""
+    base, active = each.model.split(each.parameters)
+    slopes = np.zeros((len(view.data), len(each.parameters)))
+    causes, values, columns, factors = [], list(base), list(range(len(base))), [1.0] * len(base)
+    first = len(base)
+    for cause, own in active:
+        if cause.records is None or cause in back:
+            factor = 1.0 / test.gauge_length if cause.effect.name in PER_GAUGE_LENGTH else 1.0
+            causes.append(type(cause)(cause.effect, cause.form, None if cause.records is None else (view.id,)))
+            values += [factor * own[0], *own[1:]]
+            columns += range(first, first + len(own))
+            factors += [factor, *(1.0 for _ in own[1:])]
+        first += len(own)
+    model = CampaignModel(each.model.law, (view,), causes)
+    residual, jacobian = model.residual_and_jacobian(np.array(values))
+    slopes[:, columns] = jacobian * factors
+    return residual + model.data, slopes
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """How often a test would find the right one.
+
+    Attributes
+    ----------
+    probability : float
+        That the most probable explanation after the test is the right one.
+    information : float
+        Expected gain on which explanation it is [bit].
+    pairwise : ndarray, shape (n_groups, n_groups)
+        That the right one (row) describes the test better than another (column).
+    """
+
+    probability: float
+    information: float
+    pairwise: FloatArray
+
+
+def outcome(ways: Sequence[Foretelling], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int) -> Outcome:
+    """Simulate the test under every explanation and weigh all by what comes out.
+
+    Parameters
+    ----------
+    ways : sequence of Foretelling
+    prior : ndarray, shape (n_explanations,)
+        Probabilities before the test, summing to 1.
+    group : sequence of int
+        Which answer each explanation is; several may be the same.
+    draws : int
+        Of each way.
+    seed : int
+    """
+    owners = np.array([way.owner for way in ways])
+    before = prior[owners] * np.array([way.weight for way in ways])
+    groups = np.asarray(group)[owners]
+    member = np.eye(max(group) + 1)[groups]
+    total = before @ member
+    means, roots = _reduced(ways)
+    inverses = [solve_triangular(root, np.eye(len(root)), lower=True) for root in roots]
+    noise = np.random.default_rng(seed).standard_normal((draws, means.shape[1]))
+    probability, information = 0.0, float(entr(total).sum())
+    wins = np.zeros((len(total), len(total)))
+    for share, own, mean, root in zip(before, groups, means, roots, strict=True):
+        results = mean + noise @ root.T
+        logs = [_log_density(results, m, inverse) for m, inverse in zip(means, inverses, strict=True)]
+        densities = np.stack(logs, axis=1)
+        joint = (np.exp(densities - densities.max(axis=1, keepdims=True)) * before) @ member
+        posterior = joint / joint.sum(axis=1, keepdims=True)
+        probability += share * float(np.mean(posterior.max(axis=1)))
+        information -= share * float(np.mean(entr(posterior).sum(axis=1)))
+        alone = joint / total
+        ahead = np.mean((alone[:, [own]] > alone) + 0.5 * (alone[:, [own]] == alone), axis=0)
+        wins[own] += share / total[own] * ahead
+    np.fill_diagonal(wins, 1.0)
+    return Outcome(min(probability, 1.0), max(information, 0.0) / np.log(2.0), wins)
+
+
+def _reduced(ways: Sequence[Foretelling]) -> tuple[FloatArray, list[FloatArray]]:
+    """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the foretellings differ."""
+    centre = np.mean([way.mean for way in ways], axis=0)
+    columns = np.column_stack([*(way.mean - centre for way in ways), *(way.spread for way in ways)])
+    size = np.linalg.norm(columns, axis=0)
+    frame = np.linalg.qr(columns[:, size > 0.0] / size[size > 0.0])[0] if size.any() else np.zeros((len(columns), 1))
+    means: FloatArray = np.array([frame.T @ (way.mean - centre) for way in ways])
+    roots: list[FloatArray] = []
+    for way in ways:
+        inside = frame.T @ way.spread
+        roots.append(np.asarray(np.linalg.cholesky(np.eye(len(inside)) + inside @ inside.T), dtype=np.float64))
+    return means, roots
+
+
+def _log_density(results: FloatArray, mean: FloatArray, inverse: FloatArray) -> FloatArray:
+    """Of every result (n_draws, m), but for a constant; `inverse` is that of the covariance's Cholesky factor."""
+    whitened = (results - mean) @ inverse.T
+    return np.asarray(-0.5 * np.sum(whitened**2, axis=1) + np.sum(np.log(np.diag(inverse))), dtype=np.float64)
+
+
+def _prior_precision(scale: float, log: bool, value: float) -> float:
+    """1 / variance of an effect's parameter by its prior alone, along the parameter itself."""
+    deviation = scale * abs(value) if log else scale
+    return 1.0 / deviation**2 if np.isfinite(deviation) and deviation > 0.0 else 0.0

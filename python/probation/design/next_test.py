@@ -1,0 +1,208 @@
+"""The experiment to do next: of those a laboratory can do, the one that best tells the remaining explanations apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.design.foretold import Explanation, foretold, outcome
+from probation.design.planned_tests import Laboratory, planned_tests
+from probation.errors import ConvergenceError, InputError
+from probation.parallel import in_parallel
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.design.planned_tests import PlannedTest
+    from probation.inference.model import CampaignModel
+    from probation.noise.model import NoiseModel
+
+HELPS = 0.01
+"""Gain in the probability of a right answer below which a test is not worth doing."""
+
+HALF_HOUR = 0.01
+"""Gain in that probability that half an hour more of effort must bring."""
+
+ROUGH = 3.0
+"""Times the noise at which a test should decide, too."""
+
+SEPARATED = 0.9
+"""Probability of telling two explanations apart from which on a test separates them."""
+
+DRAWS = 400
+
+
+@dataclass(frozen=True, eq=False)
+class RankedTest:
+    """A planned test and what to expect of it.
+
+    Attributes
+    ----------
+    test : PlannedTest
+    probability_after : float
+        Of a right answer.
+    probability_in_rough_hands : float
+        The same at three times the noise: room for what no noise model knows, such as other specimens.
+    information : float
+        Expected gain on which explanation it is [bit].
+    """
+
+    test: PlannedTest
+    probability_after: float
+    probability_in_rough_hands: float
+    information: float
+
+    @property
+    def worth(self) -> float:
+        """Probability of a right answer, the mean of both, less what the effort costs."""
+        both = 0.5 * (self.probability_after + self.probability_in_rough_hands)
+        return both - HALF_HOUR * self.test.effort / 1800.0
+
+    def to_dict(self) -> dict[str, object]:
+        """For JSON."""
+        return {
+            **self.test.to_dict(),
+            "effort_s": self.test.effort,
+            "probability_after": self.probability_after,
+            "probability_in_rough_hands": self.probability_in_rough_hands,
+            "information_bit": self.information,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class NextTest:
+    """What to do next.
+
+    Attributes
+    ----------
+    what : str
+        One sentence.
+    separates : list of list of str
+        Effects of the explanations that it tells from another one; if it does so of none surely, of the two that it
+        tells apart best.
+    probability_before, probability_after : float
+        Of the most probable explanation being the right one, given that one of them is.
+    test : PlannedTest
+    ranking : tuple of RankedTest
+        All tests, the one of most worth first.
+    """
+
+    what: str
+    separates: list[list[str]]
+    probability_before: float
+    probability_after: float
+    test: PlannedTest
+    ranking: tuple[RankedTest, ...]
+
+    def to_dict(self) -> dict[str, object]:
+        """For JSON."""
+        return {
+            "what": self.what,
+            "separates": self.separates,
+            "probability_before": self.probability_before,
+            "probability_after": self.probability_after,
+            "test": self.test.to_dict(),
+            "ranking": [each.to_dict() for each in self.ranking],
+        }
+
+
+def next_test(
+    model: CampaignModel,
+    explanations: Sequence[tuple[CampaignModel, FloatArray, float, tuple[str, ...]]],
+    *,
+    noises: Sequence[NoiseModel],
+    threads: int = 2,
+    seed: int = 0,
+) -> NextTest | None:
+    """The realisable test after which the right explanation is most probably the most probable one, for its effort.
+
+    Every test of `PLANNERS` is foretold by every explanation, with what the records there are leave open of its
+    parameters: a rival may refit all of them, base and effects, to old and new records together (linearised). The noise
+    is that of the records there are. A fault of single records comes back in half of the cases.
+
+    Parameters
+    ----------
+    model : CampaignModel
+        The law without causes, on the records there are.
+    explanations : sequence of (CampaignModel, ndarray, float, tuple of str)
+        Those still in the answer set: the model with its causes on the same records, parameters at their optimum,
+        probability, names of the effects. Explanations with the same effects count as one answer: give every form that
+        describes the records, or a test may be chosen that tells a form from the rest rather than the effect.
+    noises : sequence of NoiseModel
+        One per record.
+    threads : int
+        Tests are worked out in parallel.
+    seed : int
+
+    Returns
+    -------
+    NextTest or None
+        None where there are fewer than two answers.
+
+    Raises
+    ------
+    InputError
+        For another number of noises than records, probabilities that are not positive, or records without strain.
+    """
+    if len(noises) != len(model.views):
+        raise InputError(f"noises: found {len(noises)}, expected one for each of {len(model.views)} records")
+    answers = list(dict.fromkeys(tuple(sorted(effects)) for _, _, _, effects in explanations))
+    if len(answers) < 2:
+        return None
+    prior = np.array([probability for _, _, probability, _ in explanations])
+    if not (np.isfinite(prior).all() and np.all(prior > 0.0)):
+        raise InputError(f"explanations: found the probabilities {prior.tolist()}, expected positive numbers")
+    prior = prior / prior.sum()
+    group = [answers.index(tuple(sorted(effects))) for _, _, _, effects in explanations]
+    known = [Explanation.of(*each, noises) for each in explanations]
+    base = known[int(np.argmax(prior))].parameters[: model.base_count]
+
+    def work(test: PlannedTest) -> tuple[RankedTest, FloatArray] | None:
+        try:
+            ways = foretold(test, model, base, known, noises)
+        except ConvergenceError:
+            return None
+        found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
+        rough = outcome([way.through(ROUGH) for way in ways], prior, group, draws=DRAWS, seed=seed)
+        return RankedTest(test, found.probability, rough.probability, found.information), found.pairwise
+
+    tests = planned_tests(Laboratory.of(model, base))
+    worked = [each for each in in_parallel(work, tests, threads) if each is not None]
+    if not worked:
+        return None
+    worked.sort(key=lambda each: -each[0].worth)
+    ranking = tuple(ranked for ranked, _ in worked)
+    chosen, pairwise = worked[0]
+    separated, surely = _separated(pairwise)
+    before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
+    separates = [list(answers[at]) for at in separated]
+    titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
+    named = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in separates]
+    what = _sentence(chosen, named, surely, before)
+    return NextTest(what, separates, before, chosen.probability_after, chosen.test, ranking)
+
+
+def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
+    """Answers that are surely told from another, and True; if there are none, the two told apart best, and False."""
+    both = np.minimum(pairwise, pairwise.T)
+    np.fill_diagonal(both, -1.0)
+    surely = np.flatnonzero((both >= SEPARATED).any(axis=1)).tolist()
+    best = sorted(int(at) for at in np.unravel_index(int(np.argmax(both)), both.shape))
+    return (surely, True) if surely else (best, False)
+
+
+def _sentence(chosen: RankedTest, names: Sequence[str], surely: bool, before: float) -> str:
+    told = f"{', '.join(names[:-1])} and {names[-1]}"
+    what, after = chosen.test.what, chosen.probability_after
+    if after < before + HELPS:
+        return f"None of the tests considered helps to tell {told} apart; least in vain: {what[0].lower()}{what[1:]}."
+    does = f"it tells {told} apart" if surely else f"it helps most between {told}"
+    return f"{what}: {does}; the answer is then right with {_percent(after)}, now with {_percent(before)}."
+
+
+def _percent(probability: float) -> str:
+    """Never 100 % of what is only probable."""
+    return "more than 99 %" if probability > 0.99 else f"{100.0 * probability:.0f} %"

@@ -1,0 +1,1 @@
+"""Whether a law departs from its records, and where."""

@@ -1,0 +1,135 @@
+"""Gaps that recur at one strain in every record: a neck that passes, a band, a scale that errs at one place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import stdtr
+
+from probation.detection.sharp import SLOWEST, left_beside_slow_waves
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.noise.whitening import Whitened
+
+WIDTHS = (0.015, 0.03)
+"""Standard deviations of the bumps that are looked for, as parts of the largest strain."""
+
+FEWEST = 3
+"""Samples within a bump's standard deviation that a record needs to be asked."""
+
+HIDDEN = 0.2
+"""Part of a bump that slow waves leave, below which nothing is asked of it."""
+
+
+@dataclass(frozen=True)
+class Recurring:
+    """The strongest bump that all records share at one strain.
+
+    Attributes
+    ----------
+    true_strain : float
+        Its middle.
+    width_strain : float
+        Its standard deviation.
+    records : tuple of str
+        That reach there.
+    p_value : float
+        Over all places and widths.
+    """
+
+    true_strain: float
+    width_strain: float
+    records: tuple[str, ...]
+    p_value: float
+
+
+def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
+    """Bumps at one strain that several records share, the least probable first.
+
+    What each record's residual holds of a bump, slow waves and its own refit projected out, is added up over the
+    records and held against what they hold elsewhere beside it (Student's t): a noise whose level or colour is taken
+    wrongly is the same everywhere, but what a material does at one strain it does in every test.
+
+    Parameters
+    ----------
+    whitened : Whitened
+    """
+    ends = [end(record.true_strain) for record in whitened.records for end in (np.min, np.max)]
+    largest = float(max(ends, key=abs))  # negative in compression
+    found = []
+    for part in WIDTHS:
+        width = part * abs(largest)
+        places = np.sign(largest) * np.arange(width, abs(largest), width)
+        shares = {
+            record.name: share
+            for index, record in enumerate(whitened.records)
+            if len(record) >= 8 * SLOWEST and (share := _share(whitened, index, places, width)) is not None
+        }
+        reached = np.sum([share.seen for share in shares.values()], axis=0)
+        shared = np.flatnonzero(reached >= 2)
+        if shared.size:
+            found.append(_strongest(shares, places, shared, width))
+    return tuple(sorted(found, key=lambda each: each.p_value))
+
+
+@dataclass(frozen=True, eq=False)
+class _Share:
+    """What one record says of bumps at K places.
+
+    Attributes
+    ----------
+    seen : ndarray of bool, shape (K,)
+        Whether it reaches there.
+    along : ndarray, shape (K,)
+        Products of its residual with the bumps, whitened and projected.
+    alike : ndarray, shape (K, K)
+        Products of these with each other.
+    """
+
+    seen: NDArray[np.bool_]
+    along: FloatArray
+    alike: FloatArray
+
+
+def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> _Share | None:
+    away = (whitened.records[index].true_strain[:, None] - places) / width
+    left, white = left_beside_slow_waves(whitened, index, SLOWEST)
+    bumps = whitened.noises[index].whiten(np.exp(-0.5 * away**2))
+    size = np.linalg.norm(bumps, axis=0)
+    bumps = bumps - white @ (white.T @ bumps)
+    seen = (np.count_nonzero(np.abs(away) < 1.0, axis=0) >= FEWEST) & (np.linalg.norm(bumps, axis=0) > HIDDEN * size)
+    bumps[:, ~seen] = 0.0
+    return _Share(seen, bumps.T @ left, bumps.T @ bumps) if seen.any() else None
+
+
+def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray[np.intp], width: float) -> Recurring:
+    along = np.sum([share.along for share in shares.values()], axis=0)
+    alike = np.sum([share.alike for share in shares.values()], axis=0)
+    scores = along[shared] / np.sqrt(np.diag(alike)[shared])
+    best = int(np.argmax(np.abs(scores)))
+    at = int(shared[best])
+    squares, count, freedom = 0.0, 0, 0.0
+    for share in shares.values():
+        norm = np.sqrt(np.diag(share.alike)[share.seen])
+        beside = (share.along - along[at] / alike[at, at] * share.alike[:, at])[share.seen] / norm
+        cosines = share.alike[np.ix_(share.seen, share.seen)] / np.outer(norm, norm)
+        squares += float(beside @ beside)
+        count += len(norm)
+        freedom += len(norm) ** 2 / float(np.sum(cosines**2))
+    loud = max(float(np.sqrt(squares / count)), 1.0)
+    # A burst of noise sits in one record: the others have to say the same without it.
+    speaking = sorted(shares.values(), key=lambda share: -share.along[at] * scores[best])[1:]
+    said = sum(float(share.along[at]) for share in speaking) * np.sign(scores[best])
+    size = said / np.sqrt(sum(float(share.alike[at, at]) for share in speaking)) / loud
+    single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
+    tried = len(WIDTHS) * len(shared)
+    p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
+    names = tuple(name for name, share in shares.items() if share.seen[at])
+    return Recurring(float(places[at]), width, names, p_value)

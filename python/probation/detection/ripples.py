@@ -1,0 +1,224 @@
+"""Ripples: a gap that is periodic in the strain. Serrated flow, a neck that sticks and slips, a wavy scale.
+
+A wavy scale has one frequency. Teeth have as many as there are samples to show them: a noise model that grows to hold
+the first few still knows nothing of their comb.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.fft import next_fast_len, rfft
+from scipy.special import gammaincc
+
+from probation.detection.sharp import NEIGHBOURS, SLOWEST, left_beside_slow_waves, running_median
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.noise.whitening import Whitened
+
+CERTAIN = 1e-4
+"""p-value below which a ripple is let explain something (`ripple_waves`)."""
+
+HARMONICS = (1, 4, 16)
+"""The first so many are added up: a wave has one, teeth have many."""
+
+OVERSAMPLING = 2
+FINE = 4
+"""Frequencies per natural spacing that are tried, at the highest harmonic, and at which power is known."""
+
+TEETH = 4
+"""Jumps that a record must have for a comb: samples are cut to the height of the fourth; a slip or two are none."""
+
+GRID = 16
+"""Cells per period of the shortest wave whose power is taken: it loses 1 % in them."""
+
+SHORTEST, RESOLVED = 8, 2.5
+"""Samples per period, on the average, of the shortest ripple that is looked for, and of its highest harmonic."""
+
+
+@dataclass(frozen=True)
+class Ripple:
+    """The strongest ripple of a record, or of all together.
+
+    Attributes
+    ----------
+    record : str or None
+        None for all.
+    period_strain : float
+    p_value : float
+        Over all periods of all records.
+    power : float
+        In units of the noise's.
+    tried : float
+        Periods that could be told apart among those that were tried.
+    """
+
+    record: str | None
+    period_strain: float
+    p_value: float
+    power: float
+    tried: float
+
+    @property
+    def log_share(self) -> float:
+        """Log of the part of the tried periods within which this one is known: what its choice costs an explanation.
+
+        A wave of energy L, 2 * power, over an extent E of the strain is known to 0.55 / (E sqrt(L)) in frequency
+        (Rife and Boorstyn 1974); Laplace's integral over a flat prior of `tried` / E is that times sqrt(2 pi).
+        """
+        return float(min(np.log(1.38 / (self.tried * np.sqrt(2.0 * self.power))), 0.0))
+
+
+def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
+    """The strongest part of every record, and of all together, that is periodic in the recorded strain, by p-value.
+
+    As `gap.sharp.find_lines`, over the strain: where the strain rate changes, teeth of one pitch are no line in time.
+    What is a material's has one period in all records, so that their powers add up, as do those of its harmonics.
+
+    Parameters
+    ----------
+    whitened : Whitened
+    """
+    longest = max(float(np.ptp(record.true_strain)) for record in whitened.records)
+    spectra = [
+        _Spectrum.of(whitened, index, longest)
+        for index, record in enumerate(whitened.records)
+        if len(record) >= 8 * SLOWEST and float(np.ptp(record.true_strain)) > 0.3 * longest > 0.0
+    ]
+    if not spectra:
+        return ()
+    most = max(spectrum.count for spectrum in spectra)
+    families = len(HARMONICS) * (len(spectra) + 1)
+    best: dict[str | None, Ripple] = {}
+    for harmonics in HARMONICS:
+        step = OVERSAMPLING * harmonics
+        frequency = np.arange(step * SLOWEST // 2, step * most // SHORTEST) / (step * longest)
+        together, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
+        found = []
+        for spectrum in spectra:
+            power, count = spectrum.comb(frequency, harmonics)
+            together, terms = together + power, terms + count
+            found.append(_strongest(spectrum.record, frequency, power, count, step, families))
+        if len(spectra) > 1:
+            found.append(_strongest(None, frequency, together, terms, step, families))
+        for each in found:
+            if each is not None and (each.record not in best or each.p_value < best[each.record].p_value):
+                best[each.record] = each
+    return tuple(sorted(best.values(), key=lambda ripple: ripple.p_value))
+
+
+def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
+    """Whitened waves of the most certain ripple, and what the choice of its period costs.
+
+    Its period and the harmonics of that, of one phase in all records where it is in all, as they are and growing with
+    the strain; they fall as those of a saw tooth.
+
+    Parameters
+    ----------
+    whitened : Whitened
+
+    Returns
+    -------
+    columns : ndarray, shape (N, m)
+        The energies of all sum to 1; none if no ripple is certain.
+    log_share : float
+        See `Ripple.log_share`; 0 if none is certain.
+    """
+    found = next((each for each in find_ripples(whitened) if each.p_value < CERTAIN), None)
+    if found is None:
+        return np.zeros((len(whitened), 0)), 0.0
+    orders = np.arange(1, HARMONICS[-1] + 1)
+    largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
+    parts = []
+    for record in whitened.records:
+        phase = 2.0 * np.pi / found.period_strain * np.outer(record.true_strain, orders)
+        within = 1.0 if found.record in (None, record.name) else 0.0
+        wave = within * np.hstack([np.cos(phase), np.sin(phase)])
+        parts.append(np.hstack([wave, wave * (record.true_strain / largest)[:, None]]))
+    columns = whitened.whiten(parts)
+    share = np.tile(orders**-2.0, 4)
+    size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    return np.asarray(columns / size * np.sqrt(share / share.sum())), found.log_share
+
+
+@dataclass(frozen=True, eq=False)
+class _Spectrum:
+    """Power of one record over its strain, in units of the noise's, at multiples of a fine spacing.
+
+    Attributes
+    ----------
+    record : str
+    count : int
+        Samples.
+    extent, spacing : float
+        Of the strain [-], and of the frequencies [1/strain].
+    power : ndarray, shape (k,)
+    """
+
+    record: str
+    count: int
+    extent: float
+    spacing: float
+    power: FloatArray
+
+    @classmethod
+    def of(cls, whitened: Whitened, index: int, longest: float) -> _Spectrum:
+        """Over the noise model or the power of the neighbouring frequencies, whichever is larger."""
+        record = whitened.records[index]
+        extent = float(np.ptp(record.true_strain))
+        left, _ = left_beside_slow_waves(whitened, index, SLOWEST)
+        most = _height(np.abs(left))
+        left = np.clip(left, -most, most)
+        spacing = 1.0 / (FINE * longest)
+        power = _power(record.true_strain, left, spacing, int(len(record) / (RESOLVED * extent * spacing)) + 1)
+        level = running_median(power, NEIGHBOURS * FINE // OVERSAMPLING) / np.log(2.0)
+        return cls(record.name, len(record), extent, spacing, power / np.maximum(level, 1.0))
+
+    def comb(self, frequency: FloatArray, harmonics: int) -> tuple[FloatArray, FloatArray]:
+        """Power at each frequency and its harmonics, as far as they are resolved, and how many those are."""
+        power, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
+        periods = frequency * self.extent
+        seen = (periods >= 0.5 * SLOWEST) & (periods * SHORTEST <= self.count)
+        for order in range(1, harmonics + 1):
+            place = np.rint(order * frequency / self.spacing).astype(np.intp)
+            resolved = seen & (place < len(self.power))
+            power[resolved] += self.power[place[resolved]]
+            terms += resolved
+        return power, terms
+
+
+def _height(size: FloatArray) -> float:
+    """Of the fourth largest peak, those within half a shortest ripple of a larger one not counted."""
+    size = size.copy()
+    for _ in range(TEETH - 1):
+        top = int(np.argmax(size))
+        size[max(top - SHORTEST // 2, 0) : top + SHORTEST // 2 + 1] = 0.0
+    return float(size.max())
+
+
+def _power(strain: FloatArray, values: FloatArray, spacing: float, count: int) -> FloatArray:
+    """|sum v e^(-2 pi i f s)|^2 / n at the first multiples f of a spacing; samples shared out to a fine even grid."""
+    even = next_fast_len(int(GRID * count), real=True)
+    place = (strain - strain.min()) * spacing * even
+    cell = place.astype(np.intp)
+    part = place - cell
+    cells = np.bincount(cell, (1.0 - part) * values, even) + np.bincount(cell + 1, part * values, even)
+    found: FloatArray = np.abs(rfft(cells)[:count]) ** 2 / len(values)
+    return found
+
+
+def _strongest(
+    record: str | None, frequency: FloatArray, power: FloatArray, terms: FloatArray, step: int, families: int
+) -> Ripple | None:
+    """The least probable sum of so many exponential variables, among all frequencies of so many families."""
+    tried = np.flatnonzero(terms)
+    if not tried.size:
+        return None
+    chances = gammaincc(terms[tried], power[tried])
+    best = int(np.argmin(chances))
+    p_value = float(-np.expm1(tried.size * families * np.log1p(-min(float(chances[best]), 1.0 - 1e-15))))
+    at = tried[best]
+    return Ripple(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)

@@ -1,0 +1,224 @@
+"""Gaps that are sharp in one way: a line of one frequency, a step at one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.detection.tail import family_p_value, normal_tail, student_tail
+from probation.noise.smooth_basis import smooth_basis
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.noise.whitening import Whitened
+
+SLOWEST = 8
+"""Half periods per record from which on a wave counts as periodic; slower ones are a smooth gap."""
+
+OVERSAMPLING = 2
+CANDIDATES = 128
+"""Instants per record at which a step is first looked for."""
+
+AROUND = (6, 14)
+"""Samples on each side of a step by which the noise there is judged, closely and less so."""
+
+TOGETHER = 4
+"""Neighbouring samples that a short burst of noise moves together."""
+
+NEIGHBOURS = 60
+"""Frequencies whose median power a line is measured against, if that is above the noise's."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """The strongest line of a record's periodogram.
+
+    Attributes
+    ----------
+    record : str
+    frequency_Hz : float
+    amplitude_MPa : float
+    p_value : float
+        Over all frequencies of all records.
+    """
+
+    record: str
+    frequency_Hz: float  # noqa: N815
+    amplitude_MPa: float  # noqa: N815
+    p_value: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """The strongest step of a record.
+
+    Attributes
+    ----------
+    record : str
+    time_s, true_strain : float
+        Of the first sample after it.
+    size_MPa : float
+        Of the model minus the data: a step up of the data is negative.
+    p_value : float
+        Over all instants of all records.
+    """
+
+    record: str
+    time_s: float
+    true_strain: float
+    size_MPa: float  # noqa: N815
+    p_value: float
+
+
+def find_lines(whitened: Whitened) -> tuple[Line, ...]:
+    """The strongest periodic part of every record, gap-method section 3, by p-value.
+
+    The periodogram of the whitened residual, slow waves and the record's own refit projected out, against the noise
+    model or the power of the neighbouring frequencies, whichever is larger. Frequencies are tried at twice the natural
+    spacing, which counts as twice as many independent ones (Scargle 1982; an upper bound).
+
+    Parameters
+    ----------
+    whitened : Whitened
+    """
+    found = []
+    for index, record in enumerate(whitened.records):
+        count = len(record)
+        if count < 8 * SLOWEST:
+            continue
+        left, white = left_beside_slow_waves(whitened, index, SLOWEST)
+        duration = float(record.time[-1] - record.time[0]) * count / (count - 1)
+        # By sample: where samples are uneven, so is their phase; the exact sums are then taken in time.
+        frequency = np.arange(OVERSAMPLING * SLOWEST // 2, OVERSAMPLING * count // 2) / (OVERSAMPLING * duration)
+        uniform = np.ptp(np.diff(record.time)) < 1e-3 * duration / count
+        if uniform:
+            power = np.abs(np.fft.rfft(left, OVERSAMPLING * count)) ** 2 / count
+            power = power[OVERSAMPLING * SLOWEST // 2 : OVERSAMPLING * count // 2]
+        else:
+            power = uneven_power(record.time, left, frequency)
+        level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
+        best = int(np.argmax(power / level))
+        single = float(np.exp(-power[best] / level[best]))
+        tried = len(power) * len(whitened.records)
+        wave = 2.0 * np.pi * frequency[best] * record.time
+        columns = whitened.noises[index].whiten(np.column_stack([np.cos(wave), np.sin(wave)]))
+        parts = np.linalg.lstsq(columns - white @ (white.T @ columns), left, rcond=None)[0]
+        p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
+        found.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
+    return tuple(sorted(found, key=lambda line: line.p_value))
+
+
+def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[Step, ...]:
+    """The strongest step of every record, gap-method section 3, by p-value: a matched filter.
+
+    What a step leaves after slow waves, fades and the record's own refit are projected out is compared with what the
+    residual leaves; the largest score is held against draws of the largest score under the null.
+
+    Parameters
+    ----------
+    whitened : Whitened
+    size : int
+        Draws.
+    seed : int
+    """
+    rng = np.random.default_rng(seed)
+    found = []
+    for index, record in enumerate(whitened.records):
+        count = len(record)
+        if count < 4 * SLOWEST:
+            continue
+        left, white = left_beside_slow_waves(whitened, index, None)
+        stride = -(-count // CANDIDATES)
+        coarse = np.arange(max(stride, 3), count - 2, stride)
+        steps, norm = _steps(whitened, index, white, coarse)
+        scores = steps.T @ left
+        best = int(coarse[int(np.argmax(np.abs(scores)))])
+        near = np.arange(max(best - stride, 3), min(best + stride + 1, count - 2))
+        fine, norm = _steps(whitened, index, white, near)
+        at = int(np.argmax(np.abs(fine.T @ left)))
+        along = float(fine[:, at] @ left)
+        score = along / _loudness(left, int(near[at]))
+        freedom = _freedom(np.delete(left, slice(max(int(near[at]) - AROUND[1], 0), int(near[at]) + AROUND[1])))
+        spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
+        values, vectors = np.linalg.eigh(steps.T @ steps)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
+        drawn *= np.exp(spread * rng.standard_normal(size))
+        # The finer instants that only the best place is given: each is nearly one of the coarse ones.
+        single = max(float(normal_tail(abs(score), spread)), float(student_tail(abs(score), freedom)))
+        family = float(family_p_value(single, normal_tail(drawn, spread)))
+        p_value = float(-np.expm1(len(whitened.records) * np.log1p(-min(family, 1.0 - 1e-15))))
+        place = int(near[at])
+        found.append(
+            Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
+        )
+    return tuple(sorted(found, key=lambda step: step.p_value))
+
+
+def _loudness(left: FloatArray, place: int) -> float:
+    """Size of the noise around an instant, the step itself left out, over the usual one; not below 1.
+
+    The noise model may have missed a burst; a step is looked for with short windows, and would find it.
+    """
+    found = 1.0
+    for reach in AROUND:
+        around = np.r_[max(place - reach, 0) : max(place - 1, 0), place + 2 : min(place + reach, len(left))]
+        if around.size > reach:
+            found = max(found, float(np.sqrt(np.mean(left[around] ** 2))))
+    return found
+
+
+def _freedom(values: FloatArray) -> float:
+    """Degrees of freedom of the Student t that has the kurtosis of sums over a few neighbours; infinite if normal."""
+    count = len(values) // TOGETHER
+    sums = values[: count * TOGETHER].reshape(count, TOGETHER).sum(axis=1)
+    variance = float(np.mean(sums**2))
+    if count < TOGETHER or variance == 0.0:
+        return np.inf
+    excess = float(np.mean(sums**4)) / variance**2 - 3.0
+    return 4.0 + 6.0 / excess if excess > 0.0 else np.inf
+
+
+def left_beside_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
+    """Whitened residual of a record without slow waves and its own refit, and the orthonormal columns taken out."""
+    record, noise = whitened.records[index], whitened.noises[index]
+    smooth = smooth_basis(record.time, () if waves else record.jumps, waves or SLOWEST)
+    columns = noise.whiten(np.hstack([smooth.columns, record.tangent]))
+    size = np.linalg.norm(columns, axis=0)
+    left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
+    turned, singular, _ = np.linalg.svd(upper)
+    white = left @ turned[:, singular > 1e-8 * singular[0]]
+    residual = whitened.residual[whitened.slices[index]]
+    return residual - white @ (white.T @ residual), white
+
+
+def _steps(
+    whitened: Whitened, index: int, white: FloatArray, instants: NDArray[np.intp]
+) -> tuple[FloatArray, FloatArray]:
+    """Unit steps at the instants, whitened and projected, normalised; and their norms."""
+    count = len(whitened.records[index])
+    columns = whitened.noises[index].whiten((np.arange(count)[:, None] >= instants).astype(np.float64))
+    columns = columns - white @ (white.T @ columns)
+    norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    return columns / norm, norm
+
+
+def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:
+    """|sum v e^(-2 pi i f t)|^2 / n at every frequency."""
+    power = np.empty(len(frequency))
+    for first in range(0, len(frequency), 256):
+        part = slice(first, first + 256)
+        power[part] = np.abs(np.exp(-2j * np.pi * np.outer(frequency[part], time)) @ values) ** 2 / len(values)
+    return power
+
+
+def running_median(values: FloatArray, window: int) -> FloatArray:
+    """Median over blocks of `window`, interpolated between their centres."""
+    pieces = max(len(values) // window, 1)
+    parts = np.array_split(np.arange(len(values)), pieces)
+    centres = np.array([part.mean() for part in parts])
+    return np.interp(np.arange(len(values)), centres, [float(np.median(values[part])) for part in parts])

@@ -1,0 +1,50 @@
+"""The gap test with what is sharp in frequency, in time, in the strain or in its period."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from probation.detection.recurring import find_recurring
+from probation.detection.ripples import find_ripples
+from probation.detection.sharp import find_lines, find_steps
+
+if TYPE_CHECKING:
+    from probation.detection.gap_test import GapTest
+    from probation.noise.whitening import Whitened
+
+SHARP_SHARE = 0.075
+"""Part of the level that is spent on each: lines, steps, ripples, and bumps that recur."""
+
+
+def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
+    """The test's p-value with lines of one frequency, steps at one instant, and ripples and bumps of the strain.
+
+    A test along smooth curves and known effects sees a wave of any frequency, or a slip at any instant, only as far as
+    they resemble the few that were put into it.
+
+    Parameters
+    ----------
+    gap : GapTest
+        Along smooth curves and effects.
+    whitened : Whitened
+    """
+    sharp = {
+        "lines": min((line.p_value for line in find_lines(whitened)), default=1.0),
+        "steps": min((step.p_value for step in find_steps(whitened, size=500)), default=1.0),
+        "ripples": min((ripple.p_value for ripple in find_ripples(whitened)), default=1.0),
+        "recurring": min((bump.p_value for bump in find_recurring(whitened)), default=1.0),
+    }
+    least = min(sharp.values()) / SHARP_SHARE
+    share = 1.0 - len(sharp) * SHARP_SHARE
+
+    def family(p_value: float) -> float:
+        return min(p_value / share, least, 1.0)
+
+    return replace(
+        gap,
+        p_value=family(gap.p_value),
+        p_value_low_noise=family(gap.p_value_low_noise),
+        p_value_high_noise=family(gap.p_value_high_noise),
+        p_values={**gap.p_values, **sharp},
+    )

@@ -1,0 +1,111 @@
+"""Part of the section stops carrying load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation.effects.record_view import RecordView
+
+_REASON = "voids and broken lamellae take some tenths of the section before failure"
+
+
+def _saturating(view: RecordView, values: Values) -> Alteration:
+    """Area e^(-a (1 - e^(-e / e_c))), e the largest strain so far."""
+    return Alteration(load_bearing_area=np.exp(values[0] * np.expm1(-view.largest_strain / values[1])))
+
+
+def _growing(view: RecordView, values: Values) -> Alteration:
+    """Area exp(-a e^n), e the largest strain so far."""
+    return Alteration(load_bearing_area=np.exp(-values[0] * view.largest_strain ** values[1]))
+
+
+def _about_a_strain(view: RecordView, values: Values) -> Alteration:
+    """Area e^(-a h), h = e^m / (e^m + e_c^m) (Hill), e the largest strain so far."""
+    part = np.maximum(view.largest_strain, 0.0) / values[1]
+    return Alteration(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, 1e-9) ** -values[2])))
+
+
+EFFECT = Effect(
+    name="damage",
+    title="damage",
+    physics=(
+        "Voids and breakage take load-bearing area for good, the more the further the specimen has been strained.\n"
+        "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing)."
+    ),
+    source="Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Detrez et al. 2011, Polymer 52, 1998",
+    shows_in="records reaching large strains; unloading shows it best: it stays",
+    kind="material",
+    forms=(
+        Form(
+            "saturating",
+            (
+                EffectParameter("log_area_loss", "", 0.0, 2.0, 0.2, _REASON),
+                EffectParameter(
+                    name="saturation_strain",
+                    unit="",
+                    lower=0.02,
+                    upper=2.0,
+                    centre=0.3,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.1, 0.5),
+                    reason="cavitation follows yield and ends when fibrils are formed",
+                ),
+            ),
+            law_change=_saturating,
+        ),
+        Form(
+            "growing",
+            (
+                EffectParameter("log_area_loss_at_strain_1", "", 0.0, 2.0, 0.2, _REASON),
+                EffectParameter(
+                    name="growth_exponent",
+                    unit="",
+                    lower=0.5,
+                    upper=5.0,
+                    centre=2.0,
+                    scale=0.5,
+                    log=True,
+                    starts=(1.0, 2.5),
+                    reason="between steady growth (1) and acceleration to failure",
+                ),
+            ),
+            law_change=_growing,
+        ),
+        Form(
+            "about_a_strain",
+            (
+                EffectParameter("log_area_loss", "", 0.0, 2.0, 0.2, _REASON),
+                EffectParameter(
+                    name="middle_strain",
+                    unit="",
+                    lower=0.01,
+                    upper=3.0,
+                    centre=0.4,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.15, 0.5),
+                    reason="voids open about a strain: at yield, where fibrils form, or before failure",
+                ),
+                EffectParameter(
+                    name="abruptness",
+                    unit="",
+                    lower=1.5,
+                    upper=12.0,
+                    centre=4.0,
+                    scale=0.5,
+                    log=True,
+                    starts=(4.0,),
+                    reason="nine tenths of it within a factor of three to ten of the strain",
+                ),
+            ),
+            law_change=_about_a_strain,
+        ),
+    ),
+)

@@ -1,0 +1,84 @@
+"""The network builds up late."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.maxwell_element import maxwell_element
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_TIME = EffectParameter(
+    name="build_up_time_s",
+    unit="s",
+    lower=0.01,
+    upper=1e6,
+    centre=100.0,
+    scale=2.0,
+    log=True,
+    reason="between the time of a yield and that of a whole test",
+)
+
+
+def _lag(view: RecordView, time_constant: float) -> FloatArray:
+    """Part of e_HT that is not yet there when it builds up with a time constant; 0 where there is none to speak of."""
+    strain = view.haward_thackray_strain
+    missing = maxwell_element(view.time, strain, time_constant)
+    return np.divide(missing, strain, out=np.zeros(len(view)), where=np.abs(strain) > 1e-9)
+
+
+def _whole(view: RecordView, values: Values) -> Alteration | None:
+    """All of G e_HT lags by a first-order delay of a."""
+    if values[0] <= 0.0:
+        return None
+    return Alteration(hardening_factor=1.0 - _lag(view, values[0]))
+
+
+def _part(view: RecordView, values: Values) -> Alteration:
+    """The part a of G e_HT lags, the rest is there at once."""
+    return Alteration(hardening_factor=1.0 - values[0] * _lag(view, values[1]))
+
+
+def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Fractions of the longest record."""
+    longest = max(view.duration for view in views)
+    times = np.clip(np.array([0.03, 0.3]) * longest, _TIME.lower, _TIME.upper)
+    return [(float(time),) for time in times]
+
+
+EFFECT = Effect(
+    name="delayed_hardening",
+    title="delayed hardening",
+    physics=(
+        "The fibrillar network forms in time, not at once: the relaxed stress follows the strain with a lag.\n"
+        "Amplitude: the lag of all of it, or the part of it that lags."
+    ),
+    source="André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015",
+    shows_in="fast records, dwells after large strains, unloading",
+    kind="material",
+    forms=(
+        Form(
+            "whole",
+            (
+                EffectParameter(
+                    "lag_s", "s", 0.0, 1e4, 20.0, "a strain of some hundredths at usual rates (1e-3 to 1e-2 1/s)"
+                ),
+            ),
+            law_change=_whole,
+        ),
+        Form(
+            "part",
+            (EffectParameter("lagging_part", "", 0.0, 1.0, 0.3, "some tenths of the network"), _TIME),
+            law_change=_part,
+            starts=_starts,
+        ),
+    ),
+)

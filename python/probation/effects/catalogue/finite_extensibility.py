@@ -1,0 +1,86 @@
+"""The network locks: its chains have a finite length."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_LOCKED = 0.95
+"""Part of the locking limit from which on the stiffening goes on straight: the law stays finite beyond."""
+
+_AMPLITUDE = EffectParameter(
+    name="inverse_extensibility",
+    unit="",
+    lower=0.0,
+    upper=0.2,
+    scale=0.01,
+    reason="1/J_m; locking at a stretch of about 10 (J_m = 100)",
+)
+
+
+def _gent(view: RecordView, values: Values) -> Alteration:
+    """Gent: G over 1 - a (I_1 - 3), a = 1 / J_m."""
+    used = values[0] * view.first_invariant
+    free = 1.0 - np.minimum(used, _LOCKED)
+    return Alteration(hardening_factor=1.0 / free + np.maximum(used - _LOCKED, 0.0) / free**2)
+
+
+def _langevin(view: RecordView, values: Values) -> Alteration | None:
+    """Eight chains of N = 1 / (5 a) links: G times L^-1(y) / 3y over its value at rest, y^2 = I_1 / 3N."""
+    if values[0] <= 0.0:
+        return None
+    links = 1.0 / (5.0 * values[0])
+    part = np.sqrt((view.first_invariant + 3.0) / (3.0 * links))
+    at_rest = float(_stiffening(np.array([1.0 / np.sqrt(links)]))[0])
+    return Alteration(hardening_factor=_stiffening(part) / at_rest)
+
+
+def _stiffening(part: FloatArray) -> FloatArray:
+    """L^-1(y) / 3y, straight beyond `_LOCKED`."""
+    y = np.minimum(part, _LOCKED)
+    found = inverse_langevin(y) / (3.0 * y)
+    beyond = part > _LOCKED
+    if np.any(beyond):
+        step = 1e-4
+        low, high = inverse_langevin(np.array([_LOCKED - step, _LOCKED])) / (3.0 * np.array([_LOCKED - step, _LOCKED]))
+        found = found + (high - low) / step * np.maximum(part - _LOCKED, 0.0)
+    return found
+
+
+def inverse_langevin(y: FloatArray) -> FloatArray:
+    """Solve coth x - 1/x = y for 0 < y < 1, by Newton's method from Cohen's approximation; a series below 0.05."""
+    y2 = y * y
+    series = y * (3.0 + y2 * (9.0 / 5.0 + y2 * (297.0 / 175.0 + y2 * (1539.0 / 875.0 + y2 * 126117.0 / 67375.0))))
+    small = y < 0.05
+    bounded = np.where(small, 0.5, y)
+    x = bounded * (3.0 - bounded**2) / (1.0 - bounded**2)
+    for _ in range(5):
+        found = 1.0 / np.tanh(x) - 1.0 / x
+        slope = 1.0 / x**2 - 1.0 / np.sinh(np.minimum(x, 300.0)) ** 2
+        x = x - (found - bounded) / slope
+    return np.where(small, series, x)
+
+
+EFFECT = Effect(
+    name="finite_extensibility",
+    title="finite extensibility of the network",
+    physics=(
+        "Chains have a finite length: the relaxed stress rises above Haward-Thackray and locks.\n"
+        "Amplitude: 1/J_m (Gent), or 1/(5 N) for chains of N links (Langevin), the same to first order."
+    ),
+    source="Gent 1996, Rubber Chem. Technol. 69, 59; Arruda & Boyce 1993, J. Mech. Phys. Solids 41, 389",
+    shows_in="records reaching large strains",
+    kind="material",
+    forms=(
+        Form("gent", (_AMPLITUDE,), law_change=_gent),
+        Form("langevin", (_AMPLITUDE,), law_change=_langevin),
+    ),
+)

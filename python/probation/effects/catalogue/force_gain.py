@@ -1,0 +1,35 @@
+"""The force, or the section, is wrong by a factor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+
+def _gain(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    return (1.0 + values[0]) * stress
+
+
+EFFECT = Effect(
+    name="force_gain",
+    title="gain of the force",
+    physics=(
+        "The load cell's sensitivity, or the measured initial section, is wrong by a factor.\n"
+        "Amplitude: relative excess of the recorded stress. In all records alike it hides in E_u and G."
+    ),
+    source="ISO 7500-1; ISO 527-1 (measurement of the section)",
+    shows_in="one record beside others; never in all of them, unless E_u or G is held",
+    kind="rig",
+    forms=(
+        Form(
+            "factor",
+            (EffectParameter("gain_error", "", -0.5, 0.5, 0.02, "class 1 cells and sections to 1 to 2 %"),),
+            recorded_stress=_gain,
+        ),
+    ),
+)

@@ -1,0 +1,92 @@
+"""The load cell's range ends."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+
+_LIMIT = EffectParameter("inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress")
+_ROUNDING = 0.02
+
+
+def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The recorded nominal stress does not exceed 1 / a, in tension and compression."""
+    if values[0] <= 0.0:
+        return stress
+    limit = view.stretch / values[0]
+    return np.clip(stress, -limit, limit)
+
+
+def _bend(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The reading bends into its limit along a hyperbola: (s + L - sqrt((s - L)^2 + (w L)^2)) / 2, less its zero."""
+    if values[0] <= 0.0:
+        return stress
+    used = np.abs(stress) * values[0] / view.stretch
+
+    def bent(part: FloatArray | float) -> FloatArray:
+        return np.asarray(0.5 * (part + 1.0 - np.hypot(part - 1.0, values[1])))
+
+    return np.asarray(np.sign(stress) * (bent(used) - bent(0.0)) * view.stretch / values[0])
+
+
+def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Just below, and well below, the largest force that was recorded."""
+    largest = max(float(np.max(np.abs(view.nominal_data))) for view in views)
+    return [(1.0 / (part * largest),) for part in (0.995, 0.9)] if largest > 0.0 else []
+
+
+def _bent_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """The same, usually rounded."""
+    return [(*start, _ROUNDING) for start in _starts(views, residuals)]
+
+
+EFFECT = Effect(
+    name="force_saturation",
+    title="saturation of the force",
+    physics=(
+        "The load cell or its amplifier ends at a largest force: beyond it the reading stands still.\n"
+        "Amplitude: one over that force per initial section; 0 means no limit."
+    ),
+    source="ASTM E1942 (data acquisition in mechanical testing)",
+    shows_in="records whose force reaches a plateau, the same in all of them",
+    kind="rig",
+    forms=(
+        Form(
+            "clip",
+            (_LIMIT,),
+            recorded_stress=_saturate,
+            starts=_starts,
+            threshold=True,
+        ),
+        Form(
+            "bend",
+            (
+                _LIMIT,
+                EffectParameter(
+                    name="rounding",
+                    unit="",
+                    lower=1e-3,
+                    upper=0.08,
+                    centre=_ROUNDING,
+                    scale=0.8,
+                    log=True,
+                    starts=(_ROUNDING,),
+                    reason="an amplifier is linear up to some per cent of its range",
+                ),
+            ),
+            recorded_stress=_bend,
+            starts=_bent_starts,
+            threshold=True,
+        ),
+    ),
+)

@@ -1,0 +1,56 @@
+"""Force and strain are not recorded at the same instant."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+
+def _lag(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The force of a seconds ago, made a true stress with the strain of now."""
+    return delayed(view.time, stress / view.stretch, values[0]) * view.stretch
+
+
+def delayed(time: FloatArray, samples: FloatArray, delay: float) -> FloatArray:
+    """`samples` a `delay` [s] later: a cubic with three-point slopes, constant before the start and straight
+    after the end.
+    """
+    if delay == 0.0:
+        return samples
+    slopes = np.gradient(samples, time)
+    wanted = time - delay
+    here = np.clip(np.searchsorted(time, wanted, side="right") - 1, 0, len(time) - 2)
+    step = time[here + 1] - time[here]
+    u = (wanted - time[here]) / step
+    rise = samples[here + 1] - samples[here]
+    bend = (1.0 - u) * (step * slopes[here] - rise) + u * (rise - step * slopes[here + 1])
+    found = samples[here] + u * rise + u * (1.0 - u) * bend
+    beyond = samples[-1] + slopes[-1] * (wanted - time[-1])
+    return np.where(wanted < time[0], samples[0], np.where(wanted > time[-1], beyond, found))
+
+
+EFFECT = Effect(
+    name="force_strain_lag",
+    title="lag between force and strain",
+    physics=(
+        "Filters or separate clocks delay one channel against the other.\n"
+        "Amplitude: by how much the force comes late (negative: the strain does)."
+    ),
+    source="ASTM E1942 (data acquisition in mechanical testing)",
+    shows_in="fast records, rate jumps and reversals, where the stress changes quickly",
+    kind="rig",
+    forms=(
+        Form(
+            "delay",
+            (EffectParameter("delay_s", "s", -20.0, 20.0, 0.3, "filters and video extensometers lag by 0.1 to 1 s"),),
+            recorded_stress=_lag,
+        ),
+    ),
+)

@@ -1,0 +1,50 @@
+"""The recorded strain includes the frame's own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_COMPLIANCE = EffectParameter(
+    name="compliance_per_MPa",
+    unit="1/MPa",
+    lower=0.0,
+    upper=2e-3,
+    scale=1e-4,
+    reason="A_0 / (stiffness x gauge length): 24 mm^2, 1e4 N/mm, 30 mm give 8e-5",
+)
+
+
+def _crosshead(view: RecordView, values: Values) -> FloatArray:
+    """The frame gives way by a F / A_0 per gauge length, which is engineering strain."""
+    own = values[0] * view.nominal_data / view.stretch
+    return view.true_strain + np.log1p(-np.minimum(own, 0.9))
+
+
+def _true_strain(view: RecordView, values: Values) -> FloatArray:
+    """The same taken off the true strain, the stress having been measured apart."""
+    return view.true_strain - values[0] * view.nominal_data
+
+
+EFFECT = Effect(
+    name="machine_compliance",
+    title="compliance of the machine",
+    physics=(
+        "Frame, grips and load cell stretch too; where the crosshead gives the strain, theirs is counted in.\n"
+        "Amplitude: strain per nominal stress F / A_0, which has the recorded force."
+    ),
+    source="ASTM D5656 / ISO 527-1 (compliance correction)",
+    shows_in="stiff materials: the onset, rate jumps, reversals; dwells show it as creep of the specimen",
+    kind="rig",
+    forms=(
+        Form("crosshead", (_COMPLIANCE,), driving_strain=_crosshead),
+        Form("true_strain", (_COMPLIANCE,), driving_strain=_true_strain, converts=False),
+    ),
+)

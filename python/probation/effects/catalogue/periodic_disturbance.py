@@ -1,0 +1,123 @@
+"""Something shakes at one frequency."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_CYCLES = (3.0, 6.0, 12.0, 25.0, 50.0)
+_PEAKS = 3
+_FREQUENCY = EffectParameter(
+    name="frequency_Hz",
+    unit="Hz",
+    lower=1e-5,
+    upper=100.0,
+    centre=0.1,
+    scale=float("inf"),
+    log=True,
+    reason="screws, hydraulics, mains: any",
+)
+_PHASE = EffectParameter(
+    name="phase_rad",
+    unit="rad",
+    lower=-2.0 * np.pi,
+    upper=2.0 * np.pi,
+    scale=float("inf"),
+    period=np.pi,
+    reason="any; with a signed amplitude it repeats itself after half a turn",
+)
+
+
+def _wave(view: RecordView, values: Values) -> FloatArray:
+    return np.asarray(values[0] * np.sin(2.0 * np.pi * values[1] * view.elapsed + values[2]))
+
+
+def _on_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Constant in force: it grows with the stretch in the true stress."""
+    return stress + _wave(view, values) * view.stretch
+
+
+def _on_stress(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Constant in true stress."""
+    return stress + _wave(view, values)
+
+
+def _on_strain(view: RecordView, values: Values) -> FloatArray:
+    """The specimen vibrates and the strain channel does not see it."""
+    wave = _wave(view, values)
+    return np.asarray(view.true_strain + wave - wave[0])
+
+
+def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Peaks of the residuals' periodogram, or some cycles over the longest record; sine and cosine."""
+    if residuals is None:
+        longest = max(view.duration for view in views)
+        found = [cycles / longest for cycles in _CYCLES]
+    else:
+        found = [peak for view, each in zip(views, residuals, strict=True) for peak in _peaks(view, each)]
+    inside = [float(np.clip(frequency, _FREQUENCY.lower, _FREQUENCY.upper)) for frequency in found]
+    return [(frequency, phase) for frequency in inside for phase in (0.0, 0.5 * np.pi)]
+
+
+def _peaks(view: RecordView, residual: FloatArray) -> list[float]:
+    """Frequencies of the highest peaks, two cycles over the record or more."""
+    n = len(residual)
+    even = np.interp(np.linspace(0.0, view.duration, n), view.sampled(view.elapsed), residual)
+    power = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(n), 4 * n)) ** 2
+    power[: 4 * 2] = 0.0  # bins of a quarter of a cycle over the record
+    peaks = []
+    for _ in range(_PEAKS):
+        best = int(np.argmax(power))
+        peaks.append(best * (n - 1) / (4.0 * n * view.duration))
+        power[max(best - 8, 0) : best + 9] = 0.0
+    return peaks
+
+
+def _parameters(amplitude: EffectParameter) -> tuple[EffectParameter, ...]:
+    return (amplitude, _FREQUENCY, _PHASE)
+
+
+EFFECT = Effect(
+    name="periodic_disturbance",
+    title="periodic disturbance",
+    physics=(
+        "A screw, a pump or the mains adds a wave of one frequency to the force, the stress or the strain.\n"
+        "Amplitude: of the wave; its phase is counted from the start of each record."
+    ),
+    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942",
+    shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
+    kind="rig",
+    forms=(
+        Form(
+            "force",
+            _parameters(EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa")),
+            recorded_stress=_on_force,
+            starts=_starts,
+            sharp="line",
+        ),
+        Form(
+            "stress",
+            _parameters(EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa")),
+            recorded_stress=_on_stress,
+            starts=_starts,
+            sharp="line",
+        ),
+        Form(
+            "strain",
+            _parameters(EffectParameter("wave_strain", "", -0.02, 0.02, 2e-4, "experiment 1 vibrates by 1.5e-4")),
+            driving_strain=_on_strain,
+            starts=_starts,
+            sharp="line",
+            converts=False,
+        ),
+    ),
+)

@@ -1,0 +1,56 @@
+"""tau_max follows the strain rate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.effects.alteration import Alteration, RateShift
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation.effects.record_view import RecordView
+
+_EXPONENT = EffectParameter(
+    name="rate_exponent",
+    unit="",
+    lower=-0.5,
+    upper=1.5,
+    scale=0.5,
+    reason="0 is a constant time, 1 a constant Weissenberg number; HDPE has 0.92 without a companion relation",
+)
+_CURVATURE = EffectParameter(
+    name="weissenberg_change_per_decade",
+    unit="",
+    lower=-0.3,
+    upper=0.5,
+    centre=0.18,
+    scale=0.15,
+    reason="0.00464 / 0.026 of eq. (11) at its calibrated rates",
+)
+
+
+def _power(view: RecordView, values: Values) -> Alteration:
+    """tau_max (r / r_ref)^(-a); where there is a companion relation, a changes its slope."""
+    return Alteration(rate_shift=RateShift(values[0], 0.0, view.reference_rate))
+
+
+def _weissenberg(view: RecordView, values: Values) -> Alteration:
+    """The Weissenberg number is linear in log10 of the rate, eq. (11), where a = 1 - s / ln 10."""
+    return Alteration(rate_shift=RateShift(values[0], values[1], view.reference_rate))
+
+
+EFFECT = Effect(
+    name="rate_dependent_relaxation",
+    title="rate-dependent relaxation",
+    physics=(
+        "All relaxation times shift with the strain rate: faster straining shortens them.\n"
+        "Amplitude: -d ln tau_max / d ln rate at the reference rate, on top of the law's own companion relation."
+    ),
+    source="André et al., eqs. (10)-(12)",
+    shows_in="records at different rates, or one whose rate changes (necking, jumps)",
+    kind="material",
+    forms=(
+        Form("power", (_EXPONENT,), law_change=_power),
+        Form("weissenberg", (_EXPONENT, _CURVATURE), law_change=_weissenberg),
+    ),
+)

@@ -1,0 +1,72 @@
+"""Recorded strain and the specimen's strain differ by a constant: toe, slack."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+
+def _slack(view: RecordView, values: Values) -> FloatArray:
+    """Slack is taken up first: the specimen sees nothing until the recorded strain exceeds a."""
+    return np.maximum(view.true_strain - values[0], np.minimum(view.true_strain, 0.0))
+
+
+def _toe(view: RecordView, values: Values) -> FloatArray:
+    """Slack that is taken up gradually: the specimen misses a tanh(e / e_t), and never moves back."""
+    reach = max(values[1], values[0])
+    return view.true_strain - values[0] * np.tanh(np.maximum(view.true_strain, 0.0) / reach)
+
+
+def _shift(view: RecordView, values: Values) -> FloatArray:
+    """The zero of the strain is wrong: the specimen, relaxed at the start, saw a less than was recorded."""
+    return view.true_strain - values[0]
+
+
+EFFECT = Effect(
+    name="strain_offset",
+    title="offset of the strain",
+    physics=(
+        "Slack in the load train is recorded as strain (toe), or the strain was zeroed at the wrong length.\n"
+        "Amplitude: recorded strain that the specimen did not see."
+    ),
+    source="ASTM D638, annex A1 (toe compensation)",
+    shows_in="the onset of a record and, at zero load, its unloading; a wrong zero only bends the hardening",
+    kind="rig",
+    forms=(
+        Form(
+            "slack",
+            (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),),
+            driving_strain=_slack,
+        ),
+        Form(
+            "toe",
+            (
+                EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),
+                EffectParameter(
+                    name="take_up_strain",
+                    unit="",
+                    lower=0.001,
+                    upper=0.5,
+                    centre=0.02,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.01, 0.04),
+                    reason="grips bite and specimens straighten over some times the slack",
+                ),
+            ),
+            driving_strain=_toe,
+        ),
+        Form(
+            "shift",
+            (EffectParameter("strain_zero_error", "", -0.2, 0.2, 0.005, "some tenths of a per cent"),),
+            driving_strain=_shift,
+        ),
+    ),
+)

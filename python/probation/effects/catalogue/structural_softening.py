@@ -1,0 +1,75 @@
+"""An aged start that straining rejuvenates."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_STRAIN = EffectParameter(
+    name="softening_strain",
+    unit="",
+    lower=0.005,
+    upper=1.0,
+    centre=0.08,
+    scale=0.8,
+    log=True,
+    starts=(0.03, 0.15),
+    reason="aged glassy and semi-crystalline polymers soften within 5 to 20 % of strain",
+)
+
+
+def _excess(view: RecordView, values: Values) -> FloatArray:
+    return np.exp(values[0] * np.exp(-view.largest_strain / values[1]))
+
+
+def _times(view: RecordView, values: Values) -> Alteration:
+    """tau_max exp(a e^(-e / e_s)), e the largest strain so far."""
+    return Alteration(relaxation_time_factor=_excess(view, values))
+
+
+def _modulus(view: RecordView, values: Values) -> Alteration:
+    """E_u exp(a e^(-e / e_s)), e the largest strain so far."""
+    return Alteration(unrelaxed_modulus_factor=_excess(view, values))
+
+
+EFFECT = Effect(
+    name="structural_softening",
+    title="structural softening",
+    physics=(
+        "A specimen that has aged starts out stiffer or slower; straining rejuvenates it, once and for all.\n"
+        "Amplitude: ln of the excess of tau_max (or E_u) at the start over what it becomes."
+    ),
+    source="Klompen, Engels, Govaert & Meijer 2005, Macromolecules 38, 6997; Hasan & Boyce 1993, Polymer 34, 5085",
+    shows_in="the first tenths of strain of every record, and no second loading",
+    kind="material",
+    forms=(
+        Form(
+            "relaxation_time",
+            (
+                EffectParameter(
+                    "log_time_excess", "", 0.0, 4.0, 0.5, "a yield drop of 10 to 50 % of a rejuvenated polymer's stress"
+                ),
+                _STRAIN,
+            ),
+            law_change=_times,
+        ),
+        Form(
+            "modulus",
+            (
+                EffectParameter(
+                    "log_modulus_excess", "", 0.0, 2.0, 0.3, "ageing stiffens by some tenths, seldom by twice"
+                ),
+                _STRAIN,
+            ),
+            law_change=_modulus,
+        ),
+    ),
+)

@@ -1,0 +1,64 @@
+"""The room warms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.alteration import Alteration
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.warming import HARDENING_LOSS_PER_DEGREE, SOFTENING_PER_DEGREE, warmed
+
+if TYPE_CHECKING:
+    from probation.effects.record_view import RecordView
+
+_REASON = "laboratories keep their temperature to 2 degrees"
+
+
+def _within_record(view: RecordView, values: Values) -> Alteration:
+    """From nothing at the start of the record to a at its end."""
+    return warmed(values[0] * view.elapsed / view.duration)
+
+
+def _test_to_test(view: RecordView, values: Values) -> Alteration:
+    """From nothing in the first record to a in the last, in order of test."""
+    return warmed(np.full(1, values[0] * view.index / max(view.count - 1, 1)))
+
+
+def _other_temperature(view: RecordView, values: Values) -> Alteration:
+    """One record at another temperature than the others."""
+    return warmed(np.full(1, values[0]))
+
+
+EFFECT = Effect(
+    name="temperature_drift",
+    title="drift of the temperature",
+    physics=(
+        "The room, and with it the specimen, warms during a record, from test to test, or was warmer in one of them.\n"
+        f"Amplitude: the rise; relaxation times fall by {100 * SOFTENING_PER_DEGREE:.0f} %, G by "
+        f"{100 * HARDENING_LOSS_PER_DEGREE:.1f} % per degree. Thermal strains (1.5e-4 per degree) are left out."
+    ),
+    source="Na et al. 2007, J. Phys. Chem. B 111, 13206; ISO 291 (standard atmospheres)",
+    shows_in="long records, or records of different days",
+    kind="rig",
+    forms=(
+        Form(
+            "within_record",
+            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            law_change=_within_record,
+        ),
+        Form(
+            "test_to_test",
+            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            law_change=_test_to_test,
+            placements=("all",),
+        ),
+        Form(
+            "other_temperature",
+            (EffectParameter("warmer_by_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            law_change=_other_temperature,
+            placements=("one",),
+        ),
+    ),
+)

@@ -1,0 +1,265 @@
+"""What a record offers to a law and to an effect."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+from probation.errors import InputError
+from probation.law.companion import RATE_FLOOR
+from probation.law.kinematics import haward_thackray_strain
+from probation.smoothing.excitation import excite
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.law.modal import Scheme
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
+
+_MOVING = 10.0 * RATE_FLOOR
+
+
+@dataclass(frozen=True, eq=False)
+class RecordView:
+    """One record as laws and effects see it.
+
+    Between two samples there may be further instants (`stride` of them per sample), so that a scheme's own error is
+    small; everything of shape (n,) lives on the instants, what was measured, of shape (n_samples,), on the samples.
+
+    Attributes
+    ----------
+    id, control, role : str
+    time : ndarray, shape (n,) [s]
+    true_strain : ndarray, shape (n,) [-]
+        As it drives the law: recorded and perhaps smoothed; in a view from `driven`, what an effect made of it.
+    recorded_strain : ndarray, shape (n,) [-]
+        The same without effects.
+    strain_rate : ndarray, shape (n,) [1/s], or None
+        None: the scheme's own difference of the strain.
+    jumps : tuple of int
+        Instants at which the rate jumps.
+    direction : ndarray, shape (n - 1,)
+        Commanded direction of each step, +1, -1 or 0.
+    data : ndarray, shape (n_samples,) [MPa]
+        The recorded true stress.
+    stride : int
+        Instants from sample to sample.
+    scheme : str
+        Whose difference of the strain is meant.
+    temperature : ndarray, shape (n_samples,) [°C], or None
+    index, count : int
+        Place among the records of the campaign, in order of test, and how many there are.
+    quiet_stress : ndarray, shape (n,) [MPa], or None
+        The recorded true stress without its noise, where that is known: see `CampaignModel.quietened`. Effects that
+        hand the recorded force back to the strain take it; with a companion relation noise would count as straining.
+    reference_rate : float
+        Rate at which a law without rate dependence and one with it agree [1/s]; one number for all records.
+    """
+
+    id: str
+    control: str
+    role: str
+    time: FloatArray
+    true_strain: FloatArray
+    recorded_strain: FloatArray
+    strain_rate: FloatArray | None
+    jumps: tuple[int, ...]
+    direction: FloatArray
+    data: FloatArray
+    stride: int
+    scheme: Scheme
+    temperature: FloatArray | None
+    index: int
+    count: int
+    reference_rate: float
+    quiet_stress: FloatArray | None = None
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @cached_property
+    def history(self) -> _core.History:
+        """The same as the engine takes it."""
+        rate = np.empty(0) if self.strain_rate is None else self.strain_rate
+        return _core.History(self.time, self.true_strain, rate, list(self.jumps), self.direction.astype(np.int32))
+
+    @property
+    def elapsed(self) -> FloatArray:
+        """Time since the start, shape (n,) [s]."""
+        return np.asarray(self.time - self.time[0])
+
+    @property
+    def duration(self) -> float:
+        """[s]."""
+        return float(self.time[-1] - self.time[0])
+
+    @cached_property
+    def rate(self) -> FloatArray:
+        """Modulus of the strain rate that relaxation times follow, not below the floor; shape (n,) [1/s].
+
+        A rate against the commanded direction is noise and counts as none. At a jump it is the one before it.
+        """
+        if self.strain_rate is not None:
+            rate = self.strain_rate.copy()
+        else:
+            rates = self.history.rates(_core.Differentiator.three_point)
+            rate = np.append(rates[0][:1], rates[1])
+        step = np.append(self.direction[:1], self.direction)
+        rate[step * rate < 0.0] = 0.0
+        return np.maximum(np.abs(rate), RATE_FLOOR)
+
+    @cached_property
+    def log_rate(self) -> FloatArray:
+        """Natural logarithm of the rate over the reference rate, shape (n,) [-]."""
+        return np.log(self.rate / self.reference_rate)
+
+    @cached_property
+    def largest_strain(self) -> FloatArray:
+        """Largest strain so far, not below 0; shape (n,) [-]."""
+        return np.maximum.accumulate(np.maximum(self.true_strain, 0.0))
+
+    @cached_property
+    def haward_thackray_strain(self) -> FloatArray:
+        """e^(2 strain) - e^(-strain), shape (n,) [-]."""
+        return haward_thackray_strain(self.true_strain)
+
+    @cached_property
+    def first_invariant(self) -> FloatArray:
+        """I_1 - 3 of the left Cauchy-Green tensor, isochoric; shape (n,) [-]."""
+        return np.expm1(2.0 * self.true_strain) + 2.0 * np.expm1(-self.true_strain)
+
+    @cached_property
+    def stretch(self) -> FloatArray:
+        """e^recorded strain, shape (n,): true over nominal stress as it was recorded."""
+        return np.exp(self.recorded_strain)
+
+    @cached_property
+    def nominal_data(self) -> FloatArray:
+        """Recorded force over the initial section, quiet if that is known, else linear between samples; (n,) [MPa]."""
+        if self.quiet_stress is not None:
+            return self.quiet_stress / self.stretch
+        samples = self.data / self.sampled(self.stretch)
+        return samples if self.stride == 1 else np.interp(self.time, self.sampled(self.time), samples)
+
+    def sampled(self, values: FloatArray) -> FloatArray:
+        """Values at the samples, of values at the instants."""
+        return values[:: self.stride]
+
+    def with_data(self, data: FloatArray) -> RecordView:
+        """The same test with other stresses recorded, shape (n_samples,) [MPa]: a bootstrap's, or a planned test's.
+
+        A planned test should have the base law's prediction: a machine's compliance acts on the force that there is.
+        """
+        if data.shape != self.sampled(self.time).shape:
+            raise InputError(f"{self.id}: found data of shape {data.shape}, expected {self.sampled(self.time).shape}")
+        return replace(self, data=data, quiet_stress=None)
+
+    def driven(self, true_strain: FloatArray) -> RecordView:
+        """The same record with another strain driving the law; given rates follow by the scheme's difference."""
+        rate = self.strain_rate
+        if rate is not None:
+            backward = self.scheme == "be2"
+            how = _core.Differentiator.backward if backward else _core.Differentiator.three_point
+            moved = _core.History(self.time, true_strain - self.true_strain, np.empty(0), list(self.jumps))
+            begin, end = moved.rates(how)
+            rate = rate + np.append(begin[:1], end)
+        return replace(self, true_strain=true_strain, strain_rate=rate)
+
+
+def view_of(
+    record: Record,
+    excitation: Excitation,
+    *,
+    index: int = 0,
+    count: int = 1,
+    reference_rate: float,
+    scheme: Scheme = "be2",
+    substeps: int = 1,
+) -> RecordView:
+    """The view of one record.
+
+    Parameters
+    ----------
+    record : Record
+    excitation : Excitation
+        From `probation.excite`, at the samples.
+    index, count, reference_rate, scheme
+        As in `RecordView`.
+    substeps : int
+        Instants from sample to sample.
+    """
+    fine = excitation.refined(substeps)
+    return RecordView(
+        id=record.id,
+        control=record.control,
+        role=record.role,
+        time=fine.time,
+        true_strain=fine.true_strain,
+        recorded_strain=fine.true_strain,
+        strain_rate=fine.strain_rate,
+        jumps=fine.jumps,
+        direction=fine.direction,
+        data=record.true_stress,
+        stride=substeps,
+        scheme=scheme,
+        temperature=record.temperature,
+        index=index,
+        count=count,
+        reference_rate=reference_rate,
+    )
+
+
+def views_of(
+    campaign: Campaign,
+    *,
+    excitations: Mapping[str, Excitation] | None = None,
+    scheme: Scheme = "be2",
+    substeps: int = 1,
+) -> tuple[RecordView, ...]:
+    """Views of all records of a campaign, held-out ones too, in its order.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    excitations : dict of str to Excitation, optional
+        By record id; made by `excite` if left out.
+    scheme, substeps
+        As in `view_of`.
+    """
+    known = dict(excitations or {})
+    for record in campaign.records:
+        if record.id not in known:
+            known[record.id] = excite(record)
+    reference = reference_rate([known[record.id] for record in campaign.identify])
+    count = len(campaign.records)
+    return tuple(
+        view_of(
+            record,
+            known[record.id],
+            index=index,
+            count=count,
+            reference_rate=reference,
+            scheme=scheme,
+            substeps=substeps,
+        )
+        for index, record in enumerate(campaign.records)
+    )
+
+
+def reference_rate(excitations: Sequence[Excitation]) -> float:
+    """Geometric mean of the records' median rates while moving, to one digit [1/s]; 1e-3 if none moves."""
+    if not excitations:
+        raise InputError("found no records, expected at least one")
+    medians = []
+    for each in excitations:
+        rate = np.abs(each.rate)
+        if np.any(rate > _MOVING):
+            medians.append(np.median(np.log(rate[rate > _MOVING])))
+    return float(f"{np.exp(np.mean(medians)):.0e}") if medians else 1e-3

@@ -1,0 +1,67 @@
+"""The law to export: from a fit, from what ``probation fit --json`` wrote, from a campaign, or as it is."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from probation._files import read_json
+from probation.errors import InputError
+from probation.identify.fit import fit
+from probation.identify.result import Fit
+from probation.law.answer import law_from_answer
+from probation.law.modal import Law
+from probation.records.campaign import Campaign
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+SCHEMA = "probation.fit/1"
+
+
+def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[Law, str]:
+    """A law, and where it comes from in words.
+
+    Parameters
+    ----------
+    source : Law, Fit, Campaign, or path
+        A campaign is identified; a path is that of a campaign or of the JSON that ``probation fit --json`` wrote.
+
+    Raises
+    ------
+    InputError
+        If a file is neither.
+    """
+    if isinstance(source, Law):
+        return source, "parameters as given"
+    if isinstance(source, Fit):
+        return source.law, f"identified on {source.campaign}, {source.verdict}"
+    if isinstance(source, Campaign):
+        return law_and_source(fit(source))
+    if not isinstance(source, str | PathLike):
+        raise InputError(f"source: found {source!r}, expected a Law, a Fit, a Campaign or a path")
+    path = Path(fspath(source))
+    if path.suffix.lower() == ".json":
+        return _read(path)
+    return law_and_source(Campaign.load(path))
+
+
+def _read(path: Path) -> tuple[Law, str]:
+    answer = read_json(path, "what fit --json writes")
+    schema = answer.get("schema") if isinstance(answer, dict) else None
+    if schema != SCHEMA:
+        raise InputError(f"{path}: found the schema {schema!r}, expected {SCHEMA!r}, as fit --json writes it")
+    try:
+        return law_from_answer(_law(answer)), f"identified on {answer.get('campaign', path.stem)} ({path.name})"
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _law(answer: Mapping[str, Any]) -> Mapping[str, Any]:
+    if not isinstance(answer.get("law"), dict):
+        raise InputError(
+            "found no law (its modes and companion relation), expected one; fit again, or give the parameters by --set"
+        )
+    law: Mapping[str, Any] = answer["law"]
+    return law

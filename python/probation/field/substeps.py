@@ -1,0 +1,72 @@
+"""How many steps of the scheme a block takes from sample to sample."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.field.errors import drawn_errors
+from probation.field.pixels import Pixels, identify_pixels, with_more_noise
+from probation.field.source import SHORTEST
+from probation.identify.scheme_error import MOST_SUBSTEPS, NEGLIGIBLE
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.field.errors import Errors
+    from probation.field.pixels import Way
+    from probation.field.samples import BoolArray
+    from probation.field.source import Samples
+
+TRIED = 64
+"""Pixels of a block, evenly spaced, on which the error of the scheme is measured."""
+PART = 95.0
+"""Percentage of them in which it must be negligible."""
+REFERENCE_SUBSTEPS = 4
+"""Of SA3, which the error is measured against: its own error falls with their cube."""
+
+
+def needed_substeps(
+    way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
+) -> int:
+    """Steps that make the error of the scheme negligible beside the standard errors, as `fit` takes them.
+
+    Parameters
+    ----------
+    way : Way
+    time : ndarray, shape (n_times,) [s]
+    strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
+    chance : Generator
+        Of the noise that the standard errors are drawn with.
+    """
+    there = np.flatnonzero(np.count_nonzero(used, axis=1) >= SHORTEST)
+    if len(there) == 0:
+        return 1
+    tried = there[np.unique(np.linspace(0, len(there) - 1, TRIED).astype(np.intp))]
+    strain, stress, used = strain[tried], stress[tried], used[tried]
+    precise = replace(way, scheme="sa3")
+    reference = identify_pixels(precise, time, strain, stress, used, REFERENCE_SUBSTEPS)
+    alone, together = np.arange(len(tried)), np.zeros(len(tried), dtype=np.intp)
+    more_strain, more_stress, level = with_more_noise(time, strain, stress, used, alone, chance)
+    again = identify_pixels(precise, time, more_strain, more_stress, used, REFERENCE_SUBSTEPS)
+    errors = drawn_errors(reference, [(alone, again)], level, together)
+    steps = 1
+    while steps < MOST_SUBSTEPS:
+        shift = _shift(identify_pixels(way, time, strain, stress, used, steps), reference, errors)
+        if shift <= NEGLIGIBLE:
+            break
+        steps = min(max(int(np.ceil(steps * np.sqrt(shift / NEGLIGIBLE))), steps + 1), MOST_SUBSTEPS)
+    return steps
+
+
+def _shift(found: Pixels, reference: Pixels, errors: Errors) -> float:
+    """How far the estimates are from the reference [standard errors]: the worst of the parameters and the product."""
+    good = found.identified & reference.identified
+    if not good.any():
+        return 0.0
+    values, expected = found.parameters[good], reference.parameters[good]
+    moved = np.column_stack([values - expected, values[:, 0] * values[:, 1] - expected[:, 0] * expected[:, 1]])
+    error = np.column_stack([errors.parameters[good], errors.product[good]])
+    shift = np.abs(np.divide(moved, error, out=np.zeros_like(moved), where=error > 0.0))
+    return float(np.max(np.percentile(shift, PART, axis=0)))

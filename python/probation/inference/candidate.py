@@ -1,0 +1,113 @@
+"""Where a search for causes begins: every effect, form and placement at its best start, ranked by its score."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from probation.noise.span import without
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.cause import Cause
+    from probation.inference.screen import Column
+    from probation.noise.whitener import Whitener
+
+Key: TypeAlias = "tuple[str, str, tuple[str, ...] | None]"
+
+LARGEST_START = 2.0
+"""Searches begin within so many prior scales: what is linear at first need not be so further on."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A cause and where its search begins.
+
+    Attributes
+    ----------
+    cause : Cause
+    values : tuple of float
+        Of its parameters: the amplitude that the linearised model wants, and the shapes.
+    gain : float
+        By how much the linearised objective falls.
+    """
+
+    cause: Cause
+    values: tuple[float, ...]
+    gain: float
+
+
+@dataclass(frozen=True, eq=False)
+class WhitenedColumns:
+    """Columns of a screen in white coordinates, unprojected.
+
+    Attributes
+    ----------
+    columns : sequence of Column
+    matrix : ndarray, shape (N, n_columns)
+    """
+
+    columns: Sequence[Column]
+    matrix: FloatArray
+
+    @classmethod
+    def of(cls, columns: Sequence[Column], whitener: Whitener, count: int) -> WhitenedColumns:
+        """Whiten a screen's columns; `count` is the number of stacked samples."""
+        matrix = np.zeros((count, len(columns)))
+        for index, column in enumerate(columns):
+            matrix[column.rows, index] = column.slope
+        return cls(columns, whitener.columns(matrix))
+
+    def and_(self, more: WhitenedColumns) -> WhitenedColumns:
+        """Both screens' columns."""
+        return WhitenedColumns([*self.columns, *more.columns], np.hstack([self.matrix, more.matrix]))
+
+    def by_effect(self) -> dict[str, FloatArray]:
+        """The columns of every effect that is not sharp: lines and steps have tests of their own."""
+        places: dict[str, list[int]] = {}
+        for index, column in enumerate(self.columns):
+            if column.cause.form.sharp is not None:
+                continue
+            places.setdefault(column.cause.effect.name, []).append(index)
+        return {name: self.matrix[:, own] for name, own in places.items()}
+
+    @property
+    def smooth(self) -> FloatArray:
+        """Those that are not sharp, shape (N, m)."""
+        return self.matrix[:, [column.cause.form.sharp is None for column in self.columns]]
+
+    def candidates(self, residual: FloatArray, span: FloatArray) -> list[Candidate]:
+        """Every cause at its best starts, best first; the second-best of a cause comes further down.
+
+        Parameters
+        ----------
+        residual : ndarray, shape (N,)
+            Whitened.
+        span : ndarray, shape (N, p)
+            Orthonormal basis of what a refit of the present model may change.
+        """
+        left = without(residual, span)
+        along = self.matrix.T @ left
+        square = np.sum(self.matrix**2, axis=0) - np.sum((span.T @ self.matrix) ** 2, axis=0)
+        found = []
+        for column, slope, size in zip(self.columns, along.tolist(), square.tolist(), strict=True):
+            amplitude = column.cause.form.amplitude
+            wanted = -slope / max(size + amplitude.scale**-2.0, 1e-300)
+            wanted = float(np.clip(wanted, amplitude.lower, amplitude.upper))
+            gain = -(2.0 * wanted * slope + wanted**2 * size)
+            if column.cause.form.threshold:
+                start = column.values[0]
+            else:
+                largest = LARGEST_START * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
+                start = float(np.clip(wanted, -largest, largest))
+            found.append(Candidate(column.cause, (start, *column.values[1:]), gain))
+        return sorted(found, key=lambda each: -each.gain)
+
+
+def cause_key(cause: Cause) -> Key:
+    """Names of a cause's effect and form, and its records."""
+    return cause.effect.name, cause.form.name, cause.records

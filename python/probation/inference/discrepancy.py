@@ -1,0 +1,153 @@
+"""What is left where a form is wrong or an effect unknown: smooth waves over every record, and over the strain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.detection.ripples import ripple_waves
+from probation.noise.harmless_drift import harmless_drift
+from probation.noise.smooth_basis import smooth_basis
+from probation.noise.span import span_of
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.noise.whitening import Whitened
+
+SOFTNESS = (2.0, 1.0)
+"""The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each."""
+
+ROUGHEST = 24
+"""Half periods per record up to which a discrepancy is looked for."""
+
+COMMON = 12
+"""Half periods over the strain up to which one that is the same in all records is looked for."""
+
+DEPENDENT = 1e-4
+"""Part of a wave that smoother ones leave, below which it adds nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Discrepancy:
+    """Smooth waves over every record, whitened and orthonormal, and the spectrum of a discrepancy along them.
+
+    Attributes
+    ----------
+    columns : tuple of ndarray, shape (n_r, d_r)
+        By record.
+    spectrum : tuple of ndarray, shape (d_r,)
+        Shares of the waves in a discrepancy's energy; sum to 1 in each record.
+    slices : tuple of slice
+        Rows of each record.
+    places : tuple of slice
+        Its waves among all.
+    drift : ndarray, shape (d, d)
+        Covariance of the slow noise along the waves that whitening has left; see `gap.harmless_drift`.
+    common : ndarray, shape (N, m)
+        Whitened waves over the strain, the same in all records; the energies of all sum to 1.
+    specimens : ndarray, shape (N, m)
+        What other parameters in one record alone do, whitened; none where there is one record.
+    ripples : ndarray, shape (N, m)
+        Whitened waves of what is periodic in the strain; none where nothing certainly is.
+    log_ripple_share : float
+        What the choice of their period costs; see `gap.ripples.Ripple.log_share`.
+    """
+
+    columns: tuple[FloatArray, ...]
+    spectrum: tuple[FloatArray, ...]
+    slices: tuple[slice, ...]
+    places: tuple[slice, ...]
+    drift: FloatArray
+    common: FloatArray
+    specimens: FloatArray
+    ripples: FloatArray
+    log_ripple_share: float
+
+    @classmethod
+    def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
+        """Of the identify records.
+
+        Parameters
+        ----------
+        whitened : Whitened
+        signals : ndarray, shape (N, n_signals), optional
+            Whitened signals of effects, of which the slow noise is known to hold little.
+        """
+        columns, spectrum, places, at = [], [], [], 0
+        for record, noise in zip(whitened.records, whitened.noises, strict=True):
+            basis = smooth_basis(record.time, record.jumps, ROUGHEST)
+            left, upper = np.linalg.qr(noise.whiten(basis.columns / np.linalg.norm(basis.columns, axis=0)))
+            size = np.abs(np.diag(upper))
+            kept = size > DEPENDENT * float(size.max())
+            falls = [(1.0 + basis.order[kept]) ** -power for power in SOFTNESS]
+            columns.append(left[:, kept])
+            spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
+            places.append(slice(at, at + int(kept.sum())))
+            at = places[-1].stop
+        drift = harmless_drift(whitened, columns, signals)
+        ripples, log_ripple_share = ripple_waves(whitened)
+        return cls(
+            columns=tuple(columns),
+            spectrum=tuple(spectrum),
+            slices=whitened.slices,
+            places=tuple(places),
+            drift=drift,
+            common=_over_strain(whitened),
+            specimens=_of_specimens(whitened),
+            ripples=ripples,
+            log_ripple_share=log_ripple_share,
+        )
+
+    def __len__(self) -> int:
+        return int(self.places[-1].stop)
+
+    def of_columns(self, matrix: FloatArray) -> FloatArray:
+        """B^T times whitened columns (N,) or (N, m)."""
+        return np.concatenate([own.T @ matrix[part] for own, part in zip(self.columns, self.slices, strict=True)])
+
+    def energy(self, values: FloatArray) -> FloatArray:
+        """Energy of whitened samples (N,) by record, shape (n_records,)."""
+        return np.array([float(values[part] @ values[part]) for part in self.slices])
+
+    def variances(self, energy: FloatArray) -> FloatArray:
+        """D for a discrepancy of so much energy in each record, shape (d,)."""
+        parts = [size * share for size, share in zip(energy, self.spectrum, strict=True)]
+        return np.asarray(np.concatenate(parts), dtype=np.float64)
+
+    def factor(self, energy: FloatArray) -> FloatArray:
+        """B D^(1/2) for a discrepancy of so much energy in each record, shape (N, d)."""
+        columns = np.zeros((self.slices[-1].stop, len(self)))
+        size = np.sqrt(self.variances(energy))
+        for own, part, place in zip(self.columns, self.slices, self.places, strict=True):
+            columns[part, place] = own * size[place]
+        return columns
+
+
+def _over_strain(whitened: Whitened) -> FloatArray:
+    """Waves over the strain that all records share, falling as a discrepancy's do."""
+    largest = max(float(np.max(record.true_strain)) for record in whitened.records)
+    if not largest > 0.0:
+        return np.zeros((len(whitened), 0))
+    orders = np.arange(COMMON)
+    columns = whitened.whiten(
+        [np.cos(np.pi / largest * np.outer(record.true_strain, orders)) for record in whitened.records]
+    )
+    falls = [(1.0 + orders) ** -power for power in SOFTNESS]
+    share = np.mean([each / each.sum() for each in falls], axis=0)
+    return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(share))
+
+
+def _of_specimens(whitened: Whitened) -> FloatArray:
+    """Orthonormal columns of every record's own tangent; the energies of all sum to 1."""
+    if len(whitened.records) < 2:
+        return np.zeros((len(whitened), 0))
+    blocks = []
+    for record, noise, part in zip(whitened.records, whitened.noises, whitened.slices, strict=True):
+        own = span_of(noise.whiten(record.tangent))
+        block = np.zeros((len(whitened), own.shape[1]))
+        block[part] = own
+        blocks.append(block)
+    columns = np.hstack(blocks)
+    return np.asarray(columns / np.sqrt(max(columns.shape[1], 1)))

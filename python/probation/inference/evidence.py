@@ -1,0 +1,99 @@
+r"""How probable the data are under an explanation: Laplace's integral, with allowance for the form of an effect.
+
+A catalogue's form of an effect is never quite nature's. Taken at their word, two explanations that leave 40 and 60
+MPa^2 of a gap of 10 000 would differ by hundreds of log units; taken as forms known to some per cent, both have found
+nearly all of it. So what an explanation leaves is let be noise plus a smooth discrepancy,
+
+    y ~ N(J d, I + B (D + H) B^T),
+
+y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
+waves over every record, H slow noise along them that whitening has left (`gap.harmless_drift`), D = rho^2 lambda_r v
+the discrepancy's variance: rho the relative error of a form, lambda_r what the explanation does to record r, v the
+spectrum of smooth curves. rho is integrated out; errors of a form that are alike in all records (`form_columns`) stand
+among the parameters. "Unknown" is the same with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001;
+gap-method sections 4 and 7).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import logsumexp
+
+from probation.inference.laplace import Linearised
+from probation.inference.unknown import log_evidence_of_unknown
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.inference.discrepancy import Discrepancy
+    from probation.inference.refit import Refit
+
+FORM_ERRORS = (0.0, 0.01, 0.02, 0.04, 0.08)
+FORM_WEIGHTS = (0.4, 0.2, 0.2, 0.12, 0.08)
+"""Relative errors of a form, and how probable they are beforehand."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the data say of one explanation.
+
+    Attributes
+    ----------
+    log_evidence : float
+        Up to a constant that all explanations of a campaign share.
+    form_error : float
+        Posterior mean of the relative error of its form.
+    log_evidence_unknown : float
+        With an effect outside the catalogue beside it.
+    covariance : ndarray, shape (p, p)
+        Of the search coordinates, the form's error included; parameters at a bound have none.
+    log_evidence_exact : float
+        If its form were exact: what tells the forms of one effect apart.
+    """
+
+    log_evidence: float
+    form_error: float
+    log_evidence_unknown: float
+    covariance: FloatArray
+    log_evidence_exact: float = -np.inf
+
+
+def evidence(
+    found: Refit,
+    base: Refit,
+    discrepancy: Discrepancy,
+    *,
+    forms: FloatArray | None = None,
+    unknown: bool = True,
+) -> Evidence:
+    """Evidence of an explanation, or of the base law itself.
+
+    Parameters
+    ----------
+    found : Refit
+    base : Refit
+        Of the base law without causes.
+    discrepancy : Discrepancy
+    forms : ndarray, shape (N, m), optional
+        Ways in which the forms may be wrong, of one standard deviation each; see `form_columns`.
+    unknown : bool
+        Whether an unknown effect beside it is looked for, too; else its evidence is -inf.
+    """
+    problem = Linearised.of(found, discrepancy, forms)
+    done = discrepancy.energy(found.residual - base.residual)
+    errors, weights = (FORM_ERRORS, FORM_WEIGHTS) if done.any() else ((0.0,), (1.0,))
+    scores = [
+        problem.log_integral(discrepancy.variances(error**2 * done)) + float(np.log(weight))
+        for error, weight in zip(errors, weights, strict=True)
+    ]
+    together = float(logsumexp(scores))
+    posterior = np.exp(np.array(scores) - together)
+    form_error = float(posterior @ np.array(errors))
+    covariance = problem.covariance(discrepancy.variances(form_error**2 * done))
+    beside = log_evidence_of_unknown(problem, found, discrepancy, forms) if unknown else -np.inf
+    plain = scores[0] - float(np.log(weights[0]))
+    if forms is not None:
+        plain = Linearised.of(found, discrepancy).log_integral(discrepancy.variances(0.0 * done))
+    return Evidence(together, form_error, beside, covariance, plain)

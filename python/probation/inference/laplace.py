@@ -1,0 +1,147 @@
+"""Laplace's integral of likelihood times prior over all parameters of an explanation, linearised at its optimum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import cholesky, solve_triangular
+from scipy.special import erfcx, log_ndtr
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.inference.discrepancy import Discrepancy
+    from probation.inference.refit import Refit
+
+UNKNOWN = 1e-10
+"""Eigenvalue of the normal matrix of unit diagonal below which nothing is known of a direction but rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Linearised:
+    """The linearised problem in the few numbers that the integral needs.
+
+    The priors stand around the optimum, as broad as they are, and cost what they say of it. What a form may err by is
+    part of the effect there: were the prior to pull a large effect back to nothing, its form's errors would stay.
+    """
+
+    square: float
+    gradient: FloatArray
+    normal: FloatArray
+    waves_of_residual: FloatArray
+    waves_of_jacobian: FloatArray
+    drift: FloatArray
+    precision: FloatArray
+    log_prior: float
+    bound_factor: float
+    free: NDArray[np.bool_]
+    below: FloatArray
+    above: FloatArray
+
+    @classmethod
+    def of(cls, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> Linearised:
+        """At a refit's optimum; `forms` (N, m) are columns of standard normal amplitudes beside the parameters."""
+        model, coordinates = found.model, found.coordinates
+        x = coordinates.of(found.parameters)
+        jacobian, residual = found.jacobian, found.residual
+        gradient = jacobian.T @ residual + coordinates.precision * (x - coordinates.centre)
+        effects = np.arange(len(x)) >= model.base_count
+        free = ~(coordinates.pushed_out(x, gradient) & effects)
+        inside = jacobian[:, free]
+        # A flat prior ends at its bounds, or after a period: a wide normal one around x, cut there, stands in for it.
+        below, above = x - coordinates.lower, coordinates.upper - x
+        period = np.append(np.zeros(model.base_count), [each.period for each in model.effect_parameters])
+        below, above = (
+            np.where(effects, np.where(period > 0.0, 0.5 * period, room), np.inf) for room in (below, above)
+        )
+        flat = effects & (coordinates.precision == 0.0)
+        precision = np.where(flat, (below + above) ** -2.0, coordinates.precision)
+        # Beside the parameters stand the errors of their forms, standard normal; their integral is a marginal density.
+        more = np.zeros((len(residual), 0)) if forms is None else forms
+        count = more.shape[1]
+        inside = np.hstack([inside, more])
+        return cls(
+            square=float(residual @ residual),
+            gradient=-(inside.T @ residual),
+            normal=inside.T @ inside,
+            waves_of_residual=-discrepancy.of_columns(residual),
+            waves_of_jacobian=discrepancy.of_columns(inside),
+            drift=discrepancy.drift,
+            precision=np.append(precision[free], np.ones(count)),
+            log_prior=model.log_prior(found.parameters) - 0.5 * count * float(np.log(2.0 * np.pi)),
+            bound_factor=_at_bounds(jacobian, precision, np.abs(gradient), free, below + above),
+            free=free,
+            below=np.append(below[free], np.full(count, np.inf)),
+            above=np.append(above[free], np.full(count, np.inf)),
+        )
+
+    def log_integral(self, variances: FloatArray) -> float:
+        """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""
+        inside, own = self.waves_of_jacobian, self.waves_of_residual
+        lower = cholesky(np.eye(len(own)) + self.drift + np.diag(variances), lower=True, check_finite=False)
+        both = np.column_stack([inside, own])
+        left = solve_triangular(lower, both, lower=True, check_finite=False)
+        taken = both.T @ both - left.T @ left
+        normal = self.normal - taken[:-1, :-1]
+        gradient = self.gradient - taken[:-1, -1]
+        square = self.square - float(taken[-1, -1])
+        total = normal + np.diag(self.precision)
+        size = np.sqrt(np.maximum(np.diag(total), 1e-300))
+        values, vectors = np.linalg.eigh(total / np.outer(size, size))
+        # A direction that neither data nor priors know is left where it is: its slope is rounding.
+        turned = np.where(values > UNKNOWN, vectors.T @ (gradient / size), 0.0)
+        values = np.maximum(values, UNKNOWN)
+        step = (vectors @ (turned / values)) / size
+        quadratic = square - float(turned @ (turned / values))
+        deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
+        cut = float(np.sum(_log_inside(-(self.below + step) / deviation, (self.above - step) / deviation)))
+        log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))
+        return (
+            -0.5 * quadratic
+            - float(np.sum(np.log(np.diag(lower))))
+            - 0.5 * log_determinant
+            + 0.5 * len(values) * float(np.log(2.0 * np.pi))
+            + self.log_prior
+            + self.bound_factor
+            + cut
+        )
+
+    def covariance(self, variances: FloatArray) -> FloatArray:
+        """Of all search coordinates; zero for those at a bound."""
+        inside, prior = self.waves_of_jacobian, np.diag(self.precision)
+        inverse = np.linalg.pinv(self.normal + prior, hermitian=True)
+        # The discrepancy widens what the estimate, made without it, scatters by.
+        spread = inside.T @ (self.drift @ inside + variances[:, None] * inside)
+        own = inverse @ (self.normal + spread + prior) @ inverse
+        full, count = np.zeros((len(self.free), len(self.free))), int(np.count_nonzero(self.free))
+        full[np.ix_(self.free, self.free)] = own[:count, :count]
+        return full
+
+
+def _at_bounds(
+    jacobian: FloatArray, precision: FloatArray, slope: FloatArray, free: NDArray[np.bool_], room: FloatArray
+) -> float:
+    """Log of the integrals of exp(-g t - h t^2/2), t the way from the bound, over parameters that are held there.
+
+    g is the objective's slope, h its curvature with the free parameters following.
+    """
+    if free.all():
+        return 0.0
+    columns = np.vstack([jacobian, np.diag(np.sqrt(precision))])
+    held, inside = columns[:, ~free], columns[:, free]
+    size = np.maximum(np.linalg.norm(inside, axis=0), 1e-300)
+    seen = held - inside / size @ np.linalg.lstsq(inside / size, held, rcond=1e-10)[0]
+    curvature = np.maximum(np.sum(seen**2, axis=0), 1e-300)
+    whole = np.sqrt(0.5 * np.pi / curvature) * erfcx(slope[~free] / np.sqrt(2.0 * curvature))
+    return float(np.sum(np.log(np.minimum(whole, room[~free]))))
+
+
+def _log_inside(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Log P(low < N(0, 1) < high), in whichever tail has the digits."""
+    flip = low > -high
+    low, high = np.where(flip, -high, low), np.where(flip, -low, high)
+    most = log_ndtr(high)
+    return np.asarray(most + np.log1p(-np.exp(log_ndtr(low) - most)))

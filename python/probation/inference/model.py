@@ -1,0 +1,359 @@
+"""A base law with effects, on all records of a campaign: predictions, fit residuals and their derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation._complaint import suggestion
+from probation.effects.alteration import ONCE, Alteration
+from probation.effects.cause import Cause
+from probation.errors import InputError
+from probation.noise.moving_parabola import moving_parabola
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.effect import EffectParameter
+    from probation.effects.record_view import RecordView
+    from probation.inference.protocol import GapLaw
+
+_PROBE = 1e-3
+"""Stress by which what was recorded is probed for its derivative [MPa]."""
+
+_PARABOLA = 3
+"""Samples through which a parabola always goes."""
+
+CauseValues = tuple[tuple[Cause, tuple[float, ...]], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Specimen:
+    """What the specimen did along one record.
+
+    Attributes
+    ----------
+    stress : ndarray, shape (n,) [MPa]
+        As a faultless force channel would have recorded it.
+    sensitivity : ndarray, shape (n, n_base), or None
+        Its derivatives along the base parameters.
+    """
+
+    stress: FloatArray
+    sensitivity: FloatArray | None
+
+
+class CampaignModel:
+    """A base law and causes, on the records of a campaign.
+
+    Several threads may use one model: it keeps nothing between calls, and the law sees to its own.
+
+    Parameters
+    ----------
+    law : GapLaw
+    views : sequence of RecordView
+        From `views_of`: those to be fitted, or all.
+    causes : sequence of Cause
+
+    Attributes
+    ----------
+    law, views, causes
+    parameter_names : tuple of str
+        The law's, then each cause's.
+    data : ndarray, shape (n_samples,) [MPa]
+        Recorded true stress of all records, stacked.
+
+    Raises
+    ------
+    InputError
+        For a record that is not there, a cause that the law cannot follow, or one given twice.
+    """
+
+    def __init__(self, law: GapLaw, views: Sequence[RecordView], causes: Iterable[Cause] = ()) -> None:
+        self.law = law
+        self.views = tuple(views)
+        self.causes = tuple(causes)
+        ids = [view.id for view in self.views]
+        for each in self.causes:
+            for record in each.records or ():
+                if record not in ids:
+                    raise InputError(f"{each.effect.name}: found no record {record!r}; {suggestion(record, ids)}")
+            if missing := self.missing_notions(each):
+                raise InputError(f"{each.effect.name}: the law does not understand {', '.join(sorted(missing))}")
+        names = (*law.parameter_names, *(name for each in self.causes for name in each.parameter_names))
+        if len(set(names)) < len(names):
+            raise InputError("a cause is given twice for the same records")
+        self.parameter_names = tuple(names)
+        ends = np.cumsum([len(view.data) for view in self.views]).tolist()
+        self._rows = {view.id: slice(end - len(view.data), end) for view, end in zip(self.views, ends, strict=True)}
+        self.data = np.concatenate([view.data for view in self.views])
+
+    @property
+    def base_count(self) -> int:
+        """How many parameters the base law has."""
+        return len(self.law.parameter_names)
+
+    @property
+    def effect_parameters(self) -> tuple[EffectParameter, ...]:
+        """What is known of the causes' parameters, in the order of `parameter_names` behind the law's."""
+        return tuple(parameter for each in self.causes for parameter in each.form.parameters)
+
+    @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper bounds of all parameters, each of shape (n_parameters,)."""
+        lower, upper = self.law.bounds
+        known = self.effect_parameters
+        return (
+            np.append(lower, [parameter.lower for parameter in known]),
+            np.append(upper, [parameter.upper for parameter in known]),
+        )
+
+    @property
+    def start(self) -> FloatArray:
+        """The law's start; causes absent (amplitude 0), with their first shapes; shape (n_parameters,)."""
+        absent = [value for each in self.causes for value in (0.0, *each.form.typical[1:])]
+        return np.append(self.law.start, absent)
+
+    def parameters(self, base: FloatArray, *values: Sequence[float]) -> FloatArray:
+        """All parameters in one vector, from the law's and each cause's; shape (n_parameters,).
+
+        Raises
+        ------
+        InputError
+            For too many or too few.
+        """
+        if len(values) != len(self.causes) or len(base) != self.base_count:
+            expected = [", ".join(self.law.parameter_names), *(each.label for each in self.causes)]
+            raise InputError(f"found {1 + len(values)} groups of values, expected {'; '.join(expected)}")
+        checked = [each.checked(given) for each, given in zip(self.causes, values, strict=True)]
+        return np.concatenate([base, *checked])
+
+    def split(self, parameters: FloatArray) -> tuple[FloatArray, CauseValues]:
+        """The law's parameters, and each cause with its values."""
+        if len(parameters) != len(self.parameter_names):
+            raise InputError(
+                f"found {len(parameters)} parameters, expected {len(self.parameter_names)}: "
+                + ", ".join(self.parameter_names)
+            )
+        first, parts = self.base_count, []
+        for each in self.causes:
+            last = first + len(each.form.parameters)
+            parts.append((each, tuple(float(value) for value in parameters[first:last])))
+            first = last
+        return np.asarray(parameters[: self.base_count], dtype=np.float64), tuple(parts)
+
+    def rows(self, record_id: str) -> slice:
+        """Which rows of the stacked samples belong to a record.
+
+        Raises
+        ------
+        InputError
+            If there is none of that id.
+        """
+        if record_id not in self._rows:
+            raise InputError(f"found no record {record_id!r}; {suggestion(record_id, self._rows)}")
+        return self._rows[record_id]
+
+    @property
+    def parts(self) -> tuple[tuple[RecordView, slice], ...]:
+        """Every view with its rows among the stacked samples."""
+        return tuple((view, self._rows[view.id]) for view in self.views)
+
+    @property
+    def amplitudes(self) -> tuple[int, ...]:
+        """Where the causes' amplitudes stand among the parameters."""
+        sizes = [len(each.form.parameters) for each in self.causes]
+        return tuple(int(place) for place in self.base_count + np.cumsum([0, *sizes])[: len(sizes)])
+
+    def with_causes(self, causes: Iterable[Cause]) -> CampaignModel:
+        """The same law and records with other causes."""
+        return CampaignModel(self.law, self.views, causes)
+
+    def on(self, views: Iterable[RecordView]) -> CampaignModel:
+        """The same law and causes on other records; causes confined to records that are left out go with them."""
+        views = tuple(views)
+        ids = {view.id for view in views}
+        kept = [each for each in self.causes if each.records is None or ids.issuperset(each.records)]
+        return CampaignModel(self.law, views, kept)
+
+    def quietened(self, parameters: FloatArray) -> CampaignModel:
+        """The same model with the noise taken off the recorded stress where effects hand it back to the strain.
+
+        What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
+        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept.
+        """
+        base, causes = self.split(parameters)
+        views = []
+        for view in self.views:
+            predicted = self.recorded(view, base, causes)
+            missing = view.data - view.sampled(predicted)
+            window = 2 * (len(missing) // 50) + 1
+            if window > _PARABOLA:
+                missing = moving_parabola(missing, window)
+            between = np.interp(view.time, view.sampled(view.time), missing)
+            views.append(replace(view, quiet_stress=predicted + between))
+        return CampaignModel(self.law, views, self.causes)
+
+    def missing_notions(self, cause: Cause) -> frozenset[str]:
+        """What the law would have to understand to follow a cause; empty if it can."""
+        if cause.form.law_change is None:
+            return frozenset()
+        altered = cause.form.law_change(self.views[0], cause.form.typical)
+        return frozenset() if altered is None else altered.notions - self.law.understands
+
+    def clashes(self, cause: Cause) -> bool:
+        """Whether a cause changes what a law can change once only, and one of the model's does."""
+        taken = frozenset[str]().union(*(self._once(each) for each in self.causes))
+        return bool(self._once(cause) & taken)
+
+    def _once(self, cause: Cause) -> frozenset[str]:
+        if cause.form.law_change is None:
+            return frozenset()
+        altered = cause.form.law_change(self.views[0], cause.form.typical)
+        return frozenset() if altered is None else altered.notions & ONCE
+
+    def log_prior(self, parameters: FloatArray) -> float:
+        """Log prior density of the causes' parameters, in their search coordinates; -inf outside the bounds."""
+        return sum(each.log_prior(values) for each, values in self.split(parameters)[1])
+
+    def predict(self, parameters: FloatArray) -> dict[str, FloatArray]:
+        """Recorded true stress as the model has it, by record; each of shape (n_samples,) [MPa]."""
+        base, causes = self.split(parameters)
+        return {view.id: view.sampled(self.recorded(view, base, causes)) for view in self.views}
+
+    def residual(self, parameters: FloatArray) -> FloatArray:
+        """Fit residual, model - data, of all records stacked; shape (n_samples,) [MPa]."""
+        return np.asarray(np.concatenate(list(self.predict(parameters).values())) - self.data)
+
+    def jacobian(self, parameters: FloatArray) -> FloatArray:
+        """Derivatives of the fit residual along all parameters; shape (n_samples, n_parameters)."""
+        return self.residual_and_jacobian(parameters)[1]
+
+    def residual_and_jacobian(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Fit residual (n_samples,) and its derivatives (n_samples, n_parameters).
+
+        Along the base parameters by the law's own sensitivities, along effects by difference quotients: central, and
+        one-sided of second order at a bound.
+        """
+        base, causes = self.split(parameters)
+        residual = np.empty(len(self.data))
+        jacobian = np.zeros((len(self.data), len(parameters)))
+        for view in self.views:
+            rows = self.rows(view.id)
+            here = _touching(causes, view)
+            specimen = self.specimen(view, base, here, sensitivity=True)
+            stress = _as_recorded(view, here, specimen.stress)
+            residual[rows] = view.sampled(stress) - view.data
+            assert specimen.sensitivity is not None
+            jacobian[rows, : self.base_count] = view.sampled(_carried(view, here, specimen))
+            column = self.base_count
+            for index, (each, values) in enumerate(causes):
+                for position in range(len(values)):
+                    if each.touches(view.id):
+                        jacobian[rows, column + position] = view.sampled(
+                            self._slope(view, base, causes, index, position, specimen.stress, stress)
+                        )
+                column += len(values)
+        return residual, jacobian
+
+    def contribution(self, parameters: FloatArray, cause: Cause) -> FloatArray:
+        """What one of the causes adds to the recorded stress, all others staying; shape (n_samples,) [MPa]."""
+        absent = parameters.copy()
+        absent[self.amplitudes[self.causes.index(cause)]] = 0.0
+        return self.residual(parameters) - self.residual(absent)
+
+    def specimen(
+        self, view: RecordView, base: FloatArray, causes: CauseValues, *, sensitivity: bool = False
+    ) -> Specimen:
+        """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel."""
+        seen, conversion, altered = view, None, None
+        for each, values in causes:
+            if each.form.driving_strain is None:
+                continue
+            strain = each.form.driving_strain(seen, values)
+            if each.form.converts:
+                conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
+            seen = seen.driven(strain)
+        for each, values in causes:
+            if each.form.law_change is not None and (change := each.form.law_change(seen, values)) is not None:
+                altered = change if altered is None else altered.and_(change)
+        stress, slopes = self._solved(seen, base, altered, sensitivity)
+        if conversion is not None:
+            factor = np.exp(conversion)
+            stress = factor * stress
+            slopes = None if slopes is None else factor[:, None] * slopes
+        return Specimen(stress, slopes)
+
+    def recorded(
+        self, view: RecordView, base: FloatArray, causes: CauseValues, specimen_stress: FloatArray | None = None
+    ) -> FloatArray:
+        """Recorded true stress as the model has it, at the view's instants; shape (n,) [MPa].
+
+        With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved.
+        """
+        here = _touching(causes, view)
+        if specimen_stress is None:
+            specimen_stress = self.specimen(view, base, here).stress
+        return _as_recorded(view, here, specimen_stress)
+
+    def _solved(
+        self, seen: RecordView, base: FloatArray, altered: Alteration | None, sensitivity: bool
+    ) -> tuple[FloatArray, FloatArray | None]:
+        if sensitivity:
+            return self.law.sensitivity(seen, base, altered)
+        return self.law.stress(seen, base, altered), None
+
+    def _slope(
+        self,
+        view: RecordView,
+        base: FloatArray,
+        causes: CauseValues,
+        index: int,
+        position: int,
+        specimen_stress: FloatArray,
+        stress: FloatArray,
+    ) -> FloatArray:
+        """Derivative of the recorded stress along one parameter of one cause; shape (n,)."""
+        cause, values = causes[index]
+        parameter = cause.form.parameters[position]
+
+        def at(value: float) -> FloatArray:
+            moved = (*values[:position], value, *values[position + 1 :])
+            changed = (*causes[:index], (cause, moved), *causes[index + 1 :])
+            return self.recorded(view, base, changed, None if cause.form.needs_solve else specimen_stress)
+
+        value, step = values[position], parameter.step(values[position])
+        if value - step < parameter.lower:
+            return (4.0 * at(value + step) - 3.0 * stress - at(value + 2.0 * step)) / (2.0 * step)
+        if value + step > parameter.upper:
+            return (3.0 * stress - 4.0 * at(value - step) + at(value - 2.0 * step)) / (2.0 * step)
+        return (at(value + step) - at(value - step)) / (2.0 * step)
+
+
+def _touching(causes: CauseValues, view: RecordView) -> CauseValues:
+    return tuple(each for each in causes if each[0].touches(view.id))
+
+
+def _as_recorded(view: RecordView, causes: CauseValues, stress: FloatArray) -> FloatArray:
+    """What the force channel made of the stress, shape (n,) [MPa]."""
+    for each, values in causes:
+        if each.form.recorded_stress is not None:
+            stress = each.form.recorded_stress(view, values, stress)
+    return stress
+
+
+def _carried(view: RecordView, causes: CauseValues, specimen: Specimen) -> FloatArray:
+    """Sensitivities through the force channel, shape (n, n_base)."""
+    slopes = specimen.sensitivity
+    assert slopes is not None
+    if all(each.form.recorded_stress is None for each, _ in causes):
+        return slopes
+    carried = np.empty_like(slopes)
+    for k, slope in enumerate(slopes.T):
+        step = _PROBE / max(float(np.max(np.abs(slope))), 1e-300)
+        up = _as_recorded(view, causes, specimen.stress + step * slope)
+        down = _as_recorded(view, causes, specimen.stress - step * slope)
+        carried[:, k] = (up - down) / (2.0 * step)
+    return carried

@@ -1,0 +1,71 @@
+"""What the noise of the measured strain does to the stress that a law predicts: J Sigma_strain J^T."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.strain_noise import StrainNoise, leading_directions
+from probation.records.noise import scatter
+from probation.smoothing.segments import CLEAN
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+    from probation.inference.protocol import GapLaw
+    from probation.smoothing.excitation import Excitation
+
+STRAIN_STEP = 1e-6
+"""Largest strain by which a law without tangents is probed [-]."""
+
+NEGLIGIBLE = 0.1
+"""Propagated noise along one direction, over the scatter of the stress from sample to sample, that is left out."""
+
+
+def propagated_noise(
+    law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray
+) -> FloatArray | None:
+    """Factor A of the stress covariance A A^T that the strain's noise makes, shape (n_samples, n_directions) [MPa].
+
+    Of a smoothed strain all that the smoother lets through; of a strain as measured the error of its first sample,
+    which shifts the whole record: the rest of it is as rough as the stress noise and is measured with that.
+
+    Parameters
+    ----------
+    law : GapLaw
+    view : RecordView
+    excitation : Excitation
+        The record's, at its samples.
+    parameters : ndarray, shape (n_base,)
+
+    Returns
+    -------
+    ndarray or None
+        None where the strain has no noise.
+    """
+    if excitation.strain_noise < CLEAN:
+        return None
+    if isinstance(law, DnlrLaw):
+        noise = StrainNoise.of(excitation, view.scheme, law.first_step, view.stride)
+        columns = noise.leading(law.law_at(parameters))
+    else:
+        columns = _by_differences(law, view, excitation, parameters)
+    left, size, _ = np.linalg.svd(columns, full_matrices=False)
+    level = scatter(view.sampled(view.time), view.data)
+    kept = size > NEGLIGIBLE * level
+    return np.asarray(left[:, kept] * size[kept])
+
+
+def _by_differences(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray:
+    """The same for a law without tangents along the strain, shape (n_samples, n_directions) [MPa]."""
+    still = law.stress(view, parameters)
+    instants, samples = view.time, view.sampled(view.time)
+    columns = leading_directions(excitation)[0]
+    found = np.empty_like(columns)
+    for index, column in enumerate(columns.T):
+        size = max(float(np.max(np.abs(column))), 1e-300)
+        moved = view.true_strain + STRAIN_STEP / size * np.interp(instants, samples, column)
+        found[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)
+    return found

@@ -1,0 +1,134 @@
+"""How the recorded stress answers to the onset of every effect: the columns of a score screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from probation.effects.cause import Cause
+from probation.parallel import in_parallel
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from probation._arrays import FloatArray
+    from probation.effects.effect import Effect, Form, Placement
+    from probation.effects.record_view import RecordView
+    from probation.inference.model import CampaignModel
+
+_Key: TypeAlias = tuple[str, str, tuple[float, ...]]
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """How the recorded stress answers to the amplitude of one cause at one start of its shapes.
+
+    Attributes
+    ----------
+    cause : Cause
+    values : tuple of float
+        Of the cause's parameters; the amplitude is 0, or, for a threshold, that of the secant.
+    rows : slice
+        Which of the model's stacked samples it touches; elsewhere it is zero.
+    slope : ndarray, shape (rows,)
+        d stress / d amplitude [MPa per its unit].
+    """
+
+    cause: Cause
+    values: tuple[float, ...]
+    rows: slice
+    slope: FloatArray
+
+
+def screen(
+    model: CampaignModel,
+    parameters: FloatArray,
+    effects: Iterable[Effect],
+    *,
+    residual: FloatArray | None = None,
+    placements: tuple[Placement, ...] = ("all", "one"),
+    threads: int = 1,
+) -> list[Column]:
+    """Columns of every effect, form, placement and start, on top of the model as it is.
+
+    Effects that the law cannot follow, or not beside those of the model, are left out; see
+    `CampaignModel.missing_notions` and `clashes`.
+
+    Parameters
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+        Of the model.
+    effects : iterable of Effect
+    residual : ndarray, shape (n_samples,) [MPa], optional
+        Fit residual from which starts of the shapes may be read; without it they come from a grid.
+    placements : tuple of {"all", "one"}
+        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
+    threads : int
+        Records are worked on in parallel.
+
+    Returns
+    -------
+    list of Column
+        In the order of the effects.
+    """
+    wanted = [
+        (Cause(effect, form, records), values, views)
+        for effect in effects
+        for form in effect.forms
+        if not model.missing_notions(Cause(effect, form)) and not model.clashes(Cause(effect, form))
+        for records, views in _placed(model, effect, form, placements)
+        for values in _starts(model, form, views, residual)
+    ]
+    base, active = model.split(parameters)
+
+    def answers(view: RecordView) -> dict[_Key, FloatArray]:
+        """The slopes of one record; a form at one start is worked out once, wherever it is placed."""
+        specimen = model.specimen(view, base, tuple(each for each in active if each[0].touches(view.id))).stress
+        still = model.recorded(view, base, active, specimen)
+        found: dict[_Key, FloatArray] = {}
+        for cause, values, views in wanted:
+            if view not in views or _key(cause, values) in found:
+                continue
+            form = cause.form
+            size = values[0] if form.threshold else form.amplitude.step(0.0)
+            moved = (*active, (cause, (size, *values[1:])))
+            stress = model.recorded(view, base, moved, None if form.needs_solve else specimen)
+            found[_key(cause, values)] = view.sampled((stress - still) / size)
+        return found
+
+    found = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
+    columns = []
+    for cause, values, views in wanted:
+        slope = np.concatenate([found[view][_key(cause, values)] for view in views])
+        rows = model.rows(views[0].id) if cause.records else slice(0, len(model.data))
+        columns.append(Column(cause, values, rows, slope))
+    return columns
+
+
+def _key(cause: Cause, values: tuple[float, ...]) -> _Key:
+    return cause.effect.name, cause.form.name, values
+
+
+def _placed(
+    model: CampaignModel, effect: Effect, form: Form, placements: tuple[Placement, ...]
+) -> list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]]:
+    """Where a form may sit: records (None for all), and their views."""
+    possible = effect.placements(form)
+    found: list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]] = []
+    if "all" in possible and "all" in placements:
+        found.append((None, model.views))
+    if "one" in possible and "one" in placements and (len(model.views) > 1 or "all" not in possible):
+        found += [((view.id,), (view,)) for view in model.views]
+    return found
+
+
+def _starts(
+    model: CampaignModel, form: Form, views: tuple[RecordView, ...], residual: FloatArray | None
+) -> list[tuple[float, ...]]:
+    """Values where the columns are taken: amplitude 0 (or a threshold's own), and the shapes."""
+    residuals = None if residual is None else [residual[model.rows(view.id)] for view in views]
+    shapes = form.shapes_at(views, residuals)
+    return shapes if form.threshold else [(0.0, *each) for each in shapes]

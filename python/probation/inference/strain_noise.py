@@ -1,0 +1,157 @@
+"""Noise of the measured strain, propagated by smoother, differentiator and law to the stress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+from probation.law.modal import make_solver
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.law.modal import Law, Scheme, Start
+    from probation.smoothing.excitation import Excitation
+
+_SPARE, _PER_FREEDOM = 30, 6.0
+"""Directions kept of a smoother: its singular values fall as the fourth power beyond its degrees of freedom."""
+
+_STEP = 1e-3
+"""Relative change of a parameter over which the propagated noise is differenced."""
+
+
+@dataclass(frozen=True, eq=False)
+class StrainNoise:
+    r"""Strain noise of one record as stress, :math:`\sigma_x D` with D = d stress / d measured strain.
+
+    The law is taken on the samples: in the record's own scheme where that takes no substeps, else in the one that is
+    exact between samples, SA3 for strains with rates and SA2 for the straight lines between bare samples.
+
+    Attributes
+    ----------
+    solver : Solver
+    deviation : float
+        Standard deviation sigma_x of the strain noise [-].
+    strain, rate : ndarray, shape (n_times, n_directions) [-], [1/s], or None
+        Independent unit errors as they arrive at the law, behind the smoother. None: every strain sample is one.
+    """
+
+    solver: _core.Solver
+    deviation: float
+    strain: FloatArray | None
+    rate: FloatArray | None
+    _made: dict[bytes, FloatArray] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(cls, excitation: Excitation, scheme: Scheme, start: Start = "exponential", substeps: int = 1) -> StrainNoise:
+        """That of a record, driven by an excitation at its samples."""
+        operator, rate = excitation.strain_operator(), excitation.rate_operator()
+        if substeps > 1:
+            scheme = "sa2" if excitation.strain_rate is None else "sa3"
+        solver = make_solver(excitation.history(), scheme, start)
+        if operator is None:
+            return cls(solver, _deviation(excitation), None, None)
+        return cls(solver, _deviation(excitation), *_directions(excitation, operator, rate))
+
+    def carried(self, law: Law) -> FloatArray:
+        """Stress made by each unit error, shape (n_times, n_directions) [MPa]."""
+        key = law.parameters.tobytes()
+        if key not in self._made:
+            while len(self._made) > 1:  # two: a search compares a law with the one that it came from
+                del self._made[next(iter(self._made))]
+            self._made[key] = (
+                self.solver.strain_sensitivity(law.engine, _core.LawChange())
+                if self.strain is None
+                else self._tangents(law, self.strain, self.rate)
+            )
+        return self.deviation * self._made[key]
+
+    def leading(self, law: Law) -> FloatArray:
+        """The same; of a strain as measured the error of its first sample alone, shape (n_times, 1) [MPa]."""
+        if self.strain is not None:
+            return self.carried(law)
+        first = np.zeros((len(self.solver.history), 1))
+        first[0] = 1.0
+        return self.deviation * self._tangents(law, first, None)
+
+    def along(self, law: Law, errors: FloatArray) -> FloatArray:
+        """Stress made by those errors, in units of their standard deviation; shape (n_times,) [MPa]."""
+        strain = errors if self.strain is None else self.strain @ errors
+        rate = None if self.rate is None else (self.rate @ errors)[:, None]
+        return self.deviation * self._tangents(law, strain[:, None], rate)[:, 0]
+
+    def probed(self, law: Law, count: int) -> FloatArray:
+        """Stress made by `count` draws of the noise, always the same ones; shape (n_times, count) [MPa]."""
+        size = len(self.solver.history) if self.strain is None else self.strain.shape[1]
+        errors = np.random.default_rng(0).standard_normal((size, count))
+        strain = errors if self.strain is None else self.strain @ errors
+        return self.deviation * self._tangents(law, strain, None if self.rate is None else self.rate @ errors)
+
+    def slopes(self, law: Law, errors: FloatArray, wanted: Sequence[int]) -> FloatArray:
+        """Derivatives of `along` by the law's parameters number `wanted`; shape (n_times, wanted)."""
+        columns = []
+        for index in wanted:
+            sides = []
+            value = law.parameters[index]
+            step = _STEP * (abs(value) or 1.0)
+            for sign in (1.0, -1.0):
+                moved = law.parameters
+                moved[index] = value + sign * step
+                sides.append(self.along(law.with_parameters(moved), errors))
+            columns.append((sides[0] - sides[1]) / (2.0 * step))
+        return np.column_stack(columns)
+
+    def _tangents(self, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:
+        directions = []
+        for at in range(strain.shape[1]):
+            direction = _core.Direction()
+            direction.true_strain = strain[:, at]
+            if rate is not None:
+                direction.strain_rate = rate[:, at]
+            directions.append(direction)
+        stress, tangents = np.empty(len(strain)), np.empty((len(strain), len(directions)))
+        self.solver.tangent(law.engine, _core.LawChange(), directions, stress, tangents)
+        return tangents
+
+
+def leading_directions(excitation: Excitation) -> tuple[FloatArray, FloatArray | None]:
+    """Strain and rate by independent errors of one standard deviation, shapes (n_times, n_directions) [-], [1/s].
+
+    Of a smoothed strain what its smoother lets through; of a strain as measured its first sample alone.
+    """
+    deviation = _deviation(excitation)
+    operator, rate = excitation.strain_operator(), excitation.rate_operator()
+    if operator is None:
+        first = np.zeros((len(excitation.time), 1))
+        first[0] = deviation
+        return first, None if rate is None else np.zeros_like(first)
+    strain, slope = _directions(excitation, operator, rate)
+    return deviation * strain, None if slope is None else deviation * slope
+
+
+def _deviation(excitation: Excitation) -> float:
+    """Standard deviation of the strain's noise, that of its slow averages where it is correlated [-]."""
+    return float(excitation.strain_noise * np.sqrt(excitation.noise_inflation))
+
+
+def _directions(
+    excitation: Excitation, strain: FloatArray, rate: FloatArray | None
+) -> tuple[FloatArray, FloatArray | None]:
+    """The few directions in which a smoother lets noise through, by a random range finder (Halko et al. 2011)."""
+    count = len(strain)
+    typical = np.median(np.diff(excitation.time))
+    both = strain if rate is None else np.vstack([strain, typical * rate])
+    kept = int(_PER_FREEDOM * float(np.trace(strain))) + _SPARE
+    if 3 * kept < count:
+        probes = np.random.default_rng(0).standard_normal((count, kept))
+        basis = np.linalg.qr(both.T @ (both @ probes))[0]
+        both = both @ basis
+    else:
+        both = both.copy()
+    if rate is None:
+        return both, None
+    return both[:count], both[count:] / typical

@@ -1,0 +1,111 @@
+"""An effect outside the catalogue: whatever it does, it does it smoothly, or from specimen to specimen.
+
+It may be one function of the strain in all records; periodic in the strain, as teeth are; other parameters of the law
+in each record; a smooth discrepancy in one record, of one size in all, or of its own size in each. Which of these
+nobody knows beforehand, so that each has a share of the prior and its size is integrated over: what a few numbers tell
+earns more than what takes many.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import logsumexp
+
+from probation.inference.laplace import Linearised
+from probation.noise.span import span_of, without
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.inference.discrepancy import Discrepancy
+    from probation.inference.refit import Refit
+
+SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
+"""Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
+
+OF_THE_STRAIN, PERIODIC, OF_THE_SPECIMEN, ALIKE, IN_ONE, IN_EACH = 0.2, 0.1, 0.2, 0.2, 0.2, 0.1
+"""Prior shares: one function of the strain, periodic in the strain, other parameters in each record, one size in all
+records, in one record only, a size in each."""
+
+RECORDS = 2
+"""Records that are tried alone, those with the most left."""
+
+
+def log_evidence_of_unknown(
+    problem: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
+) -> float:
+    """Log evidence of an explanation with an unknown effect beside it.
+
+    Parameters
+    ----------
+    problem : Linearised
+        The explanation, its forms' errors included.
+    found : Refit
+        The same as it was found.
+    discrepancy : Discrepancy
+    forms : ndarray, shape (N, m), optional
+        Ways in which its forms may be wrong.
+    """
+    count = len(discrepancy.spectrum)
+    waves = problem.waves_of_residual
+    left = np.array(
+        [max(float(np.sum(waves[place] ** 2)) - (place.stop - place.start), 0.0) for place in discrepancy.places]
+    )
+    alone = np.argsort(left)[::-1][:RECORDS]
+    one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
+    scores = [
+        np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
+        np.log(PERIODIC) + discrepancy.log_ripple_share + _along(found, discrepancy, forms, discrepancy.ripples),
+        np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
+        np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
+        np.log(IN_ONE / count) + float(logsumexp(one)),
+        np.log(IN_EACH) + _in_each(problem, discrepancy, left),
+    ]
+    return float(logsumexp(scores))
+
+
+def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArray) -> float:
+    """Mean over the sizes of a discrepancy of such a pattern over the records."""
+    scores = [problem.log_integral(discrepancy.variances(size * pattern)) for size in SIZES]
+    return float(logsumexp(scores)) - float(np.log(len(SIZES)))
+
+
+def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, columns: FloatArray) -> float:
+    """Mean over the sizes of a discrepancy along given columns, of independent amplitudes."""
+    count = columns.shape[1]
+    if count == 0:
+        return -np.inf
+    # What the law's own parameters, of flat priors, can follow is free; left in, it would cost digits.
+    columns = without(columns, span_of(found.jacobian[:, : found.model.base_count]))
+    together = columns if forms is None else np.hstack([forms, columns])
+    beside = Linearised.of(found, discrepancy, together)
+    nothing = np.zeros(len(beside.waves_of_residual))
+    scores = []
+    for size in SIZES:
+        precision = beside.precision.copy()
+        precision[-count:] = 1.0 / size
+        sized = replace(beside, precision=precision, log_prior=beside.log_prior - 0.5 * count * float(np.log(size)))
+        scores.append(sized.log_integral(nothing))
+    return float(logsumexp(scores)) - float(np.log(len(SIZES)))
+
+
+def _in_each(problem: Linearised, discrepancy: Discrepancy, start: FloatArray) -> float:
+    """A size of its own in each record: coordinate ascent, each paid for."""
+    best = start.copy()
+    score = problem.log_integral(discrepancy.variances(best))
+    for _ in range(2):
+        before = score
+        for index in range(len(best)):
+            near = SIZES[np.argsort(np.abs(np.log(SIZES / max(best[index], 1.0))))[:3]]
+            for size in (0.0, *near):
+                tried = best.copy()
+                tried[index] = size
+                value = problem.log_integral(discrepancy.variances(tried))
+                if value > score:
+                    best, score = tried, value
+        if score - before < 0.1:
+            break
+    # A peak in the logarithm of a size is about two of the grid's steps wide.
+    return float(score - len(best) * np.log(len(SIZES) / 2.0))

@@ -1,0 +1,1 @@
+"""The law: eq. (6), its modifications, companion relations and closed forms."""

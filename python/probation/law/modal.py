@@ -1,0 +1,447 @@
+"""The modal (DNLR) law of semi-crystalline polymers, eq. (6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from probation import _core
+from probation._arrays import (
+    FloatArray,
+    as_number,
+    as_output,
+    as_samples,
+    as_whole_number,
+    held_samples,
+    one_of,
+)
+from probation.errors import InputError
+from probation.law.change import Change, Direction, engine_change
+from probation.law.companion import Companion
+from probation.law.history import Jumps, history_arguments, make_history
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike
+
+Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
+SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
+DIFFERENTIABLE: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+"""The schemes that have sensitivities."""
+
+Start = Literal["exponential", "backward_euler"]
+"""bE2's first step: "exponential" (default) or the paper's "backward_euler".
+
+At h = 0.5 s the paper's start errs by 0.58 MPa in experiment 1 and biases E_u by 1 %; the exponential one is exact for
+a ramp but for the bend of the hardening, and costs nothing. The same rule restarts bE2 after a jump of the rate.
+"""
+
+
+ACCURACIES = (1e-5, 0.5)
+"""Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """The modes: relaxation times as fractions of tau_max, and weights.
+
+    Parameters
+    ----------
+    relaxation_ratio : array_like, shape (modes,) [-]
+        tau_j / tau_max, fastest mode first.
+    modal_weight : array_like, shape (modes,) [-]
+        p_j.
+    """
+
+    relaxation_ratio: FloatArray
+    modal_weight: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("relaxation_ratio", "modal_weight"):
+            samples = as_samples(getattr(self, name), name).copy()
+            samples.flags.writeable = False
+            object.__setattr__(self, name, samples)
+        object.__setattr__(self, "_built", _core.Spectrum(self.relaxation_ratio, self.modal_weight))
+
+    @classmethod
+    def log_spaced(cls, modes: int = 50, decades: float = 6.0) -> Spectrum:
+        """The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5)."""
+        return _log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
+
+    def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Spectrum:
+        """Fewer modes with the same kernel, to an accuracy or as good as so many can; as in `reduce_spectrum`."""
+        from probation.law.reduction import reduce_spectrum  # noqa: PLC0415 - it needs this class, and scipy
+
+        return reduce_spectrum(self, accuracy=accuracy, modes=modes).spectrum
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Spectrum):
+            return NotImplemented
+        return self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def __reduce__(self) -> tuple[type[Spectrum], tuple[FloatArray, FloatArray]]:
+        return type(self), (self.relaxation_ratio, self.modal_weight)  # through __init__: read-only again
+
+    def _key(self) -> tuple[bytes, bytes]:
+        return self.relaxation_ratio.tobytes(), self.modal_weight.tobytes()
+
+    def _engine(self) -> _core.Spectrum:
+        built: _core.Spectrum = self.__dict__["_built"]
+        return built
+
+
+@lru_cache(maxsize=16)  # of immutable values: most laws have the same modes
+def _log_spaced(modes: int, decades: float) -> Spectrum:
+    engine = _core.Spectrum.log_spaced(modes, decades)
+    return Spectrum(engine.relaxation_ratio, engine.modal_weight)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    r"""The modal (DNLR) law.
+
+    .. math::
+        \dot\sigma_j = p_j E_u \dot\varepsilon - (\sigma_j - p_j G \varepsilon_{HT}) / \tau_j,
+        \qquad \sigma = \sum_j \sigma_j
+
+    Parameters
+    ----------
+    unrelaxed_modulus : float
+        E_u [MPa].
+    hardening_modulus : float
+        G [MPa].
+    tau_max : float, optional
+        Longest relaxation time [s]; for a law without companion relation.
+    alpha : float, optional
+        Uniform correction of the companion relation [-], tau_max = alpha companion(rate); 1 if left out.
+    modes, decades : int, float
+        N and d of eq. (4). They are part of the definition of tau_max.
+    companion : Companion, optional
+        tau_max from the strain rate.
+    spectrum : Spectrum, optional
+        Other modes than those of `modes` and `decades`.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is missing, superfluous or not possible.
+
+    References
+    ----------
+    André et al., eqs. (3)-(6), (10)-(12).
+
+    Examples
+    --------
+    >>> law = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
+    >>> law.stress([0.0, 50.0, 100.0], [0.0, 0.25, 0.5], scheme="exact").round(2)
+    array([ 0.  , 34.37, 37.37])
+    """
+
+    unrelaxed_modulus: float
+    hardening_modulus: float
+    tau_max: float | None = None
+    alpha: float | None = None
+    modes: int = 50
+    decades: float = 6.0
+    companion: Companion | None = None
+    spectrum: Spectrum | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        for name, kind in (("companion", Companion), ("spectrum", Spectrum)):
+            given = getattr(self, name)
+            if given is not None and not isinstance(given, kind):
+                raise InputError(f"{name} is {given!r}; expected a {kind.__name__}")
+        if self.companion is None:
+            if self.tau_max is None:
+                raise InputError("tau_max is missing; a law without companion relation needs it")
+            if self.alpha is not None:
+                raise InputError("alpha is given without a companion relation; give tau_max, or a companion")
+        else:
+            if self.tau_max is not None:
+                raise InputError("tau_max and companion are both given; with a companion give alpha")
+            if self.alpha is None:
+                object.__setattr__(self, "alpha", 1.0)
+        if self.spectrum is None:
+            object.__setattr__(self, "spectrum", Spectrum.log_spaced(self.modes, self.decades))
+        else:
+            object.__setattr__(self, "modes", len(self.spectrum.modal_weight))
+        for name in self.parameter_names:
+            object.__setattr__(self, name, as_number(getattr(self, name), name))
+        self.engine  # noqa: B018 - refuses what cannot be
+
+    def __getstate__(self) -> dict[str, object]:
+        return {name: value for name, value in self.__dict__.items() if name != "engine"}
+
+    @cached_property
+    def engine(self) -> _core.Law:
+        """The law as the engine holds it."""
+        return self._make_engine()
+
+    def _make_engine(self) -> _core.Law:
+        assert self.spectrum is not None
+        return _core.Law(
+            self.unrelaxed_modulus,
+            self.hardening_modulus,
+            0.0 if self.tau_max is None else self.tau_max,
+            1.0 if self.alpha is None else self.alpha,
+            None if self.companion is None else self.companion._engine(),
+            self.spectrum._engine(),
+        )
+
+    @property
+    def parameter_names(self) -> tuple[str, str, str]:
+        """Names of the parameters, in the order of every sensitivity."""
+        return ("unrelaxed_modulus", "tau_max" if self.companion is None else "alpha", "hardening_modulus")
+
+    @property
+    def parameters(self) -> FloatArray:
+        """E_u [MPa], tau_max [s] or alpha [-], G [MPa]; shape (3,)."""
+        return np.array([getattr(self, name) for name in self.parameter_names])
+
+    def with_parameters(self, values: ArrayLike) -> Law:
+        """The same law with other values of `parameters`, shape (3,)."""
+        numbers = held_samples(values, "values").tolist()
+        if len(numbers) != len(self.parameter_names):
+            raise InputError(f"values has {len(numbers)} entries; expected {', '.join(self.parameter_names)}")
+        if not all(map(isfinite, numbers)):
+            as_samples(values, "values")  # says which is not
+        law = object.__new__(type(self))  # all else was checked when this law was made
+        held = law.__dict__
+        held.update(self.__dict__)
+        held.update(zip(self.parameter_names, numbers, strict=True))
+        held["engine"] = law._make_engine()
+        return law
+
+    def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Law:
+        """The same law with fewer modes; as in `reduce_spectrum`."""
+        assert self.spectrum is not None
+        return replace(self, spectrum=self.spectrum.reduced(accuracy=accuracy, modes=modes))
+
+    def solver(
+        self,
+        time: ArrayLike,
+        true_strain: ArrayLike,
+        scheme: Scheme = "be2",
+        *,
+        strain_rate: ArrayLike | None = None,
+        start: Start = "exponential",
+        jumps: ArrayLike | Jumps | None = "auto",
+        direction: ArrayLike | None = None,
+        relative_tolerance: float = 1e-10,
+        absolute_tolerance: float = 1e-10,
+        max_steps: int = 200_000,
+    ) -> _core.Solver:
+        """A solver for one history, to be used for many laws; arguments as in `stress`."""
+        history = make_history(time, true_strain, strain_rate=strain_rate, jumps=jumps, direction=direction)
+        return make_solver(history, scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+
+    def stress(
+        self,
+        time: ArrayLike,
+        true_strain: ArrayLike,
+        scheme: Scheme = "be2",
+        *,
+        strain_rate: ArrayLike | None = None,
+        change: Change | None = None,
+        start: Start = "exponential",
+        jumps: ArrayLike | Jumps | None = "auto",
+        direction: ArrayLike | None = None,
+        relative_tolerance: float = 1e-10,
+        absolute_tolerance: float = 1e-10,
+        max_steps: int = 200_000,
+        out: FloatArray | None = None,
+    ) -> FloatArray:
+        """True stress along a strain history.
+
+        Parameters
+        ----------
+        time : array_like, shape (n_times,) [s]
+            Increasing.
+        true_strain : array_like, shape (n_times,) [-]
+            The start is relaxed: sigma_j(0) = p_j G e_HT(true_strain[0]).
+        scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
+            be2 has order 2, sa3 order 3 on smooth histories (2 with a companion relation unless `strain_rate` is given;
+            on rough measured strain it is no better than sa2); exact and cvode integrate the piecewise-linear history.
+        strain_rate : array_like, shape (n_times,) [1/s], optional
+            If given, the history between samples is the cubic through strains and rates.
+        change : Change, optional
+            What an effect changes in the law along this record.
+        start : {"exponential", "backward_euler"}
+            bE2's first step; the paper's is "backward_euler".
+        jumps : "auto", None or array_like of times [s]
+            Where the strain rate jumps.
+        direction : array_like, shape (n_times - 1,), optional
+            Commanded direction of each step.
+        relative_tolerance, absolute_tolerance : float [-], [MPa]
+            Of cvode.
+        max_steps : int
+            Of cvode, between two samples.
+        out : ndarray, shape (n_times,), optional
+            Where to write the stress.
+
+        Returns
+        -------
+        ndarray, shape (n_times,) [MPa]
+
+        Raises
+        ------
+        InputError
+            Naming the argument, what was found and what was expected.
+        ConvergenceError
+            If CVODE or the iteration of a feedback fails, or the stress is not finite; it has `time` and
+            `residual_norm`.
+        """
+        options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        changed = engine_change(change)
+        if strain_rate is None and direction is None and isinstance(jumps, str) and jumps == "auto":
+            found = _core.stress_where_held(self.engine, changed, options, out, time, true_strain)
+            if found is not None:  # None: the arrays have to be made ready first, or refused
+                return found
+        history = history_arguments(time, true_strain, strain_rate, jumps, direction)
+        stress = as_output(out, history[0].shape)
+        _core.stress(self.engine, changed, options, stress, *history)
+        return stress
+
+    def sensitivity(
+        self,
+        time: ArrayLike,
+        true_strain: ArrayLike,
+        scheme: Scheme = "be2",
+        *,
+        directions: Sequence[Direction] | None = None,
+        strain_rate: ArrayLike | None = None,
+        change: Change | None = None,
+        start: Start = "exponential",
+        jumps: ArrayLike | Jumps | None = "auto",
+        direction: ArrayLike | None = None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """True stress and its derivatives; be2, sa2 and sa3 only.
+
+        Parameters
+        ----------
+        directions : sequence of Direction, optional
+            What to differentiate along; the law's three `parameters` if left out.
+        time, true_strain, scheme, strain_rate, change, start, jumps, direction
+            As in `stress`.
+
+        Returns
+        -------
+        stress : ndarray, shape (n_times,) [MPa]
+        sensitivity : ndarray, shape (n_times, n_directions) [MPa per unit]
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As `stress` does; also where a derivative is not finite.
+        """
+        solver = self.solver(
+            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
+        )
+        changed = engine_change(change)
+        if directions is None:
+            engine_directions = _core.parameter_directions(self.engine, changed, solver.history)
+        else:
+            engine_directions = [each._engine() for each in directions]
+        stress = np.empty(len(solver.history))
+        sensitivity = np.empty((len(stress), len(engine_directions)))
+        solver.tangent(self.engine, changed, engine_directions, stress, sensitivity)
+        return stress, sensitivity
+
+    def strain_sensitivity(
+        self,
+        time: ArrayLike,
+        true_strain: ArrayLike,
+        scheme: Scheme = "be2",
+        *,
+        strain_rate: ArrayLike | None = None,
+        change: Change | None = None,
+        start: Start = "exponential",
+        jumps: ArrayLike | Jumps | None = "auto",
+        direction: ArrayLike | None = None,
+    ) -> FloatArray:
+        """Derivative of every stress with respect to every strain sample; be2, sa2 and sa3 only.
+
+        The differentiator is part of it: without `strain_rate`, rates and the companion relation follow the strain.
+
+        Returns
+        -------
+        ndarray, shape (n_times, n_times) [MPa]
+            Lower triangular but for the central differences of sa2 and sa3, which look one sample ahead where tau_max
+            depends on the rate.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As `stress` does; also where a derivative is not finite.
+        """
+        solver = self.solver(
+            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
+        )
+        return solver.strain_sensitivity(self.engine, engine_change(change))
+
+
+def engine_law(law: Law) -> _core.Law:
+    """The engine's law behind what an argument named `law` was given; an `InputError` if that is none."""
+    if not isinstance(law, Law):
+        raise InputError(f"law is {law!r}; expected a Law")
+    return law.engine
+
+
+def make_solver(
+    history: _core.History,
+    scheme: Scheme = "be2",
+    start: Start = "exponential",
+    relative_tolerance: float = 1e-10,
+    absolute_tolerance: float = 1e-10,
+    max_steps: int = 200_000,
+) -> _core.Solver:
+    """The engine's solver for one history."""
+    return _core.Solver(history, *_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+def solver_options(
+    scheme: Scheme,
+    start: Start,
+    relative_tolerance: float = 1e-10,
+    absolute_tolerance: float = 1e-10,
+    max_steps: int = 200_000,
+) -> _core.SolverOptions:
+    """How a solver solves, as the engine takes it; what was asked for before is there already."""
+    try:
+        return _kept_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+    except TypeError:  # an argument that is not hashable: it is refused by its name
+        return _core.SolverOptions(*_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
+
+
+@lru_cache(maxsize=64, typed=True)
+def _kept_options(*arguments: Any) -> _core.SolverOptions:
+    return _core.SolverOptions(*_checked(*arguments))
+
+
+def engine_scheme(
+    scheme: Scheme, start: Start, schemes: Sequence[Scheme] = SCHEMES
+) -> tuple[_core.Scheme, _core.Start]:
+    """A scheme, one of `schemes`, and bE2's first step, as the engine takes them."""
+    return (
+        getattr(_core.Scheme, one_of(scheme, "scheme", schemes)),
+        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
+    )
+
+
+def _checked(
+    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
+) -> tuple[_core.Scheme, _core.Start, float, float, int]:
+    return (
+        *engine_scheme(scheme, start),
+        as_number(relative_tolerance, "relative_tolerance"),
+        as_number(absolute_tolerance, "absolute_tolerance"),
+        as_whole_number(max_steps, "max_steps"),
+    )

@@ -1,0 +1,1 @@
+"""The noise of records: its estimation, its model, and coordinates in which it is white."""

@@ -1,0 +1,116 @@
+"""Noise that rises towards low frequencies (1/f) where nothing can be measured of it: extrapolated, not ignored.
+
+Below the dozenth half period of a record a bias would show first, so that `estimate_noise` looks at rougher leftovers.
+Slow electronics, a drifting laboratory: noise whose power falls as 1/k with the order k of a cosine wave shows there as
+a slight rise, and is many times the white noise at k = 1. A bias is smoother: its power falls as k^-2 to k^-4.
+So the spectrum beyond the first few half periods, 1 + c/k + d/k^3, tells how much of the slow waves is noise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.fft import dct
+from scipy.special import logsumexp
+
+from probation.noise.smooth_basis import waves
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.noise.model import NoiseModel
+    from probation.noise.whitening import Whitened
+
+LEAST = 1.0
+"""Relative variance at the first half period that is assumed in any case: less cannot be told from none."""
+
+SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
+USUAL = 5.0
+"""Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
+
+LEAST_ALIKE, PART_ALIKE, MOST_ALIKE = 0.25, 0.2, 2.0
+"""Of a drift as much goes along with an effect: a slow wandering that is more like one is told as that effect, but a
+form is known to some per cent only, and what it leaves of an effect's direction drifts as everything does."""
+
+BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
+"""The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
+
+LOWEST = 8
+"""Orders from here on are looked at: further down a bias is all there is."""
+
+HIGHEST = 4
+"""Orders up to the samples over this are looked at."""
+
+OUTLYING = 8.0
+"""Power of one wave, over the mean, above which it is a line and no noise."""
+
+MODELLED = 48
+"""Orders that are given their drift; the roughest of them have little."""
+
+SURE = 0.7
+"""Standard deviations that are added to what is estimated."""
+
+APART = 0.2
+"""Part of the records that may have a spectrum of their own."""
+
+FEW = 64
+
+
+def estimate_drift(whitened: Whitened) -> float:
+    """Variance of the first half period over the white noise's, the records' common one; power falls as 1/order.
+
+    Whittle's likelihood of 1 + c/k + d/k^3, each record with its own level and bias d, one in five with its own c, too:
+    a fault that is sharp in one record must not speak for the others' noise. The mean, and part of a standard deviation
+    more, since too little makes gaps of noise.
+
+    Parameters
+    ----------
+    whitened : Whitened
+        Without any drift in its noises.
+    """
+    score = -np.log1p(SIZES / USUAL)
+    for part in whitened.slices:
+        count = part.stop - part.start
+        if count < FEW:
+            continue
+        order = np.arange(LOWEST, count // HIGHEST)
+        power = dct(whitened.residual[part], type=2, norm="ortho")[order] ** 2
+        own = logsumexp(_scores(order, np.minimum(power, OUTLYING * float(np.mean(power)))), axis=1)
+        score += np.logaddexp(np.log(1.0 - APART) + own, np.log(APART / len(SIZES)) + logsumexp(own))
+    weight = np.exp(score - score.max())
+    chance = weight / weight.sum()
+    mean = float(chance @ SIZES)
+    return max(mean + SURE * float(np.sqrt(chance @ (SIZES - mean) ** 2)), LEAST)
+
+
+def like_an_effect(drift: float) -> float:
+    """Relative variance of a drift at the first half period that may go along with an effect."""
+    return float(np.clip(PART_ALIKE * drift, LEAST_ALIKE, MOST_ALIKE))
+
+
+def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
+    """Log likelihoods over the grid, the level profiled out; shape (n_sizes, n_biases)."""
+    shape = 1.0 + SIZES[:, None, None] / order + BIASES[:, None] / order**3.0
+    level = np.mean(power / shape, axis=2)
+    return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
+
+
+def with_drift(noise: NoiseModel, size: float, harmless: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
+    """The noise with a drift of that relative variance at the first half period on top.
+
+    Parameters
+    ----------
+    noise : NoiseModel
+    size : float
+        In all directions.
+    harmless : float
+        More of it, that is like no effect.
+    time : ndarray, shape (n,) [s], optional
+        What drifts does so in time: many samples within a short while drift together. Even steps if left out.
+    """
+    columns = waves(len(noise), min(MODELLED, len(noise) // HIGHEST), time)
+    order = np.maximum(np.arange(columns.shape[1]), 1)
+    slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
+    more = np.sqrt(harmless) * slow if harmless > 0.0 else None
+    return replace(noise, drift=np.sqrt(size) * slow, harmless_drift=more)

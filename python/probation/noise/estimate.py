@@ -1,0 +1,101 @@
+"""Noise without eating the bias, gap-method section 1: rough leftovers first, lower frequencies only if they agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.noise.arma import Arma
+from probation.noise.evidence import FEW, NoiseEvidence, noise_evidence
+from probation.noise.low_frequencies import KnownSpectrum, fit_spectra
+from probation.noise.model import NoiseModel
+from probation.noise.quantisation import quantisation_noise
+from probation.noise.same_rig import of_one_rig
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.noise.record_residual import RecordResidual
+
+
+def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tuple[NoiseModel, ...]:
+    """The noise of every record, by what is rougher than any law's error.
+
+    (1) Spikes are set aside; the growth of the noise along the record is found: constant, with e^eps (a constant force
+    noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 stretches are projected out;
+    Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a stretch is
+    gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
+    agree with that ARMA(1,1) in every record, or else in those records where the others foretell them: then noise
+    and only noise is there, and it is fitted with them.
+    (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet stretches and
+    replicates override (2) and (3). (5) A record whose noise would be many times that of all others, though its
+    neighbouring samples scatter as theirs, is given theirs.
+
+    Parameters
+    ----------
+    records : sequence of RecordResidual
+    pool : bool
+        One shape (phi, theta) for all records where their spectra allow it: the same rig.
+
+    Returns
+    -------
+    tuple of NoiseModel
+        In the order of the records.
+    """
+    prepared = [noise_evidence(record) for record in records]
+    seen = [each for each in prepared if each.rough is not None]
+    fits = iter(fit_spectra(seen, pool) if seen else ())
+    return of_one_rig([_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared])
+
+
+def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
+    arma = known.arma
+    floor = max(quantisation_noise(each.quantum), each.record.given_noise or 0.0)
+    source = each.source
+    if arma.deviation < floor:
+        arma = replace(arma, innovation=arma.innovation * floor / arma.deviation)
+        source += "; raised to the noise that is given or to the readings' step"
+    return NoiseModel(
+        each.record.name,
+        arma,
+        each.profile,
+        each.growth,
+        float(arma.deviation),
+        each.white,
+        each.quantum,
+        _carried(each.record),
+        known.level_variance,
+        known.shape_variance,
+        each.spikes,
+        source,
+    )
+
+
+def _fallback(each: NoiseEvidence) -> NoiseModel:
+    record = each.record
+    size = float(np.max(np.abs(record.residual if record.measured is None else record.measured), initial=0.0))
+    level = max(each.white, record.given_noise or 0.0, 1e-7 * size, 1e-12)
+    if not record.given_noise and len(record) < FEW:
+        # Median of few differences: its own error, and never less than a third of what scatters at all.
+        level = max(level, 0.1 * float(np.std(np.diff(record.residual))))
+    return NoiseModel(
+        record.name,
+        Arma(innovation=level),
+        each.profile,
+        each.growth,
+        level,
+        each.white,
+        each.quantum,
+        _carried(record),
+        0.0 if record.given_noise else 5.0 / len(record),
+        0.0,
+        each.spikes,
+        "as given" if record.given_noise and record.given_noise >= each.white else each.source,
+    )
+
+
+def _carried(record: RecordResidual) -> FloatArray:
+    return np.zeros((len(record), 0)) if record.carried is None else record.carried

@@ -1,0 +1,139 @@
+"""What a record offers of its noise: spikes set aside, growth, and the spectra that no law's error reaches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.fft import dct
+
+from probation.noise.arma import Periodogram
+from probation.noise.growth import growth_of
+from probation.noise.quantisation import quantisation_noise, quantisation_step
+from probation.noise.smooth_basis import WAVES, smooth_basis, waves
+from probation.noise.span import span_of
+from probation.noise.spikes import find_spikes, without_spikes
+from probation.noise.stretches import BLOCK, DEGREE, in_stretches, legendre
+from probation.records.noise import scatter
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.noise.model import Growth
+    from probation.noise.record_residual import RecordResidual
+
+FEW = 48
+"""Shorter records are given white noise by robust differences: a spectrum needs more."""
+
+OUTLIER = 4.0
+"""A stretch whose low frequencies hold this many times as much, beside its high ones, as the median stretch's holds a
+transient of the model, and is left out."""
+
+QUIET = 80
+"""Quiet samples that suffice for an estimate of their own."""
+
+COARSE = 1.2
+"""Readings whose step is this many standard deviations of the noise say nothing of how it grows."""
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseEvidence:
+    """What a record says of its noise.
+
+    Attributes
+    ----------
+    record : RecordResidual
+    spikes : tuple of int
+        Samples that are set aside.
+    white : float
+        Scatter of neighbouring samples [MPa], no less than the readings' step makes it.
+    quantum : float
+        The readings' step [MPa]; 0 where none is seen.
+    growth : Growth
+    profile : ndarray, shape (n_samples,)
+        Size of the noise along the record, of mean square 1.
+    rough : Periodogram or None
+        Of what no law's error reaches; None where the record is too short.
+    whole : Periodogram or None
+        Of the whole record, its low frequencies included, a bias among them.
+    source : str
+        Where all this was read.
+    """
+
+    record: RecordResidual
+    spikes: tuple[int, ...]
+    white: float
+    quantum: float
+    growth: Growth
+    profile: FloatArray
+    rough: Periodogram | None
+    whole: Periodogram | None
+    source: str
+
+
+def noise_evidence(record: RecordResidual) -> NoiseEvidence:
+    """What a record says: its repeat before its dwells, these before what no smooth curve takes."""
+    count = len(record)
+    spikes = find_spikes(record.residual, record.jumps)
+    residual = without_spikes(record.residual, spikes)
+    white = scatter(record.time, residual)
+    quantum = 0.0 if record.measured is None else quantisation_step(record.measured)
+    if record.measured is not None and quantum == 0.0:
+        quantum = quantisation_step(record.measured * np.exp(-record.true_strain))  # the force was read, not the stress
+    white = max(white, quantisation_noise(quantum))
+    coarse = quantum > COARSE * white
+    nothing = NoiseEvidence(
+        record, spikes, white, quantum, "constant", np.ones(count), None, None, "robust differences: a short record"
+    )
+    if count < FEW or white <= 1e-12 * float(np.max(np.abs(residual), initial=0.0)) or white == 0.0:
+        return nothing
+    if record.replicate is not None:
+        values = without_spikes(record.replicate, find_spikes(record.replicate))
+        growth, profile = growth_of(record, values, coarse)
+        whole = _whole(values, waves(count, 2), 2, profile)
+        return replace(nothing, growth=growth, profile=profile, rough=whole, source="the difference from its repeat")
+    quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= BLOCK]
+    if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= QUIET:
+        stretches = [residual[part] for part in quiet]
+        rough = _rough(stretches, [np.ones(len(part)) for part in stretches], degree=3, robust=False)
+        return replace(nothing, rough=rough, source="dwells and pre-load")
+    growth, profile = growth_of(record, residual, coarse)
+    rough = _rough(in_stretches(residual, record.jumps), in_stretches(profile, record.jumps), DEGREE, robust=True)
+    if rough is None:
+        return nothing
+    smooth = smooth_basis(record.time, record.jumps).columns
+    basis = span_of(np.hstack([record.tangent, smooth]))
+    whole = _whole(residual, basis, WAVES, profile)
+    return replace(
+        nothing, growth=growth, profile=profile, rough=rough, whole=whole, source="what no smooth curve takes"
+    )
+
+
+def _rough(stretches: list[FloatArray], profiles: list[FloatArray], degree: int, robust: bool) -> Periodogram | None:
+    """Cosine coefficients of the stretches, polynomials projected out; stretches with a transient left out."""
+    rows: list[tuple[FloatArray, FloatArray, FloatArray]] = []
+    for values, profile in zip(stretches, profiles, strict=True):
+        each = _whole(values, legendre(len(values), degree), degree + 1, profile)
+        rows.append((each.frequency, each.power, each.weight))
+    if not rows:
+        return None
+    if robust and len(rows) >= 3:
+        # Low against high: a burst of noise has both.
+        low = np.array([np.mean(power[:8]) / max(float(np.mean(power[8:])), 1e-300) for _, power, _ in rows])
+        rows = [row for row, size in zip(rows, low, strict=True) if size <= OUTLIER * np.median(low)]
+    frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
+    return Periodogram(frequency, power, weight)
+
+
+def _whole(values: FloatArray, basis: FloatArray, lowest: int, profile: FloatArray | float = 1.0) -> Periodogram:
+    """Cosine coefficients from order `lowest` on of what `basis` (orthonormal columns) leaves, over the profile.
+
+    The profile comes last: before, its own bends would make a smooth bias rough.
+    """
+    left = (values - basis @ (basis.T @ values)) / profile
+    power = dct(left, type=2, norm="ortho") ** 2
+    weight = 1.0 - np.sum(dct(basis, type=2, norm="ortho", axis=0) ** 2, axis=1)
+    frequency = np.pi * np.arange(len(values)) / len(values)
+    keep = np.flatnonzero(weight > 0.3)
+    keep = keep[keep >= lowest]
+    return Periodogram(frequency[keep], power[keep] / weight[keep], weight[keep])

@@ -1,0 +1,67 @@
+"""Slow noise that is like no effect: what of a drift is like one is told as that effect, and little is left along it.
+
+A drift d of covariance D goes along with an effect of (whitened) unit direction u by as much as u^T d. Nobody calls a
+wandering noise what does what a drifting load cell does; so u^T d is known to be small, within `ALIKE` of the noise
+along u, for the signals of all effects. What is known of d then is D conditioned on that,
+
+    H = D - D U (U^T D U + ALIKE^2 I)^-1 U^T D,
+
+which lets be all slow noise that no effect makes, and lets no single effect be mistaken for noise.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import block_diag, qr
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.noise.whitening import Whitened
+
+ALIKE = 0.6
+"""Standard deviations of the noise along an effect's signal that a drift may have along it."""
+
+KNOWN = 0.1
+"""Variance of a drift along a signal, given those along other signals, below which it is known already."""
+
+
+def harmless_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: FloatArray | None = None) -> FloatArray:
+    """Covariance of the rest of the drift along smooth waves, shape (d, d).
+
+    Parameters
+    ----------
+    whitened : Whitened
+        Whose noises tell their drift.
+    waves : sequence of ndarray, shape (n_r, d_r)
+        Whitened, orthonormal, by record; d in all.
+    signals : ndarray, shape (N, n_signals), optional
+        Whitened signals of effects; without any the drift may be like all.
+    """
+    blocks = []
+    for own, noise in zip(waves, whitened.noises, strict=True):
+        rest = np.zeros((own.shape[1], 0))
+        if noise.harmless_drift is not None:
+            rest = own.T @ noise.whiten(noise.harmless_drift)
+        blocks.append(rest @ rest.T)
+    drift = np.asarray(block_diag(*blocks), dtype=np.float64)
+    if signals is None or not drift.any():
+        return drift
+    seen = whitened.project(signals)
+    norm = np.linalg.norm(seen, axis=0)
+    whole = np.linalg.norm(signals, axis=0)
+    seen = seen[:, norm > 1e-4 * whole] / norm[norm > 1e-4 * whole]
+    along = np.vstack([own.T @ seen[part] for own, part in zip(waves, whitened.slices, strict=True)])
+    # In coordinates in which the drift is white, too, a signal u has the norm |(I + D)^(-1/2) u|.
+    quiet = np.linalg.solve(np.eye(len(drift)) + drift, along)
+    size = 1.0 - np.sum(along**2, axis=0) + np.sum(along * quiet, axis=0)
+    told = quiet / np.sqrt(size)
+    values, vectors = np.linalg.eigh(drift)
+    _, upper, order = qr(np.sqrt(np.maximum(values, 0.0))[:, None] * (vectors.T @ told), mode="economic", pivoting=True)
+    count = int(np.count_nonzero(np.diag(upper) ** 2 > KNOWN))
+    told = told[:, order[:count]]
+    spread = drift @ told
+    return np.asarray(drift - spread @ np.linalg.solve(told.T @ spread + ALIKE**2 * np.eye(count), spread.T))

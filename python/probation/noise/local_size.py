@@ -1,0 +1,82 @@
+"""Noise that comes in bursts: its size along a record."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.ndimage import binary_dilation, median_filter, uniform_filter1d
+
+from probation.noise.regions import runs
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+CLUSTERED = 4.0
+"""Autocorrelation of the noise's size, in standard errors, from which on it is followed all along."""
+
+WINDOW = 31
+"""Samples over which it is followed."""
+
+BURST = 15
+"""Samples of the shortest burst that is looked for: so many median sizes say what a step or a spike cannot."""
+
+LOUD, SURE = 1.9, 3.5
+"""A burst is so many times as loud as the record, and so many deviations above what the record's windows scatter by."""
+
+
+def local_size(noise: FloatArray) -> FloatArray | None:
+    """Size of the noise at every sample over its usual one, (n,); None where it is the same all along.
+
+    Parameters
+    ----------
+    noise : ndarray, shape (n,)
+        What no smooth curve takes, over its growth.
+    """
+    rough = np.abs(np.convolve(noise, [1.0, -2.0, 1.0], mode="same"))
+    followed = _followed(noise)
+    bursts = _bursts(rough)
+    return bursts if followed is None else followed
+
+
+def _bursts(rough: FloatArray) -> FloatArray | None:
+    """By medians over short windows: half of a window has to be loud."""
+    typical = float(np.median(rough))
+    if len(rough) < 4 * BURST or typical == 0.0:
+        return None
+    loud = np.maximum(median_filter(rough, BURST, mode="nearest") / typical, 1e-3)
+    scatter = float(np.median(np.abs(np.log(loud)))) / 0.6745
+    least = max(LOUD, float(np.exp(SURE * scatter)))
+    if not np.any(loud > least):
+        return None
+    size = np.ones(len(rough))
+    # The window's median falls off before the burst ends.
+    for part in runs(binary_dilation(loud > least, iterations=BURST // 4)):
+        size[part] = max(float(np.median(rough[part])) / typical, 1.0)
+    return size
+
+
+def _followed(noise: FloatArray) -> FloatArray | None:
+    """By a moving mean, drawn towards 1 by as much as chance would move it, where neighbouring sizes are alike."""
+    size = np.abs(noise)
+    size = np.minimum(size, 5.0 * float(np.mean(size)))
+    thin = uniform_filter1d(np.abs(np.diff(noise, append=noise[-1])), 3)[::6]
+    if len(thin) <= 12 or _clusters(thin) <= CLUSTERED:
+        return None
+    mean = uniform_filter1d(size, WINDOW, mode="reflect")
+    mean = np.maximum(mean, 0.1 * float(np.median(mean)))
+    logs = np.log(mean / np.mean(mean))
+    chance = 1.5 * 0.57 / WINDOW
+    keep = max(1.0 - chance / max(float(np.var(logs)), 1e-12), 0.0)
+    return np.asarray(np.exp(keep * logs), dtype=np.float64)
+
+
+def _clusters(size: FloatArray) -> float:
+    """Autocorrelation of a size over its first four lags, in standard errors."""
+    logs = np.log(np.maximum(size, 1e-3 * float(np.mean(size)) + 1e-300))
+    logs = logs - logs.mean()
+    variance = float(logs @ logs)
+    if variance == 0.0:
+        return 0.0
+    lags = [float(logs[lag:] @ logs[:-lag]) / variance for lag in range(1, 5)]
+    return float(np.sum(lags) * np.sqrt(len(size)) / 2.0)

@@ -1,0 +1,126 @@
+"""The noise of one record: level, correlation, growth; whitening and simulation at O(n)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from probation.noise.beside import directions_beside
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.noise.arma import Arma
+
+Growth = Literal["constant", "force", "local"]
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseModel:
+    """x = profile * ARMA(1,1) + carried * N(0, 1) + drift * N(0, 1), gap-method section 1.
+
+    Attributes
+    ----------
+    name : str
+        The record's id.
+    arma : Arma
+        Of x over its profile; its level is the one that counts at low frequency.
+    profile : ndarray, shape (n,)
+        Growth of the standard deviation along the record, of mean square 1.
+    growth : {"constant", "force", "local"}
+        Constant stress noise; constant force noise, which grows as e^eps; or as the record itself shows (bursts).
+    sigma : float
+        Standard deviation of the rough noise over the record [MPa], as measured.
+    white : float
+        By robust differences [MPa]; below `sigma` where the noise is correlated or comes in bursts.
+    quantum : float
+        Step of the readings [MPa or as the force over its area], 0 if there is none.
+    carried : ndarray, shape (n, k) [MPa]
+        Smooth stress noise that strain noise makes; k may be 0.
+    level_variance, shape_variance : float
+        Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
+        records may share.
+    spikes : tuple of int
+        Readings that are kept out.
+    source : str
+        Where the estimate is from, in words.
+    drift : ndarray, shape (n, k) [MPa], optional
+        Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
+    harmless_drift : ndarray, shape (n, k) [MPa], optional
+        Slow noise on top that is like no effect: what is like one is told as that effect. Only tests of waves that
+        belong to no effect have it.
+    """
+
+    name: str
+    arma: Arma
+    profile: FloatArray
+    growth: Growth
+    sigma: float
+    white: float
+    quantum: float
+    carried: FloatArray
+    level_variance: float
+    shape_variance: float
+    spikes: tuple[int, ...]
+    source: str
+    drift: FloatArray | None = None
+    harmless_drift: FloatArray | None = None
+
+    def __len__(self) -> int:
+        return len(self.profile)
+
+    @property
+    def deviation(self) -> FloatArray:
+        """Standard deviation of a sample, shape (n,) [MPa]."""
+        rough = self.arma.deviation * self.profile
+        return np.asarray(np.sqrt(rough**2 + np.sum(self.carried**2, axis=1)), dtype=np.float64)
+
+    @property
+    def long_run(self) -> FloatArray:
+        """What sqrt(m) times the mean of m neighbouring samples scatters by, shape (n,) [MPa]."""
+        return self.arma.long_run * self.profile
+
+    def whiten(self, matrix: FloatArray) -> FloatArray:
+        """Columns of `matrix` (n,) or (n, m) in coordinates in which the noise is white with unit variance."""
+        values = np.asarray(matrix, dtype=np.float64)
+        profile = self.profile if values.ndim == 1 else self.profile[:, None]
+        white = self.arma.whiten(values / profile)
+        directions, shrink = self._smooth_part
+        if not shrink.size:
+            return white
+        along = directions.T @ white
+        return white - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None]))
+
+    def simulate(self, rng: np.random.Generator, size: int = 1) -> FloatArray:
+        """Draws of the noise, shape (size, n) [MPa]."""
+        rough = self.profile * self.arma.simulate(rng, len(self), size)
+        slow = self._slow
+        if not slow.shape[1]:
+            return rough
+        return np.asarray(rough + rng.standard_normal((size, slow.shape[1])) @ slow.T)
+
+    def scaled(self, factor: float) -> NoiseModel:
+        """The same noise with `factor` times the standard deviation."""
+        return replace(
+            self,
+            arma=replace(self.arma, innovation=self.arma.innovation * factor),
+            sigma=self.sigma * factor,
+            white=self.white * factor,
+            carried=self.carried * factor,
+            drift=None if self.drift is None else self.drift * factor,
+            harmless_drift=None if self.harmless_drift is None else self.harmless_drift * factor,
+        )
+
+    @property
+    def _slow(self) -> FloatArray:
+        return self.carried if self.drift is None else np.hstack([self.carried, self.drift])
+
+    @cached_property
+    def _smooth_part(self) -> tuple[FloatArray, FloatArray]:
+        """(I + U U^T)^(-1/2) = I - Q diag(1 - (1 + s^2)^(-1/2)) Q^T, U = Q diag(s) V^T the whitened slow noise."""
+        slow = self._slow
+        if not slow.shape[1]:
+            return np.zeros((len(self), 0)), np.zeros(0)
+        return directions_beside(self.arma.whiten(slow / self.profile[:, None]))

@@ -1,0 +1,110 @@
+"""Regions of records: in time, strain, strain rate and phase; runs of samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation.noise.record_residual import RecordResidual
+
+Kind = Literal["time", "strain", "rate", "phase", "record"]
+
+FINEST = 16
+"""Time intervals go down to this fraction of a record, and to `FEWEST` samples."""
+
+FEWEST = 3
+"""Samples that a region needs."""
+
+PHASES = {1.0: "loading", 0.0: "dwell", -1.0: "unloading"}
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Samples of one or of several records that are looked at together.
+
+    Attributes
+    ----------
+    kind : {"time", "strain", "rate", "phase", "record"}
+    label : str
+        In words.
+    members : tuple of (int, ndarray of bool)
+        Record index and which of its samples.
+    """
+
+    kind: Kind
+    label: str
+    members: tuple[tuple[int, NDArray[np.bool_]], ...]
+
+
+def time_regions(records: Sequence[RecordResidual]) -> list[Region]:
+    """Every record whole, halved, quartered ...; the finer ones also shifted by half their length."""
+    found = []
+    for index, record in enumerate(records):
+        count = len(record)
+        pieces = 1
+        while pieces <= FINEST and count // pieces >= FEWEST:
+            shifts = (0.0, 0.5) if pieces >= 4 else (0.0,)
+            for shift in shifts:
+                borders = ((np.arange(pieces + 1 - (shift > 0)) + shift) * count / pieces).round().astype(int)
+                for first, stop in pairwise(borders):
+                    inside = np.zeros(count, dtype=bool)
+                    inside[first:stop] = True
+                    ends = record.time[first], record.time[stop - 1]
+                    label = f"{record.name}, {ends[0]:.4g} to {ends[1]:.4g} s"
+                    found.append(Region("record" if pieces == 1 else "time", label, ((index, inside),)))
+            pieces *= 2
+    return found
+
+
+def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
+    """Sixths of the strain range, decades of the rate, and loading, dwell and unloading, over all records together."""
+    found = []
+    strain = [record.true_strain for record in records]
+    ends = np.linspace(min(s.min() for s in strain), max(s.max() for s in strain), 7)
+    for low, high in pairwise(ends):
+        inside = [(s >= low) & ((s < high) | (high == ends[-1])) for s in strain]
+        found += _region("strain", f"true strain {low:.3g} to {high:.3g}", inside)
+    phases = [record.phase for record in records]
+    if len(np.unique(np.concatenate(phases))) > 1:
+        for sign, label in PHASES.items():
+            found += _region("phase", label, [phase == sign for phase in phases])
+    with np.errstate(divide="ignore"):
+        logs = [np.log10(np.abs(record.strain_rate)) for record in records]
+    moving = np.concatenate([log[phase != 0.0] for log, phase in zip(logs, phases, strict=True)])
+    if moving.size:
+        low, high = np.quantile(moving, [0.01, 0.99])
+        pieces = int(min(np.ceil(high - low), 5)) if high - low > 0.3 else 1
+        borders = np.linspace(low, high, pieces + 1)
+        for first, last in pairwise(borders):
+            inside = [
+                (phase != 0.0) & ((log >= first) | (first == borders[0])) & ((log < last) | (last == borders[-1]))
+                for log, phase in zip(logs, phases, strict=True)
+            ]
+            if pieces > 1:
+                found += _region("rate", f"strain rate {10.0**first:.2g} to {10.0**last:.2g} 1/s", inside)
+    return found
+
+
+def runs(inside: NDArray[np.bool_], bridge: int = 0, least: int = 1) -> list[slice]:
+    """Runs of True; gaps of up to `bridge` samples are closed, then runs below `least` samples dropped."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
+    found: list[list[int]] = []
+    for first, stop in edges.reshape(-1, 2).tolist():
+        if found and first - found[-1][1] <= bridge:
+            found[-1][1] = stop
+        else:
+            found.append([first, stop])
+    return [slice(first, stop) for first, stop in found if stop - first >= least]
+
+
+def _region(kind: Kind, label: str, inside: list[NDArray[np.bool_]]) -> list[Region]:
+    members = tuple((index, mask) for index, mask in enumerate(inside) if np.count_nonzero(mask) >= FEWEST)
+    return [Region(kind, label, members)] if members else []

@@ -1,0 +1,97 @@
+"""How a record starts: relaxed, as the law takes its first sample, or loaded by a ramp that was cut off.
+
+A record that is cut starts at a strain and a stress that the law does not know the history of. Where the strain still
+counts from the unloaded specimen, the missing part is known well enough: a straight line from zero at the strain rate
+of the first samples. One sample at zero strain and zero stress before the others gives the law that line.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from probation._complaint import quoted
+from probation.errors import InputError
+from probation.records.noise import scatter
+from probation.records.record import Record
+
+FloatArray = NDArray[np.float64]
+
+STARTS = ("relaxed", "loaded")
+
+_FAR = 0.02  # share of the largest strain or stress; a force reading before a test rests within 1 %
+_NOISES = 5.0  # standard deviations: less happens by chance in a campaign of many records
+_AHEAD = 4.0  # times the first strain: how far the strain rate at the start is looked for
+_FEWEST = 10  # samples behind the strain rate at the start
+
+
+def start_doubts(record: Record) -> tuple[str, ...]:
+    """Question a first strain or stress that is far from zero, since the law starts relaxed there."""
+    if not (_is_far(record.time, record.true_strain) or _is_far(record.time, record.true_stress)):
+        return ()
+    restore = "" if _line_before(record) is None else 'if it is cut, say start = "loaded" in its [[record]]; '
+    return (
+        f"the record starts at true strain {record.true_strain[0]:.3g} and {record.true_stress[0]:.3g} MPa, and the "
+        f"law takes that state as relaxed: the record is cut at its start, or a prestress acts; {restore}"
+        "probation diagnose weighs a prestress",
+    )
+
+
+def with_loading(record: Record) -> Record:
+    """Copy a record that is cut at its start, with the ramp before it restored.
+
+    One sample of zero strain and zero stress is put before the others, as far back as the strain rate of the
+    first samples needs from zero to them.
+
+    Parameters
+    ----------
+    record : Record
+        Its strain counts from the unloaded specimen.
+
+    Raises
+    ------
+    InputError
+        If the first strain is zero within its noise, or does not grow from zero.
+    """
+    line = _line_before(record)
+    if line is None:
+        raise InputError(
+            f'record {quoted(record.id)}, start = "loaded": found a first true strain of {record.true_strain[0]:.3g} '
+            "that no ramp from zero leads to, expected one that grows away from zero; leave start out, or add the "
+            "loading to the file"
+        )
+    duration, rate = line
+    first = {"time": record.time[0] - duration, "true_strain": 0.0, "true_stress": 0.0}
+    for name, value in (("strain_rate", rate), ("transverse_strain", 0.0)):
+        if getattr(record, name) is not None:
+            first[name] = value
+    if record.temperature is not None:
+        first["temperature"] = record.temperature[0]
+    note = f"starts loaded: a ramp from zero at {rate:.3g} 1/s, {duration:.3g} s long, is put before the first sample"
+    samples: dict[str, Any] = {name: np.insert(getattr(record, name), 0, value) for name, value in first.items()}
+    return replace(record, **samples, warnings=(*record.warnings, note))
+
+
+def _is_far(time: FloatArray, values: FloatArray) -> bool:
+    first, largest = abs(float(values[0])), float(np.abs(values).max())
+    return first > max(_FAR * largest, _NOISES * scatter(time, values))
+
+
+def _line_before(record: Record) -> tuple[float, float] | None:
+    """Duration [s] and true strain rate [1/s] of the ramp from zero to the first samples; None where there is none.
+
+    The line is fitted to the samples up to four times the first strain, so that extrapolation adds little to their
+    noise: in true strain, or in engineering strain where the displacement was driven.
+    """
+    time, strain = record.time - record.time[0], record.true_strain
+    beyond = np.flatnonzero(np.abs(strain) > _AHEAD * abs(strain[0]))
+    count = max(int(beyond[0]) if beyond.size else len(strain), _FEWEST)
+    driven = np.expm1(strain) if record.control == "displacement-rate" else strain
+    rate, first = np.polyfit(time[:count], driven[:count], 1)
+    noise = scatter(record.time, driven)
+    uncertain = noise / (np.sqrt(count) * float(np.std(time[:count])))
+    if abs(first) <= _NOISES * noise or abs(rate) <= _NOISES * uncertain or not 0.0 < first / rate < time[-1]:
+        return None
+    duration = float(first / rate)
+    return duration, float(strain[0]) / duration

@@ -1,0 +1,1 @@
+"""From measured, noisy strain to the strain and rate that drive the law."""

@@ -1,0 +1,345 @@
+"""What is known about the strain and rate of records: the answer of ``probation excitation``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.integrate import cumulative_simpson
+
+from probation._arrays import FloatArray
+from probation.answers import json_answer
+from probation.errors import InputError
+from probation.report.estimate import percentage, plus_minus
+from probation.report.table import Table
+from probation.smoothing.differences import differences
+from probation.smoothing.excitation import Excitation, excite
+from probation.smoothing.necking import NeckingFit, fit_necking
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from probation.records.record import Record
+    from probation.smoothing.methods import Method
+
+NEAR_ZERO = 0.02
+"""Rates below this part of the largest have no relative error worth telling: holds and turning points."""
+
+VARIES = 1.05
+"""A rate that varies by less than this factor is constant."""
+
+CORRELATED = 1.2
+"""Inflation from which on noise is said to be correlated."""
+
+FAR = 8.0
+"""Residuals beyond so many standard deviations of the noise are told."""
+
+CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se_per_s"
+
+
+@dataclass(frozen=True, eq=False)
+class RecordExcitation:
+    """One record's excitation beside what was measured.
+
+    Attributes
+    ----------
+    record : Record
+    excitation : Excitation
+    necking : NeckingFit or None
+        The two steps of the paper's procedure, for the methods that take them.
+    """
+
+    record: Record
+    excitation: Excitation
+    necking: NeckingFit | None = None
+
+    @property
+    def id(self) -> str:
+        """The record's."""
+        return self.record.id
+
+    @property
+    def time(self) -> FloatArray:
+        """Shape (n_times,) [s]."""
+        return self.record.time
+
+    @property
+    def measured(self) -> FloatArray:
+        """Measured true strain, shape (n_times,) [-]."""
+        return self.record.true_strain
+
+    @property
+    def residual(self) -> FloatArray:
+        """Measured - used strain, shape (n_times,) [-]."""
+        return self.measured - self.excitation.true_strain
+
+    @cached_property
+    def differences(self) -> FloatArray:
+        """Three-point central differences of the measured strain, shape (n_times,) [1/s]."""
+        return differences(self.time, self.measured)
+
+    @cached_property
+    def integrated(self) -> FloatArray:
+        """The rate integrated from the used strain's start, jump by jump, shape (n_times,) [-]."""
+        excitation, time = self.excitation, self.time
+        strain = np.empty_like(time)
+        strain[0] = excitation.true_strain[0]
+        borders = [0, *excitation.jumps, len(time) - 1]
+        for first, last in pairwise(borders):
+            rate = excitation.rate[first : last + 1].copy()
+            if first > 0 and last > first + 1:  # the sample at a jump has the rate before it
+                ahead = (rate[2] - rate[1]) / (time[first + 2] - time[first + 1])
+                rate[0] = rate[1] - ahead * (time[first + 1] - time[first])
+            elif first > 0:
+                rate[0] = rate[1]
+            strain[first : last + 1] = strain[first] + cumulative_simpson(rate, x=time[first : last + 1], initial=0.0)
+        return strain
+
+    @cached_property
+    def relative_error(self) -> FloatArray:
+        """Standard error over the rate where it is not near zero, shape (at most n_times,) [-]."""
+        rate = np.abs(self.excitation.rate)
+        moving = rate > NEAR_ZERO * rate.max()
+        return np.asarray(self.excitation.rate_se[moving] / rate[moving])
+
+    @property
+    def verdict(self) -> str:
+        """One line: the rate, how well it is known, its jumps."""
+        rate = self.excitation.rate
+        low, high = float(rate.min()), float(rate.max())
+        if low > 0.0 and high < VARIES * low:
+            said = f"strain rate {float(np.median(rate)):.3g} 1/s"
+        elif low > 0.0:
+            said = f"strain rate {low:.2g} … {high:.2g} 1/s (×{high / low:.2g})"
+        else:
+            said = f"strain rate {low:.2g} … {high:.2g} 1/s"
+        if not rate.any():
+            return f"{self.id}: strain rate zero"
+        median = float(np.median(self.relative_error))
+        known = f"known to {percentage(median)} % (median standard error)" if median > 0.0 else "without noise"
+        jumps = [f"{float(self.time[jump]):.4g}" for jump in self.excitation.jumps]
+        count = f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}" if jumps else "no jumps"
+        return f"{self.id}: {said}, {known}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
+
+    @property
+    def facts(self) -> tuple[tuple[str, str], ...]:
+        """Quantity and value, as text."""
+        excitation = self.excitation
+        known = "given with the record" if self.record.noise.strain is not None else "estimated"
+        rate, strain = excitation.rate, excitation.true_strain
+        parts = [percentage(each) for each in _spread(self.relative_error)]
+        rows = [
+            ("method", f"{excitation.method}: {excitation.differentiator}"),
+            ("samples", f"{len(self.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
+            ("strain noise", f"{excitation.strain_noise:.2g}, {known}{self._correlation()}"),
+            ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
+            ("rate at the start", f"{plus_minus(rate[0], excitation.rate_se[0])} 1/s"),
+            ("rate at the end", f"{plus_minus(rate[-1], excitation.rate_se[-1])} 1/s"),
+            ("its standard error", "median {}, 95 % below {}, largest {} %".format(*parts)),
+            ("integrated rate − measured strain", f"{np.abs(self.integrated - self.measured).max():.2g} at most"),
+        ]
+        if excitation.strain_rate is None:
+            rows[-1:] = []
+        if self.necking is not None:
+            fit = self.necking
+            rows += [
+                ("(A-1) leaves", f"{np.std(fit.strain.first_residual):.2g} (rms of the strain)"),
+                ("sines", f"{len(fit.strain.sines.frequencies)} leave {np.std(fit.strain.final_residual):.2g}"),
+                (
+                    "the rate's own fit",
+                    f"{len(fit.rate.sines.frequencies)} sines; integrated {fit.largest_drift:.2g} off",
+                ),
+            ]
+        return tuple(rows)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader should know."""
+        excitation = self.excitation
+        told = list(self.record.warnings)
+        if excitation.noise_inflation > CORRELATED:
+            told.append(
+                "neighbouring samples err together: slow averages of the strain noise vary "
+                f"{excitation.noise_inflation:.2g} times as much as white noise; the standard errors say so"
+            )
+        if missed := self._missed():
+            told.append(missed)
+        if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
+            told.append("the differences of the strain are mostly noise: another method smooths it")
+        return tuple(told)
+
+    def table(self) -> Table:
+        """The facts as a table."""
+        return Table(("quantity", "value"), self.facts, left=2)
+
+    def content(self) -> dict[str, object]:
+        """What goes into JSON."""
+        excitation = self.excitation
+        found: dict[str, object] = {
+            "verdict": self.verdict,
+            "method": excitation.method,
+            "differentiator": excitation.differentiator,
+            "samples": len(self.time),
+            "degrees_of_freedom": excitation.freedom,
+            "strain_noise": excitation.strain_noise,
+            "strain_noise_given": self.record.noise.strain is not None,
+            "noise_inflation": excitation.noise_inflation,
+            "rate_jumps_s": [float(self.time[jump]) for jump in excitation.jumps],
+            "strain_rate_per_s": {"smallest": float(excitation.rate.min()), "largest": float(excitation.rate.max())},
+            "relative_se_of_rate": dict(zip(("median", "p95", "largest"), _spread(self.relative_error), strict=True)),
+            "integrated_rate_minus_measured_strain": float(np.abs(self.integrated - self.measured).max()),
+            "data_sha256": self.record.sha256,
+            "warnings": list(self.warnings),
+        }
+        if self.necking is not None:
+            found["two_steps"] = {
+                name: {
+                    "a_per_s": steps.history.a,
+                    "b": steps.history.b,
+                    "c": steps.history.c,
+                    "d": steps.history.d,
+                    "offset": steps.offset,
+                    "sines_Hz": steps.sines.frequencies,
+                    "rms_after_step_1": float(np.std(steps.first_residual)),
+                    "rms_after_step_2": float(np.std(steps.final_residual)),
+                }
+                for name, steps in (("strain", self.necking.strain), ("rate", self.necking.rate))
+            }
+        return found
+
+    def to_csv(self) -> str:
+        """Columns `CSV_HEADER`, every digit kept."""
+        excitation = self.excitation
+        columns = (self.time, excitation.true_strain, excitation.rate, excitation.strain_se, excitation.rate_se)
+        rows = zip(*(each.tolist() for each in columns), strict=True)
+        return "\n".join([CSV_HEADER, *(",".join(repr(value) for value in row) for row in rows)]) + "\n"
+
+    def plot(self) -> Figure:
+        """Strain, residual, and the rate with its band."""
+        from probation.report.excitation_figures import excitation_figure  # noqa: PLC0415 - matplotlib is slow to load
+
+        return excitation_figure(self)
+
+    def _missed(self) -> str:
+        """Where the used strain misses the measured one by far more than noise, such as the run-up of a machine."""
+        off = np.flatnonzero(np.abs(self.residual) > FAR * self.excitation.strain_noise)
+        if self.excitation.operators is None or not off.size or self.excitation.strain_noise == 0.0:
+            return ""
+        first = ", ".join(f"{self.time[at]:.4g}" for at in off[:3])
+        return (
+            f"{off.size} sample{'s are' if off.size > 1 else ' is'} off by more than {FAR:.0f} times the noise, at "
+            f"{first}{', …' if off.size > 3 else ''} s: the strain is sharper there than the method follows, or they "
+            "are outliers; raw takes them as they are"
+        )
+
+    def _correlation(self) -> str:
+        grown = self.excitation.noise_inflation
+        return "" if grown <= CORRELATED else f", correlated from sample to sample (×{grown:.2g})"
+
+
+@dataclass(frozen=True, eq=False)
+class ExcitationAnswer:
+    """The excitation of some records.
+
+    Attributes
+    ----------
+    source : str
+        File or campaign.
+    records : tuple of RecordExcitation
+    """
+
+    source: str
+    records: tuple[RecordExcitation, ...]
+
+    def summary(self) -> str:
+        """A verdict per record, then a table and warnings for each."""
+        parts = ["\n".join(each.verdict for each in self.records)]
+        for each in self.records:
+            title = [each.id] if len(self.records) > 1 else []
+            parts.append("\n".join([*title, each.table().text(), *(f"  warning: {text}" for text in each.warnings)]))
+        return "\n\n".join(parts)
+
+    def to_json(self) -> str:
+        """As JSON, schema "probation.excitation/1"."""
+        content = {"source": self.source, "records": {each.id: each.content() for each in self.records}}
+        return json_answer("probation.excitation/1", content)
+
+    def to_csv(self) -> str:
+        """Strain and rate with their standard errors at the samples.
+
+        Raises
+        ------
+        InputError
+            If there is more than one record.
+        """
+        return self._only("a CSV file").to_csv()
+
+    def plot(self) -> Figure:
+        """Strain, residual, and the rate with its band.
+
+        Raises
+        ------
+        InputError
+            If there is more than one record.
+        """
+        return self._only("a plot").plot()
+
+    def report(self, path: str | PathLike[str]) -> Path:
+        """Write the page and return its path."""
+        from probation.report.excitation_page import write_excitation_page  # noqa: PLC0415
+
+        return write_excitation_page(self, Path(path))
+
+    def _only(self, what: str) -> RecordExcitation:
+        if len(self.records) > 1:
+            names = ", ".join(each.id for each in self.records)
+            raise InputError(f"{self.source}: found the records {names}, expected one for {what}; choose by its id")
+        return self.records[0]
+
+
+def describe_excitation(
+    records: Sequence[Record],
+    method: Method = "auto",
+    *,
+    source: str = "",
+    progress: Callable[[int, int, str], None] | None = None,
+) -> ExcitationAnswer:
+    """Strain and rate of records, and what is known about them.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    method : str
+        As in `excite`.
+    source : str
+        Where they are from, for the page and for JSON.
+    progress : callable, optional
+        Called with (done, total, what).
+
+    Raises
+    ------
+    InputError
+        For an unknown method, or one that does not describe a record.
+    """
+    described = []
+    for done, record in enumerate(records):
+        if progress:
+            progress(done, len(records), record.id)
+        excitation = excite(record, method)
+        necking = fit_necking(record.time, record.true_strain) if excitation.method.startswith("necking") else None
+        described.append(RecordExcitation(record, excitation, necking))
+    return ExcitationAnswer(source or ", ".join(record.id for record in records), tuple(described))
+
+
+def _spread(error: FloatArray) -> tuple[float, float, float]:
+    """Median, 95 % quantile and largest."""
+    if not error.size:
+        return 0.0, 0.0, 0.0
+    return float(np.median(error)), float(np.quantile(error, 0.95)), float(error.max())

@@ -1,0 +1,336 @@
+"""What drives the law along one record: strain, rate, jumps, and how they were had."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation import _core
+from probation._arrays import FloatArray, one_of
+from probation.errors import InputError
+from probation.law.history import make_history
+from probation.records.noise import scatter
+from probation.smoothing.differences import differences, differences_error
+from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
+from probation.smoothing.operators import Operators
+from probation.smoothing.segmented import smooth_segments
+from probation.smoothing.segments import CLEAN, find_jumps
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from probation.records.record import Record
+
+RATE_NOISE = 2e-3
+"""Smooth where the differenced strain's noise exceeds this fraction of the typical rate."""
+
+MISSES = 10.0
+"""A smoother that leaves so many times what neighbouring samples scatter by has missed the history itself."""
+
+TURN = 0.02
+"""A segment that comes back by more than this fraction of the record's strain range has no single direction."""
+
+BEYOND_NOISE = 10.0
+"""Standard deviations of its noise by which the strain comes back in earnest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Excitation:
+    """Strain and rate as the law sees them.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n_times,) [s]
+    true_strain : ndarray, shape (n_times,) [-]
+    strain_rate : ndarray, shape (n_times,) [1/s], or None
+        None: the scheme's own difference of the strain.
+    jumps : tuple of int
+        Indices at which the rate jumps.
+    direction : ndarray, shape (n_times - 1,)
+        Commanded direction of each step, +1, -1 or 0.
+    differentiator : str
+        How the rate was had, in words.
+    strain_noise : float
+        Standard deviation of the measured strain's noise [-].
+    method : str
+        One of `METHODS`, never "auto".
+    strain_se : ndarray, shape (n_times,) [-]
+        Standard error of `true_strain`. Of a spline it covers its bias, too, on average along the curve (Nychka 1988).
+    rate_se : ndarray, shape (n_times,) [1/s]
+        ... and of `rate`; for a rate given with the record, its own scatter from sample to sample.
+    freedom : float
+        Degrees of freedom that the samples were described with.
+    noise_inflation : float
+        Variance of slow averages of the strain's noise over what white noise would have: 1 where it is white. Within
+        the standard errors already.
+    operators : callable, or None
+        Makes what the measured samples do to strain and rate; None where the strain is as measured.
+    """
+
+    time: FloatArray
+    true_strain: FloatArray
+    strain_rate: FloatArray | None
+    jumps: tuple[int, ...]
+    direction: FloatArray
+    differentiator: str
+    strain_noise: float
+    method: Method
+    strain_se: FloatArray
+    rate_se: FloatArray
+    freedom: float
+    noise_inflation: float = 1.0
+    operators: Callable[[], Operators] | None = None
+
+    def strain_operator(self) -> FloatArray | None:
+        """Derivative of `true_strain` by the measured strain at fixed smoothness, shape (n_times, n_measured) [-].
+
+        Dense; None is the identity. Made at the first call and kept. Of a refined history too, where n_times is larger.
+        """
+        return None if self._made is None else self._made.strain
+
+    def rate_operator(self) -> FloatArray | None:
+        """Derivative of `strain_rate` by the measured strain at fixed smoothness, shape (n_times, n_measured) [1/s].
+
+        Dense; None where `strain_rate` is None: the scheme's own difference. A rate given with the record does not
+        depend on the strain: zeros.
+        """
+        if self._made is None:
+            return None if self.strain_rate is None else np.zeros((len(self.time), len(self.time)))
+        return None if self.strain_rate is None else self._made.rate
+
+    @cached_property
+    def _made(self) -> Operators | None:
+        return None if self.operators is None else self.operators()
+
+    def strain_covariance(self) -> FloatArray:
+        """Covariance of `true_strain` from white noise of `strain_noise`, shape (n_times, n_times) [-]."""
+        operator = self.strain_operator()
+        if operator is None:
+            return self.strain_noise**2 * np.eye(len(self.time))
+        covariance: FloatArray = self.strain_noise**2 * operator @ operator.T
+        return covariance
+
+    def rate_covariance(self) -> FloatArray | None:
+        """Covariance of `strain_rate` from white noise of `strain_noise`, shape (n_times, n_times) [1/s^2].
+
+        None where `rate_operator` is None.
+        """
+        operator = self.rate_operator()
+        return None if operator is None else self.strain_noise**2 * operator @ operator.T
+
+    def history(self) -> _core.History:
+        """The same as the engine takes it."""
+        return make_history(
+            self.time,
+            self.true_strain,
+            strain_rate=self.strain_rate,
+            jumps=self.time[list(self.jumps)] if self.jumps else None,
+            direction=self.direction,
+        )
+
+    def refined(self, substeps: int) -> Excitation:
+        """The same history at `substeps` times as many instants; every `substeps`-th is one of the samples.
+
+        Between samples it is what the samples stand for: a straight line, or, with rates, the cubic through both.
+        """
+        if substeps == 1:
+            return self
+        begin = end = None
+        if self.strain_rate is not None:
+            begin, end = self.history().rates(_core.Differentiator.backward)
+        strain, rate = _refine(self.time, substeps, self.true_strain, self.strain_rate, begin, end)
+        within = np.diff(self.time)[:, None] * (np.arange(substeps) / substeps)
+        time = _spread(self.time[:-1, None] + within, self.time[-1:])
+        return replace(
+            self,
+            time=time,
+            true_strain=strain,
+            strain_rate=rate,
+            jumps=tuple(substeps * jump for jump in self.jumps),
+            direction=np.repeat(self.direction, substeps),
+            strain_se=np.interp(time, self.time, self.strain_se),
+            rate_se=np.interp(time, self.time, self.rate_se),
+            operators=partial(self._refined_operators, substeps),
+        )
+
+    def _refined_operators(self, substeps: int) -> Operators:
+        """The operators of `refined`, which is linear in strain and rate."""
+        strain = self.strain_operator()
+        strain = np.eye(len(self.time)) if strain is None else strain
+        rate = self.rate_operator()
+        begin = end = None
+        if rate is not None and self.strain_rate is not None:
+            # At a jump the engine takes the secant on one side: the same side here.
+            secant = np.diff(strain, axis=0) / np.diff(self.time)[:, None]
+            used = self.history().rates(_core.Differentiator.backward)
+            own = [
+                side == given for side, given in zip(used, (self.strain_rate[:-1], self.strain_rate[1:]), strict=True)
+            ]
+            begin = np.where(own[0][:, None], rate[:-1], secant)
+            end = np.where(own[1][:, None], rate[1:], secant)
+        fine, fine_rate = _refine(self.time, substeps, strain, rate, begin, end)
+        return Operators(fine, np.zeros_like(fine) if fine_rate is None else fine_rate)
+
+    @property
+    def rate(self) -> FloatArray:
+        """The strain rate that was given or smoothed, else three-point differences; shape (n_times,) [1/s]."""
+        if self.strain_rate is not None:
+            return self.strain_rate
+        return differences(self.time, self.true_strain)
+
+
+def excite(record: Record, method: Method = "auto") -> Excitation:
+    """Strain and rate of one record, fit for driving the law.
+
+    Parameters
+    ----------
+    record : Record
+    method : str
+        One of `METHODS`. "raw" takes the strain as it is (and the rate if the record has one), the others smooth it,
+        segment by segment; "auto" does so by `DEFAULT` where the strain is noisy, the record has no rate of its own,
+        and the smoother follows the record.
+
+    Raises
+    ------
+    InputError
+        For an unknown method, or one that does not describe the record.
+    """
+    one_of(method, "excitation", METHODS)
+    given = record.noise.strain
+    noise = given if given is not None else scatter(record.time, record.true_strain)
+    jumps = find_jumps(record.time, record.true_strain, noise)
+    automatic = method == "auto"
+    if automatic:
+        method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
+    if method == "raw":
+        return _as_measured(record, jumps, noise)
+    way = SMOOTHERS[method]
+    if jumps and not way.segmented:
+        raise InputError(
+            f"record {record.id!r}, excitation {method!r}: found a rate that jumps at "
+            f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use {DEFAULT!r}"
+        )
+    try:
+        smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+    except InputError as error:
+        raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
+    if automatic and smoothed.noise > MISSES * max(noise, CLEAN):
+        return _as_measured(record, jumps, noise)
+    # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
+    noise = smoothed.noise if given is None else noise
+    return Excitation(
+        time=record.time,
+        true_strain=smoothed.true_strain,
+        strain_rate=smoothed.strain_rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, smoothed.true_strain, jumps, noise),
+        differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
+        strain_noise=float(noise),
+        method=method,
+        strain_se=noise * smoothed.strain_error,
+        rate_se=noise * smoothed.rate_error,
+        freedom=smoothed.freedom,
+        noise_inflation=smoothed.inflation,
+        operators=smoothed.operators,
+    )
+
+
+def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
+    """The samples themselves, and the rate if the record has one."""
+    strain, rate = record.true_strain, record.strain_rate
+    if rate is None:
+        name = "three-point backward difference (bE2), parabola through three samples (SA2, SA3)"
+        rate_se = noise * differences_error(record.time)
+    else:
+        name = "rate given with the record"
+        rate_se = np.full(len(rate), scatter(record.time, rate))
+    return Excitation(
+        time=record.time,
+        true_strain=strain,
+        strain_rate=rate,
+        jumps=tuple(jumps),
+        direction=_direction(record, strain, jumps, noise),
+        differentiator=name,
+        strain_noise=float(noise),
+        method="raw",
+        strain_se=np.full(len(strain), float(noise)),
+        rate_se=rate_se,
+        freedom=float(len(strain)),
+    )
+
+
+def _refine(
+    time: FloatArray,
+    substeps: int,
+    strain: FloatArray,
+    rate: FloatArray | None,
+    begin: FloatArray | None,
+    end: FloatArray | None,
+) -> tuple[FloatArray, FloatArray | None]:
+    """Strain and rate at `substeps` times as many instants: a straight line, or the cubic through strain and rate.
+
+    Linear in strain, rate and the rates at which each step begins and ends, all with the instants or steps as their
+    first axis.
+    """
+    more = (None,) * (strain.ndim - 1)
+    part = (np.arange(substeps) / substeps)[(None, slice(None), *more)]
+    step = np.diff(time)[(slice(None), None, *more)]
+    rise = np.diff(strain, axis=0)[:, None]
+    fine = strain[:-1, None] + rise * part
+    if rate is None or begin is None or end is None:
+        return _spread(fine, strain[-1:]), None
+    begin, end = begin[:, None], end[:, None]
+    bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
+    fine = fine + part * (1.0 - part) * bend
+    slope = (rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))) / step
+    slope[:, 0] = rate[:-1]
+    return _spread(fine, strain[-1:]), _spread(slope, rate[-1:])
+
+
+def _spread(rows: FloatArray, last: FloatArray) -> FloatArray:
+    """Instants within steps, (n_steps, substeps, ...), as one axis, with the last instant of all."""
+    return np.concatenate([rows.reshape(-1, *rows.shape[2:]), last])
+
+
+def _rate_is_noisy(record: Record, noise: float) -> bool:
+    """Whether three-point differences of the strain scatter by more than `RATE_NOISE` of the typical rate."""
+    if noise < CLEAN:
+        return False
+    step = np.diff(record.time)
+    typical = np.median(np.abs(np.diff(record.true_strain) / step))
+    # (3 e+ - 4 e + e-) / 2 h has sqrt(26) / 2 times the noise over h.
+    return bool(np.sqrt(26.0) / 2.0 * noise / np.median(step) > RATE_NOISE * typical)
+
+
+def _direction(record: Record, true_strain: FloatArray, jumps: list[int], noise: float) -> FloatArray:
+    """Sign of each segment's net strain; 0 where the strain comes back beyond its noise, or nothing was commanded."""
+    direction = np.zeros(len(true_strain) - 1)
+    if record.control in ("cyclic", "other"):
+        return direction
+    turn = max(TURN * float(np.ptp(true_strain)), BEYOND_NOISE * noise)
+    borders = [0, *jumps, len(true_strain) - 1]
+    for first, last in pairwise(borders):
+        sign = 1.0 if true_strain[last] >= true_strain[first] else -1.0
+        along = sign * true_strain[first : last + 1]
+        back = np.maximum.accumulate(along) - along
+        if np.max(back) <= turn:
+            direction[first:last] = sign
+            for fall in _falls(along, BEYOND_NOISE * noise):
+                direction[first + fall.start : first + fall.stop] = 0.0
+    return direction
+
+
+def _falls(values: FloatArray, least: float) -> list[slice]:
+    """Steps from a largest value so far down to the lowest one after it, where that is further down than `least`."""
+    highest = np.maximum.accumulate(values)
+    peaks = np.flatnonzero(values == highest)
+    falls = []
+    for start, stop in pairwise([*peaks.tolist(), len(values)]):
+        lowest = start + int(np.argmin(values[start:stop]))
+        if values[start] - values[lowest] > least:
+            falls.append(slice(start, lowest))
+    return falls

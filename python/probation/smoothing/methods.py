@@ -1,0 +1,63 @@
+"""The ways from measured strain to strain and rate, by name. A new one is a file of its own and a line here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+if TYPE_CHECKING:
+    from probation.smoothing.smoothed import Smoother
+
+Method: TypeAlias = str
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way.
+
+    Attributes
+    ----------
+    module, function : str
+        Where its `Smoother` is, in this package; imported when it is first used.
+    title : str
+        What it is, in words.
+    segmented : bool
+        Whether it is done segment by segment between jumps.
+    """
+
+    module: str
+    function: str
+    title: str
+    segmented: bool = True
+
+    @cached_property
+    def smooth(self) -> Smoother:
+        """The function that does it."""
+        return cast("Smoother", getattr(import_module(f"{__package__}.{self.module}"), self.function))
+
+
+SMOOTHERS: dict[Method, Way] = {
+    "quintic-spline": Way(
+        "penalised_spline", "smooth_quintic", "quintic smoothing spline (generalised cross-validation)"
+    ),
+    "spline": Way("penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)"),
+    "savitzky-golay": Way(
+        "savitzky_golay", "smooth_savitzky_golay", "local cubics, Savitzky-Golay (generalised cross-validation)"
+    ),
+    "necking": Way(
+        "necking", "smooth_necking", "(A-1) and sines through the strain, their derivative", segmented=False
+    ),
+    "necking-as-printed": Way(
+        "necking",
+        "smooth_necking_as_printed",
+        "(A-1) and sines through the strain, and through its three-point central difference",
+        segmented=False,
+    ),
+}
+
+DEFAULT: Method = "quintic-spline"
+"""What "auto" smooths with; docs/excitation.md says why."""
+
+METHODS: tuple[Method, ...] = ("auto", "raw", *SMOOTHERS)

@@ -1,0 +1,207 @@
+"""Penalised splines: strain and rate without a formula for either, their smoothness chosen by cross-validation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.linalg import cholesky, solve_triangular
+from scipy.ndimage import median_filter
+from scipy.optimize import minimize_scalar
+
+from probation.smoothing.operators import Operators
+from probation.smoothing.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+SAMPLES_PER_KNOT = 8
+"""Fewer knots than samples by so much: correlated noise has less to hide in."""
+
+FEWEST_KNOTS, MOST_KNOTS, ALL_KNOTS = 40, 250, 500
+"""... but at least and at most so many; up to `ALL_KNOTS` where the knots themselves are what holds the curve back."""
+
+EXHAUSTED = 0.9
+"""Degrees of freedom per knot from which on more knots are tried ..."""
+
+BETTER = 0.5
+"""... and kept, if they bring the residual below this part of what it was."""
+
+COARSE = 120
+"""Points of the coarse search for the smoothness."""
+
+NEIGHBOURHOOD = 0.05
+"""Part of the samples over which the usual spacing is looked up."""
+
+CHANCE = 2.0
+"""Changes of the usual spacing by less than this factor are not by design."""
+
+
+def smooth_cubic(time: FloatArray, true_strain: FloatArray) -> Smoothed:
+    """Smooth by a cubic spline that penalises the integral of the second derivative's square."""
+    return _smooth(time, true_strain, 2)
+
+
+def smooth_quintic(time: FloatArray, true_strain: FloatArray) -> Smoothed:
+    """Smooth by a quintic spline that penalises the integral of the third derivative's square.
+
+    Unlike the cubic one it does not pull the rate's slope to zero at either end, nor its peaks down.
+    """
+    return _smooth(time, true_strain, 3)
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """The Demmler-Reinsch basis of a penalised spline: orthonormal at the samples, and so is the penalty.
+
+    Attributes
+    ----------
+    values : ndarray, shape (n_times, n_basis)
+    slopes : ndarray, shape (n_times, n_basis) [1/s]
+        Their derivatives.
+    penalties : ndarray, shape (n_basis,)
+        Increasing; the first `order` are zero.
+    order : int
+        Of the penalised derivative.
+    """
+
+    values: FloatArray
+    slopes: FloatArray
+    penalties: FloatArray
+    order: int
+
+    @classmethod
+    def of(cls, time: FloatArray, order: int, knots: int) -> Basis:
+        """Splines of degree 2 `order` - 1 with that many inner knots, evenly among the samples.
+
+        Where the samples are dense by design, the penalty is as much lighter as the curve may bend faster there:
+        (usual spacing)^(2 order - 1).
+        """
+        degree = 2 * order - 1
+        duration = time[-1] - time[0]
+        x = (time - time[0]) / duration
+        breaks = np.interp(np.linspace(0.0, len(x) - 1.0, knots + 2), np.arange(len(x)), x)
+        padded = np.concatenate([np.zeros(degree), breaks, np.ones(degree)])
+        every = BSpline(padded, np.eye(len(padded) - degree - 1), degree)
+        design = BSpline.design_matrix(x, padded, degree)
+        triangle = cholesky((design.T @ design).toarray())
+        # Gauss points that integrate the penalty exactly; its square root keeps the digits of stiff splines.
+        points, weights = np.polynomial.legendre.leggauss(order)
+        half = 0.5 * np.diff(breaks)[:, None]
+        at = (0.5 * (breaks[1:] + breaks[:-1])[:, None] + half * points).ravel()
+        weight = (half * weights).ravel() * np.interp(at, x, _spacing(x)) ** degree
+        root = np.sqrt(weight)[:, None] * every.derivative(order)(at)
+        rotated = solve_triangular(triangle, root.T, trans="T").T
+        _, singular, turn = np.linalg.svd(rotated, full_matrices=False)
+        penalties = singular**2
+        penalties[-order:] = 0.0
+        coefficients = solve_triangular(triangle, turn[::-1].T)
+        apart = (padded[degree + 1 : -1] - padded[1 : -degree - 1])[:, None]
+        slopes = BSpline.design_matrix(x, padded[1:-1], degree - 1) @ (degree / apart * np.diff(coefficients, axis=0))
+        return cls(design @ coefficients, slopes / duration, penalties[::-1], order)
+
+    def operators(self, shrink: FloatArray) -> Operators:
+        """The dense operators; `shrink` of shape (n_basis,) is what the smoothness leaves of each function."""
+        right = shrink[:, None] * self.values.T
+        return Operators(self.values @ right, self.slopes @ right)
+
+
+class Score:
+    """Generalised cross-validation (Craven & Wahba 1979) of a penalised spline, over the logarithm of its penalty.
+
+    Every degree of freedom counts `cost` times: `PRUDENCE` for white noise, more for correlated noise, which hides the
+    cost of following it.
+    """
+
+    def __init__(self, basis: Basis, values: FloatArray, cost: float) -> None:
+        self.basis = basis
+        self.cost = min(cost, 0.5 * len(values) / basis.order)  # the stiffest spline can always be paid for
+        self.weights = basis.values.T @ values
+        self.beyond = float(np.sum((values - basis.values @ self.weights) ** 2))
+        inner = basis.penalties[basis.order :]
+        self.limits = (float(np.log(1e-3 / inner[-1])), float(np.log(1e5 / inner[0])))
+
+    def shrink(self, log_penalty: float) -> FloatArray:
+        """What is left of each basis function, shape (n_basis,)."""
+        left: FloatArray = 1.0 / (1.0 + np.exp(log_penalty) * self.basis.penalties)
+        return left
+
+    def squares(self, shrink: FloatArray) -> float:
+        """Sum of the squared residuals."""
+        return self.beyond + float(np.sum(((1.0 - shrink) * self.weights) ** 2))
+
+    def __call__(self, log_penalty: float) -> float:
+        """The score; infinite where the degrees of freedom cost more than there are samples."""
+        shrink = self.shrink(log_penalty)
+        left = 1.0 - self.cost * float(shrink.sum()) / len(self.basis.values)
+        return self.squares(shrink) / left**2 if left > 0.0 else np.inf
+
+    def best(self) -> FloatArray:
+        """`shrink` at the lowest score."""
+        grid = np.linspace(*self.limits, COARSE)
+        at = int(np.argmin([self(point) for point in grid]))
+        ends = (grid[max(at - 1, 0)], grid[min(at + 1, COARSE - 1)])
+        found = minimize_scalar(self, bounds=ends, method="bounded", options={"xatol": 0.01})
+        return self.shrink(float(found.x))
+
+
+def _smooth(time: FloatArray, true_strain: FloatArray, order: int) -> Smoothed:
+    count = len(time)
+    if count < 4 * order + 2:
+        return polynomial(time, true_strain, 1 if count < 6 else 2)
+    most = count // 2  # more would leave functions near the ends that no sample determines
+    knots = min(most, max(FEWEST_KNOTS, min(count // SAMPLES_PER_KNOT, MOST_KNOTS)))
+    found = _with_knots(time, true_strain, order, knots)
+    while found.freedom > EXHAUSTED * knots and knots < min(most, ALL_KNOTS):
+        knots = min(2 * knots, most, ALL_KNOTS)
+        finer = _with_knots(time, true_strain, order, knots)
+        if finer.noise > BETTER * found.noise:
+            break
+        found = finer
+    return found
+
+
+def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: int) -> Smoothed:
+    """The smoothest spline whose cross-validation knows of the correlation that it leaves in the residual.
+
+    The first round takes the noise as white. If it left a correlated residual, the spline has begun to follow
+    correlated noise: its degrees of freedom then cost as much more as slow averages of that noise scatter more, and
+    so on until both agree.
+    """
+    basis = Basis.of(time, order, knots)
+    grown = 1.0
+    for _ in range(ROUNDS):
+        score = Score(basis, true_strain, PRUDENCE * grown)
+        shrink = score.best()
+        strain = basis.values @ (shrink * score.weights)
+        before, grown = grown, max(grown, inflation(true_strain - strain))
+        if grown < 1.02 * before:
+            break
+    # Wahba 1983, Nychka 1988: the posterior variance s^2 S, rather than s^2 S S^T of the noise alone, also covers the
+    # bias of a smoother that pulls down peaks, on average along the curve.
+    return Smoothed(
+        strain,
+        basis.slopes @ (shrink * score.weights),
+        np.sqrt(grown * (basis.values**2 @ shrink)),
+        np.sqrt(grown * (basis.slopes**2 @ shrink)),
+        float(shrink.sum()),
+        score.squares(shrink),
+        grown,
+        partial(basis.operators, shrink),
+    )
+
+
+def _spacing(x: FloatArray) -> FloatArray:
+    """The usual spacing around each sample over that of the record, shape (n,).
+
+    Gaps and jitter leave no trace, nor does a change by less than `CHANCE`.
+    """
+    step = np.diff(x)
+    width = max(2 * int(0.5 * NEIGHBOURHOOD * len(step)) + 1, 5)
+    usual = np.log(median_filter(step, width, mode="nearest") / np.median(step))
+    usual = np.sign(usual) * np.maximum(np.abs(usual) - np.log(CHANCE), 0.0)
+    spacing: FloatArray = np.exp(np.concatenate([usual[:1], 0.5 * (usual[1:] + usual[:-1]), usual[-1:]]))
+    return spacing

@@ -1,0 +1,171 @@
+"""A record smoothed segment by segment between its jumps."""
+
+from __future__ import annotations
+
+from functools import partial
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.smoothing.operators import Operators
+from probation.smoothing.smoothed import Smoothed, Smoother, polynomial
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+
+ENOUGH = 12
+"""A segment with so many samples or more does without the sample at the jump."""
+
+NEAR = 3.0
+"""Sides that differ by fewer standard errors at a jump are averaged there."""
+
+SHORTEST = 4
+"""Segments with fewer samples get a straight line."""
+
+
+def smooth_segments(
+    smoother: Smoother, time: FloatArray, true_strain: FloatArray, jumps: Sequence[int], noise: float
+) -> Smoothed:
+    """Smooth each segment by itself.
+
+    A jump lies near a sample, not at it: that sample would pollute the end of the segment that it does not belong to,
+    and is left out of both if they are long enough. There, the strain is the mean of what both sides come to, or, if
+    they differ by more than noise, that of the nearer side; the rate is that of the side before.
+
+    Parameters
+    ----------
+    smoother : Smoother
+    time : ndarray, shape (n_times,) [s]
+    true_strain : ndarray, shape (n_times,) [-]
+    jumps : sequence of int
+        Indices at which the rate jumps; increasing, without the ends.
+    noise : float
+        Standard deviation of the strain noise [-].
+    """
+    borders = [0, *jumps, len(time) - 1]
+    segments = [_Segment.of(smoother, time, true_strain, borders, at) for at in range(len(borders) - 1)]
+    parts = [segment.smoothed for segment in segments]
+    strain, rate = np.empty_like(time), np.empty_like(time)
+    strain_error, rate_error = np.empty_like(time), np.empty_like(time)
+    for (first, last), part in zip(pairwise(borders), parts, strict=True):
+        keep = slice(first + (first > 0), last + 1)
+        own = slice(keep.start - first, None)
+        strain[keep], rate[keep] = part.true_strain[own], part.strain_rate[own]
+        strain_error[keep], rate_error[keep] = part.strain_error[own], part.rate_error[own]
+    shares = []
+    for jump, before, after in zip(jumps, parts, parts[1:], strict=False):
+        sides = np.array([before.true_strain[-1], after.true_strain[0]])
+        errors = np.array([before.strain_error[-1], after.strain_error[0]])
+        share = np.array([0.5, 0.5])
+        if abs(sides[1] - sides[0]) > NEAR * noise * float(np.hypot(*errors)):
+            share = (np.abs(sides - true_strain[jump]) == np.abs(sides - true_strain[jump]).min()).astype(np.float64)
+            share /= share.sum()
+        strain[jump] = float(share @ sides)
+        strain_error[jump] = float(np.hypot(*(share * errors)))
+        shares.append(share)
+    used = float(sum(segment.used for segment in segments))
+    return Smoothed(
+        strain,
+        rate,
+        strain_error,
+        rate_error,
+        float(sum(part.freedom for part in parts)) + len(time) - used,
+        float(sum(part.squares for part in parts)),
+        float(sum(segment.used * segment.smoothed.inflation for segment in segments)) / used,
+        partial(_joined, segments, borders, shares),
+    )
+
+
+class _Segment:
+    """One segment, at all samples from jump to jump, with the columns of the samples that it was made of."""
+
+    def __init__(self, smoothed: Smoothed, used: int) -> None:
+        self.smoothed, self.used = smoothed, used
+
+    @classmethod
+    def of(
+        cls, smoother: Smoother, time: FloatArray, true_strain: FloatArray, borders: Sequence[int], at: int
+    ) -> _Segment:
+        first, last = borders[at], borders[at + 1]
+        lengths = np.diff(borders)
+
+        def left_out(inner: int) -> bool:
+            return 0 < inner < len(borders) - 1 and min(lengths[inner - 1], lengths[inner]) > ENOUGH
+
+        skip, drop = int(left_out(at)), int(left_out(at + 1))
+        whole = time[first : last + 1]
+        inside = slice(skip, len(whole) - drop)
+        values = true_strain[first : last + 1][inside]
+        few = len(values) < SHORTEST
+        smoothed = polynomial(whole[inside], values, 1) if few else smoother(whole[inside], values)
+        return cls(_extended(smoothed, whole, skip, drop), len(values))
+
+
+def _extended(part: Smoothed, time: FloatArray, skip: int, drop: int) -> Smoothed:
+    """The same one sample further at either end, by a parabola."""
+    if not skip and not drop:
+        return part
+    count = len(part.true_strain)
+    rows = np.arange(count)
+
+    def grow(strain: FloatArray, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+        strains, rates = [strain], [rate]
+        if skip:
+            begin, slope = _beyond(time[1:3], strain[:2], rate[:2], time[0])
+            strains.insert(0, begin)
+            rates.insert(0, slope)
+        if drop:
+            end, slope = _beyond(time[-3:-1][::-1], strain[-2:][::-1], rate[-2:][::-1], time[-1])
+            strains.append(end)
+            rates.append(slope)
+        return np.concatenate(strains), np.concatenate(rates)
+
+    def operators() -> Operators:
+        made = part.operators()
+        strain, rate = grow(made.strain, made.rate)
+        margins = ((0, 0), (skip, drop))
+        return Operators(np.pad(strain, margins), np.pad(rate, margins))
+
+    strain, rate = grow(part.true_strain, part.strain_rate)
+    nearest = np.concatenate([rows[:1]] * skip + [rows] + [rows[-1:]] * drop)
+    step = np.zeros(len(nearest))
+    step[0] += skip * (time[1] - time[0])
+    step[-1] += drop * (time[-1] - time[-2])
+    return Smoothed(
+        strain,
+        rate,
+        part.strain_error[nearest] + step * part.rate_error[nearest],
+        part.rate_error[nearest],
+        part.freedom,
+        part.squares,
+        part.inflation,
+        operators,
+    )
+
+
+def _beyond(time: FloatArray, strain: FloatArray, rate: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:
+    """Strain and rate at `at`, beyond the first of two samples; linear in both, as arrays with a first axis of 1."""
+    ahead = at - time[0]
+    bend = (rate[1:2] - rate[:1]) / (time[1] - time[0])
+    return strain[:1] + ahead * rate[:1] + 0.5 * ahead**2 * bend, rate[:1] + ahead * bend
+
+
+def _joined(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
+    """Blocks along the diagonal; at a jump, the shares of both."""
+    count = borders[-1] + 1
+    strain, rate = np.zeros((count, count)), np.zeros((count, count))
+    for at, (segment, (first, last)) in enumerate(zip(segments, pairwise(borders), strict=True)):
+        made = segment.smoothed.operators()
+        columns = slice(first, last + 1)
+        rows = made.strain.copy()
+        if at > 0:
+            rows[0] *= shares[at - 1][1]
+        if at < len(shares):
+            rows[-1] *= shares[at][0]
+        strain[columns, columns] += rows
+        skip = int(first > 0)
+        rate[first + skip : last + 1, columns] = made.rate[skip:]
+    return Operators(strain, rate)

@@ -1,0 +1,19 @@
+"""What the laboratory can withhold: the contract's names in the laboratory's own forms, and things outside it."""
+
+from probation_studies.blind.laboratory.causes import flow, force, network, outside, section, spectrum, strain
+from probation_studies.blind.laboratory.trial import Cause
+
+KNOWN: tuple[Cause, ...] = (
+    *flow.CAUSES,
+    *network.CAUSES,
+    *section.CAUSES,
+    *spectrum.CAUSES,
+    *force.CAUSES,
+    *strain.CAUSES,
+)
+"""All that has a name in the catalogue; a name may have several forms."""
+
+OUTSIDE: tuple[Cause, ...] = outside.CAUSES
+
+NAMES: tuple[str, ...] = tuple(dict.fromkeys(cause.name for cause in KNOWN))
+"""The names of the catalogue, each once."""

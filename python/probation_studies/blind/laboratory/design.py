@@ -1,0 +1,78 @@
+"""A campaign before anything acts on it: base law, histories, machine, noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation_studies.blind.laboratory.bank import Bench
+from probation_studies.blind.laboratory.histories import draw_schedules
+from probation_studies.blind.laboratory.material import BaseLaw
+from probation_studies.blind.laboratory.noise import Noise, draw_noise
+from probation_studies.blind.laboratory.rig import draw_controller, drive
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+_PLATEAU = 0.382
+"""Steady stress over E_u We: sum of p_j tau_j / tau_max."""
+_LARGEST_STRESS = 110.0  # MPa, of the network at the end
+_COMPANION_PART = 1.0 / 3.0
+_HELD_OUT_PART = 1.0 / 3.0
+
+
+@dataclass(frozen=True)
+class Design:
+    """A bench and the noise of its channels."""
+
+    bench: Bench
+    noise: Noise
+
+
+def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) -> Design:
+    """Draw a campaign as a laboratory might run it.
+
+    Parameters
+    ----------
+    random : Generator
+    needs_unloading : bool
+        One of its histories is unloaded.
+    needs_reach : bool
+        It goes to large strains.
+    """
+    modulus = float(np.exp(random.uniform(np.log(500.0), np.log(4000.0))))
+    end = random.uniform(1.2, 2.0) if needs_reach else random.uniform(0.6, 2.0)
+    most = min(8.0, _LARGEST_STRESS / float(np.exp(2.0 * end)))
+    hardening = float(np.exp(random.uniform(np.log(0.5), np.log(max(most, 0.6)))))
+    with_companion = bool(random.uniform() < _COMPANION_PART)
+    flow_stress = random.uniform(20.0, 60.0)
+    weissenberg = flow_stress / (_PLATEAU * modulus)
+    fastest = 10.0 ** random.uniform(-3.0, -1.3)
+    if with_companion:
+        slowest = fastest / 10.0 ** random.uniform(2.0, 3.5)
+        middle = float(np.sqrt(slowest * fastest))
+        slope = weissenberg * random.uniform(0.05, 0.15)
+        alpha = random.uniform(0.9, 1.15)
+        companion = (float(slope), float(weissenberg - slope * np.log10(middle)))
+        law = BaseLaw(modulus, alpha, hardening, companion)
+    else:
+        slowest = fastest / 10.0 ** random.uniform(1.3, 2.0)
+        law = BaseLaw(modulus, 1.5 * weissenberg / fastest, hardening)
+
+    def elastic_strain(rate: float) -> float:
+        return _PLATEAU * rate * float(np.exp(law.log_time(np.array([rate]))[0]))
+
+    count = int(random.integers(3, 9))
+    schedules = draw_schedules(random, count, slowest, fastest, end, elastic_strain, needs_unloading, with_companion)
+    controller = draw_controller(random)
+    samples = int(random.integers(280, 560))
+    tests = tuple(drive(random, each, int(samples * random.uniform(0.85, 1.2)), controller) for each in schedules)
+    held_out = [False] * count
+    if count >= 4 and random.uniform() < _HELD_OUT_PART * 1.2:
+        held_out[int(random.integers(count))] = True
+    bench = Bench(
+        law, tests, tuple(f"test-{k + 1}" for k in range(count)), tuple(held_out), float(np.sqrt(slowest * fastest))
+    )
+    return Design(bench, draw_noise(random, flow_stress, with_companion))
