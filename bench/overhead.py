@@ -52,8 +52,8 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     beyond = timings["law_be2"].rounds - timings["be2"].rounds
     found.rows.append(row("overhead", case.name, "beyond", "law.stress beyond the compiled call", Timing(beyond), {}))
     if not quick:
-        progress("other builds of the kernels")
-        _other_builds(found)
+        progress("kernels for any processor")
+        _older_processor(found)
 
 
 def _first(case: Case, count: int) -> Case:
@@ -72,21 +72,16 @@ print(*(t.median for t in take_turns(calls, 9).values()))
 """
 
 
-BUILDS = {"baseline": "baseline kernels (any x86-64)", "portable": "portable kernels (any compiler)"}
-
-
-def _other_builds(found: Findings) -> None:
-    """The same two solves in fresh processes, with the kernels as chosen and with each of the other builds."""
-    chosen = _probe(found, "")
-    for build, words in BUILDS.items():
-        times = None if chosen is None else _probe(found, build)
-        if chosen is None or times is None:
-            continue
-        for scheme, here, best in zip(("be2", "sa3"), times, chosen, strict=True):
-            label = f"engine {scheme}, {words}"
-            found.rows.append(
-                Row("overhead", "ramp", f"{scheme}_{build}", label, here, here, 0.0, ratios={"chosen": here / best})
-            )
+def _older_processor(found: Findings) -> None:
+    """The same two solves in fresh processes, with the kernels as chosen and with those for any processor."""
+    chosen, baseline = _probe(found, ""), _probe(found, "baseline")
+    if chosen is None or baseline is None:
+        return
+    for scheme, here, best in zip(("be2", "sa3"), baseline, chosen, strict=True):
+        label = f"engine {scheme}, baseline kernels (any x86-64)"
+        found.rows.append(
+            Row("overhead", "ramp", f"{scheme}_baseline", label, here, here, 0.0, ratios={"chosen": here / best})
+        )
 
 
 def _probe(found: Findings, build: str) -> list[float] | None:

@@ -128,6 +128,9 @@ GOALS = (
     ),
     Target("uneven steps: bE2 faster than numba bE2", _faster("be2", "numba_be2_variable", "uneven ramp"), 4),
     Target("uneven steps: SA3 faster than numba SA2", _faster("sa3", "numba_sa2_variable", "uneven ramp"), 13),
+    Target(
+        "bE2 by the kernels for any x86-64", _median("overhead", "be2_baseline", 1e6), 60, at_least=False, unit=" µs"
+    ),
     Target("bE2, tau_max by rate over constant", _ratio("forward", "be2", "beside", "grips"), 2.5, at_least=False),
     Target("SA3, tau_max by rate over constant", _ratio("forward", "sa3", "beside", "grips"), 2.5, at_least=False),
     *(

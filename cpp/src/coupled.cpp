@@ -11,7 +11,7 @@ namespace probation {
 namespace {
 
 using Eigen::Index;
-constexpr int most_iterations = 50;
+constexpr int most_corrections = 50;
 // Of Newton's last correction, relative. The stress errs by its square, slopes at the solution by itself.
 constexpr double tolerance_of_stress = 1e-7, tolerance_of_slopes = 1e-12;
 
@@ -92,7 +92,7 @@ void CoupledSolver::begin(const RecordInputs<double>& base) {
   const double base_relaxed = at(base.relaxed_stress, 0);
   double s = given_start() ? change_.initial_modal_stress.sum() : total_weight_ * base_relaxed;
   begun_ = feedbacks_.at_start({s, 1.0});
-  for (int i = 0; i < most_iterations && !given_start(); ++i) {
+  for (int i = 0; i < most_corrections && !given_start(); ++i) {
     const Dual relaxed = total_weight_ * base_relaxed * begun_.hardening;
     const double correction = (relaxed.value - s) / (1.0 - relaxed.slope);
     s += correction;
@@ -170,7 +170,7 @@ inline void CoupledSolver::finish(const StepEnd& end, double stress, double corr
 
 /// Newton on the stress at the end of the step.
 bool CoupledSolver::iterate(double stress, StepEnd end, double extra_stress) {
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_corrections; ++iteration) {
     const double scale = end.forcing.scale.value;
     if (!expanded_.reaches(scale) && !look(scale)) return false;
     const StressAtEnd found = expanded_.stress(end.forcing);

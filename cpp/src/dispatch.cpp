@@ -21,7 +21,9 @@ struct Runnable {
 #ifdef PROBATION_HAVE_BASELINE
     builds[count++] = &baseline::table;
 #endif
+#ifdef PROBATION_HAVE_PORTABLE
     builds[count] = &portable::table;
+#endif
   }
 };
 

@@ -22,7 +22,7 @@ inline StepForcing<double> values(const StepForcing<Dual>& s) {
 
 /// sum_k row[k] e^k and its slope along e, for which some digits less will do: Newton's iteration corrects
 /// it.
-inline Dual polynomial(const double (&row)[6], double e) {
+inline Dual polynomial(const double* row, double e) {
   static_assert(kernels::CoefficientRows::terms == 6);
   const double square = e * e;
   return {(row[0] + row[1] * e) + square * ((row[2] + row[3] * e) + square * (row[4] + row[5] * e)),
@@ -71,13 +71,13 @@ struct ExpandedStep {
   StressAtEnd stress(const StepForcing<Dual>& step) const {
     const double per_scale = unit * cell->inverse_centre;
     const double e = step.scale.value * per_scale - 1.0, e_slope = step.scale.slope * per_scale;
-    const Dual forced = polynomial(cell->by_forcing, e), state = polynomial(modes.by_distance, e);
+    const Dual forced = polynomial(cell->by_forcing, e), state = polynomial(modes.sums, e);
     const double by_forcing = unit * forced.value;
     const double driven = by_forcing * step.forcing.value,
                  driven_slope =
                      by_forcing * step.forcing.slope + unit * forced.slope * step.forcing.value * e_slope;
     if (!near.exponential) return {{state.value + driven, state.slope * e_slope + driven_slope}, by_forcing};
-    Dual sum{(modes.kept - step.scale.value * state.value) + driven,
+    Dual sum{(modes.sums[kernels::StressNearby::kept] - step.scale.value * state.value) + driven,
              driven_slope - (step.scale.slope * state.value + step.scale.value * state.slope * e_slope)};
     if (near.rows.curvature) {
       const Dual curved = polynomial(cell->by_curvature, e);

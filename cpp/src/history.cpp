@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "kernels/samples.hpp"
+#include "kernels/kernels.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
@@ -81,7 +81,7 @@ bool History::check() {
   require_length(true_strain_.size(), n, "true_strain");
   if (strain_rate_.size() > 0) require_length(strain_rate_.size(), n, "strain_rate");
   if (direction_.size() > 0) require_length(direction_.size() + 1, n, "direction (plus one)");
-  const kernels::SamplePasses& passes = kernels::sample_passes();
+  const kernels::SamplePasses& passes = kernels::best().samples;
   const kernels::StepTraits steps =
       passes.inspect_steps(time_.data(), n, evenness(time_[1] - time_[0], time_[0], time_[n - 1]));
   if (!steps.increasing) require_finite(time_, "time");
@@ -142,7 +142,7 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   if (n < 3) return jumps;
   // Mostly there is none. Products round otherwise than quotients: what comes near the limit is looked at.
   const double surely_less = least_change * (1.0 - 1e-9);
-  if (!kernels::sample_passes().secant_changes(time.data(), true_strain.data(), n, surely_less)) return jumps;
+  if (!kernels::best().samples.secant_changes(time.data(), true_strain.data(), n, surely_less)) return jumps;
   const Eigen::ArrayXd secant =
       (true_strain.tail(n - 1) - true_strain.head(n - 1)) / (time.tail(n - 1) - time.head(n - 1));
   if (!secant.allFinite()) return jumps;

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <sstream>
 
-#include "kernels/samples.hpp"
+#include "kernels/kernels.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
 
 void haward_thackray_strain(const Samples& true_strain, Eigen::ArrayXd& result) {
   result.resize(true_strain.size());
-  if (kernels::sample_passes().haward_thackray(true_strain.data(), true_strain.size(), result.data())) return;
+  if (kernels::best().samples.haward_thackray(true_strain.data(), true_strain.size(), result.data())) return;
   Eigen::Index first = 0;
   while (std::isfinite(result[first])) ++first;
   std::ostringstream message;

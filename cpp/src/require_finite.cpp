@@ -4,13 +4,13 @@
 #include <limits>
 #include <sstream>
 
-#include "kernels/samples.hpp"
+#include "kernels/kernels.hpp"
 #include "probation/errors.hpp"
 
 namespace probation {
 
 void require_finite(const Samples& values, const Eigen::ArrayXd& time, const char* what) {
-  if (kernels::sample_passes().all_finite(values.data(), values.size())) return;
+  if (kernels::best().samples.all_finite(values.data(), values.size())) return;
   Eigen::Index first = 0;
   while (std::isfinite(values[first])) ++first;
   std::ostringstream message;

@@ -8,7 +8,6 @@
 #include "flush_subnormals.hpp"
 #include "kernel_runs.hpp"
 #include "kernels/kernels.hpp"
-#include "kernels/samples.hpp"
 #include "modal_group.hpp"
 #include "probation/errors.hpp"
 #include "probation/schemes/exact.hpp"
@@ -18,8 +17,6 @@
 namespace probation {
 
 using Eigen::Index;
-
-namespace {
 
 /// One direction's states and outputs while a tangent is swept.
 struct TangentState {
@@ -68,8 +65,6 @@ struct TangentState {
             stress.data() + first + 1};
   }
 };
-
-}  // namespace
 
 struct Solver::Workspace {
   RecordRates rates;
@@ -202,7 +197,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   require_finite(stress, history_.time(), "the stress");
   // By columns only if there is something to name.
   const bool packed = derivatives.outerStride() == count;
-  if (packed && kernels::sample_passes().all_finite(derivatives.data(), derivatives.size())) return;
+  if (packed && kernels::best().samples.all_finite(derivatives.data(), derivatives.size())) return;
   for (Index k = 0; k < count; ++k) {
     const std::string name = "the derivative of the stress along direction " + std::to_string(k);
     require_finite(derivatives.col(k).array().eval(), history_.time(), name.c_str());

@@ -56,10 +56,11 @@ def solved(tmp_path_factory):
 @pytest.mark.parametrize("build", ["portable", "baseline", "v3"])
 def test_a_named_build_runs_and_gives_what_plain_cpp_gives(solved, build):
     """To 1e-12 of the largest: the builds differ in how they add and round."""
-    refused = _run("import probation", build)
-    if refused.returncode != 0:
-        assert f"PROBATION_KERNELS is '{build}'" in refused.stderr
-        pytest.skip("this processor or compiler has no such build")
+    for needed in (build, "portable"):
+        refused = _run("import probation", needed)
+        if refused.returncode != 0:
+            assert f"PROBATION_KERNELS is '{needed}'" in refused.stderr
+            pytest.skip(f"{needed}: not for this processor, or not built (portable comes with the C++ tests)")
     found, plain = solved(build), solved("portable")
     assert str(found.pop("build")) == build
     assert len(found) == 96
@@ -72,7 +73,7 @@ def test_an_unknown_build_stops_the_import_and_names_the_choices():
     assert done.returncode != 0
     last = done.stderr.strip().splitlines()[-1]
     assert "PROBATION_KERNELS is 'avx1024'" in last
-    assert "portable" in last
+    assert _core.kernel_build() in last
     assert "\n" not in last
 
 

@@ -8,7 +8,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))
 
-from bench import machine, markdown, record
+from bench import from_source, machine, markdown, record
 from bench.rows import Findings, Row
 from bench.targets import GOALS, REQUIRED
 
@@ -61,4 +61,9 @@ def test_a_recorded_run_tells_machine_and_flags(results):
     assert metadata["kernels"].startswith(_core.kernel_build())
     assert metadata["compiler"] == _core.build_information()["compiler"]
     assert "-O" in metadata["flags"]
-    assert set(metadata["kernel_flags"]) >= {"portable"}
+    assert set(metadata["kernel_flags"]) >= {_core.kernel_build()}
+
+
+def test_the_steps_of_a_build_are_told_slowest_first():
+    log = "# ninja log v6\n0\t500\t1\tquick.o\t0a\n10\t4010\t1\tslow.o\t0b\n"
+    assert from_source.slowest(log, 5) == [(4.0, "slow.o"), (0.5, "quick.o")]

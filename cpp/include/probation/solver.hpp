@@ -74,8 +74,9 @@ class Solver {
 /// The solver that this thread keeps for histories that are solved once: take() one.
 Solver& kept_solver();
 
-/// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline", or "portable" (plain C++). The best that
-/// this processor can run, unless PROBATION_KERNELS in the environment names one; it is read once.
+/// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline" (any processor of its kind), or "portable"
+/// (plain C++). The best that this processor can run, unless PROBATION_KERNELS in the environment names one;
+/// it is read once.
 /// @throws InputError  if it names none of those that can run here
 const char* kernel_build();
 

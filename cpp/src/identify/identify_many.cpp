@@ -15,7 +15,7 @@ struct Scratch {
   Eigen::ArrayXd time, true_strain, true_stress, noise;
 };
 
-void require_length(Index found, Index expected, const char* name) {
+void require_records(Index found, Index expected, const char* name) {
   if (found != expected)
     throw InputError(std::string("out.") + name + " has " + std::to_string(found) + " records; " +
                      std::to_string(expected) + " are needed");
@@ -25,11 +25,11 @@ void require_length(Index found, Index expected, const char* name) {
 
 void identify_many(const Law& law, const BulkRecords& records, const IdentifyOptions& options,
                    const BatchRun& run, BulkOutput out) {
-  require_length(out.parameters.rows(), records.records, "parameters");
-  require_length(out.standard_error.rows(), records.records, "standard_error");
-  require_length(out.rms_residual.size(), records.records, "rms_residual");
-  require_length(out.status.size(), records.records, "status");
-  require_length(out.iterations.size(), records.records, "iterations");
+  require_records(out.parameters.rows(), records.records, "parameters");
+  require_records(out.standard_error.rows(), records.records, "standard_error");
+  require_records(out.rms_residual.size(), records.records, "rms_residual");
+  require_records(out.status.size(), records.records, "status");
+  require_records(out.iterations.size(), records.records, "iterations");
   options.validate();
   const Index n = records.n_times, samples = (n - 1) / options.substeps + 1;
   if ((n - 1) % options.substeps != 0)

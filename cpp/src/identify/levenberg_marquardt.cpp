@@ -6,7 +6,6 @@
 namespace probation {
 namespace {
 
-constexpr int most_iterations = 100;
 constexpr double longest_time_step = 1.0;  // of ln time
 constexpr double least_damping = 1e-8;     // of the diagonal of J^T J
 constexpr double slowest = 0.99;           // shrinking of the steps that is still taken for convergence
@@ -16,6 +15,7 @@ Eigen::Vector3d values(const FitPoint& p) { return {p.unrelaxed_modulus, p.log_t
 }  // namespace
 
 Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_time) {
+  constexpr int most_iterations = 100;
   const Bounds bounds[3] = {space.modulus, space.log_time, space.hardening};
   Search search;
   FitPoint& p = search.point;

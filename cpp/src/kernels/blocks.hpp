@@ -53,36 +53,49 @@ PROBATION_INLINE double largest(const double* values, int from, int to) {
   return found;
 }
 
-/// Adds the sum of what advance(n) returns to stress[n], four steps at a time.
-template <class Advance>
-PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
-  int n = 0;
-  Vector four[lanes];
-  for (; n + lanes <= count; n += lanes) {
-#pragma GCC unroll 4
-    for (int i = 0; i < lanes; ++i) four[i] = advance(n + i);
-    store(stress + n, load(stress + n) + sums(four[0], four[1], four[2], four[3]));
-  }
-  for (; n < count; ++n) stress[n] += sum(advance(n));
-}
+using kernels::fold;
 
 struct StressAndSlope {
   Vector stress, slope;
 };
+template <int vectors>
+PROBATION_INLINE StressAndSlope fold(const StressAndSlope& a, const StressAndSlope& b) {
+  return {fold<vectors>(a.stress, b.stress), fold<vectors>(a.slope, b.slope)};
+}
+
+/// The sums over the lanes of value_at(n), value_at(n + 1) and so on, folded as soon as two are there.
+template <int vectors = lanes, class ValueAt>
+PROBATION_INLINE auto sums(int n, const ValueAt& value_at) {
+  if constexpr (vectors == 1) {
+    return value_at(n);
+  } else {
+    const auto a = sums<vectors / 2>(n, value_at);
+    const auto b = sums<vectors / 2>(n + vectors / 2, value_at);
+    return fold<vectors>(a, b);
+  }
+}
+
+/// Adds the sum of what advance(n) returns to stress[n], as many steps at a time as a vector has lanes.
+template <class Advance>
+PROBATION_INLINE void add_sums(int count, double* stress, Advance advance) {
+  int n = 0;
+  Vector total[lanes];
+  for (; n + lanes <= count; n += lanes) {
+#pragma GCC unroll 4
+    for (int i = 0; i < lanes; ++i) total[i] = advance(n + i);
+    store(stress + n, load(stress + n) + sums(0, [&](int i) { return total[i]; }));
+  }
+  for (; n < count; ++n) stress[n] += sum(advance(n));
+}
 
 /// The same for both, added to stress[n] and slope[n].
 template <class Advance>
 PROBATION_INLINE void add_both_sums(int count, double* stress, double* slope, Advance advance) {
   int n = 0;
   for (; n + lanes <= count; n += lanes) {
-    Vector pairs[2];  // of two steps: both stresses, both slopes
-#pragma GCC unroll 2
-    for (int i = 0; i < 2; ++i) {
-      const StressAndSlope a = advance(n + 2 * i), b = advance(n + 2 * i + 1);
-      pairs[i] = sums(a.stress, b.stress, a.slope, b.slope);
-    }
-    store(stress + n, load(stress + n) + first_halves(pairs[0], pairs[1]));
-    store(slope + n, load(slope + n) + last_halves(pairs[0], pairs[1]));
+    const StressAndSlope all = sums(n, advance);
+    store(stress + n, load(stress + n) + all.stress);
+    store(slope + n, load(slope + n) + all.slope);
   }
   for (; n < count; ++n) {
     const StressAndSlope one = advance(n);

@@ -5,8 +5,8 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-/// Adds sum_k response[k] u[n - k] to stress[n] for K vectors of successive n. Responses that lie four steps
-/// apart meet the same samples: these are loaded once.
+/// Adds sum_k response[k] u[n - k] to stress[n] for K vectors of successive n. Responses that lie a vector of
+/// steps apart meet the same samples: these are loaded once.
 template <int length, int K>
 PROBATION_INLINE void convolve_block(const double* response, const double* u, double* stress) {
   constexpr int groups = length / lanes;

@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-#include "vector.hpp"
+#include "blocks.hpp"
 
 namespace probation::kernels::PROBATION_ISA {
 namespace {
@@ -33,8 +33,8 @@ PROBATION_INLINE Vector polynomial(const double* row, std::ptrdiff_t stride, dou
   return value;
 }
 
-/// Coefficients of four modes, and what a rule makes of them; `curved`: V is not zero. Numbers and pointers
-/// are copied: stores to the states could otherwise change them, as far as a compiler knows.
+/// Coefficients of the modes of a vector, and what a rule makes of them; `curved`: V is not zero. Numbers and
+/// pointers are copied: stores to the states could otherwise change them, as far as a compiler knows.
 template <bool curved>
 struct ExponentialNear {
   static constexpr bool two_step = false;
@@ -86,7 +86,8 @@ void pass(const Modes& of, std::ptrdiff_t first, const NearStep& taken_step, con
           StressNearby& found) {
   const Modes modes = of;
   const Near taken(taken_step), next(next_step);
-  Vector sum_of[terms] = {}, kept{};
+  constexpr int count = sizeof found.sums / sizeof *found.sums;
+  Vector sum_of[count] = {};
   for (std::ptrdiff_t at = first; at < modes.padded; at += lanes) {
     Vector z = load(modes.state + at), before{};
     const Vector inverse = load(modes.inverse_ratio + at);
@@ -103,15 +104,13 @@ void pass(const Modes& of, std::ptrdiff_t first, const NearStep& taken_step, con
       const double* row = next.forcing_rows + at;
 #pragma GCC unroll 8
       for (int k = 0; k < terms; ++k) sum_of[k] += load(row + k * next.stride) * driven;
-      kept += z;
+      sum_of[StressNearby::kept] += z;
     }
   }
   if constexpr (looks) {
-    store(found.by_distance, sums(sum_of[0], sum_of[1], sum_of[2], sum_of[3]));
-    const Vector rest = sums(sum_of[4], sum_of[5], kept, Vector{});
-    found.by_distance[4] = rest[0];
-    found.by_distance[5] = rest[1];
-    found.kept = rest[2];
+#pragma GCC unroll 8
+    for (int k = 0; k < count; k += lanes)
+      store(found.sums + k, sums(k, [&](int term) { return sum_of[term]; }));
   }
 }
 

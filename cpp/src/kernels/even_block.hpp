@@ -28,8 +28,7 @@ PROBATION_INLINE EvenStep even_step(const Modes& modes, const Steps& steps, std:
     const Vector direct = c.forcing + 0.5 * c.curvature;
     return {c.previous, Vector{}, c.previous * direct - 0.5 * c.curvature, direct};
   }
-  const auto c = steps.rule == StepRule::bdf2 ? weighted<Bdf2Step>(modes, at, scale, ratio)
-                                              : weighted<BackwardEulerStep>(modes, at, scale, ratio);
+  const auto c = weighted<Bdf2Step>(modes, at, scale, ratio);
   return {c.previous, c.before, c.forcing, Vector{}};
 }
 
@@ -39,10 +38,6 @@ PROBATION_INLINE EvenSlope even_slope(const Modes& modes, const Steps& steps, co
   // All coefficients of bE2 go with 1 / (next + x).
   if (steps.rule == StepRule::bdf2)
     return {-x / (x + Bdf2Difference(steps.ratio[0]).next), Vector{}, Vector{}};
-  if (steps.rule == StepRule::backward_euler) {
-    const auto d = weighted(BackwardEulerStep::log_slopes<Vector>(x, 1.0), weight);
-    return {d.previous, d.forcing, Vector{}};
-  }
   const auto d = weighted(ExponentialStep::log_slopes<Vector>(x, 1.0), weight);
   if (!steps.curvature) return {d.previous, d.forcing, Vector{}};
   const Vector direct = d.forcing + 0.5 * d.curvature;

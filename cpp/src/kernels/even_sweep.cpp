@@ -63,19 +63,16 @@ struct Memory {
   int from, to;
 
   Memory(const Modes& modes, const Steps& steps, int memory) : from(0), to(modes.padded) {
-    const int vectors_worth_it = memory / 8, steps_worth_it = 4 * memory;
+    const int modes_worth_it = memory / 2, steps_worth_it = 4 * memory;
     if (steps.count < steps_worth_it) return;
-    // e^(-3 x) (V looks back one step), (1 + x)^-16, (2 (1.5 + x))^-8
-    const double least = steps.rule == StepRule::exponential ? 12.3
-                         : steps.rule == StepRule::bdf2      ? 47.9
-                                                             : 9.0;
+    // e^(-3 x) (V looks back one step), (2 (1.5 + x))^-8
+    const double least = steps.rule == StepRule::exponential ? 12.3 : 9.0;
     const auto forgets = [&](int at) {
-      const Vector x = load(modes.inverse_ratio + at) * steps.scale[0];
-      return x[0] > least && x[1] > least && x[2] > least && x[3] > least;
+      return all_above(load(modes.inverse_ratio + at) * steps.scale[0], least);
     };
     while (from < to && forgets(from)) from += lanes;
     while (to > from && forgets(to - lanes)) to -= lanes;
-    if (modes.padded - (to - from) < vectors_worth_it * lanes) {
+    if (modes.padded - (to - from) < modes_worth_it) {
       from = 0;
       to = modes.padded;
     }
@@ -131,45 +128,44 @@ void sweep(const Modes& modes, const Steps& steps, Outputs out, BlockOf block_of
     const double* end = u + (count - ending);
     advance_to_end(block, modes, at, Inputs(end[-1], end, lags), end, ending, {ignored[0], ignored[1]});
   };
-  in_blocks<largest>(0, remembering.from, forgetful);
-  in_blocks<largest>(remembering.to, modes.padded, forgetful);
+  const int sides[2][2] = {{0, remembering.from}, {remembering.to, modes.padded}};
+  for (const auto& side : sides) in_blocks<largest>(side[0], side[1], forgetful);
 
   if (!lags && remembering.from == 0 && remembering.to == modes.padded) return;
   stress.add_to(out.stress, u, count);
   if (out.slope) slope.add_to(out.slope, u, count);
 }
 
-/// Calls take(two_step, memory) as constants of the rule.
-template <class Take>
-void by_rule(StepRule rule, Take take) {
-  switch (rule) {
-    case StepRule::backward_euler:
-      return take(Size<false>{}, Size<16>{});
-    case StepRule::bdf2:
-      return take(Size<true>{}, Size<16>{});
-    case StepRule::exponential:
-      return take(Size<false>{}, Size<4>{});
-  }
+/// Steps within which fast modes forget.
+template <bool two_step>
+constexpr int memory_of_rule = two_step ? 16 : 4;
+
+template <bool two_step>
+void sweep(const Modes& modes, const Steps& steps, double* stress) {
+  constexpr int largest = two_step ? 5 : 8;
+  sweep<memory_of_rule<two_step>, largest>(modes, steps, {stress, nullptr}, [&](auto size, int at) {
+    return EvenBlock<two_step, decltype(size)::value>(modes, steps, at);
+  });
+}
+
+template <bool two_step>
+void sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d) {
+  constexpr int largest = two_step ? 3 : 4;
+  sweep<memory_of_rule<two_step>, largest>(modes, steps, {stress, d.stress}, [&](auto size, int at) {
+    return EvenTangentBlock<two_step, decltype(size)::value>(modes, steps, d, at);
+  });
 }
 
 }  // namespace
 
 void even_sweep(const Modes& modes, const Steps& steps, double* stress) {
-  by_rule(steps.rule, [&](auto two_step, auto memory) {
-    constexpr bool two = decltype(two_step)::value;
-    sweep<decltype(memory)::value, two ? 5 : 8>(modes, steps, {stress, nullptr}, [&](auto size, int at) {
-      return EvenBlock<two, decltype(size)::value>(modes, steps, at);
-    });
-  });
+  if (steps.rule == StepRule::bdf2) return sweep<true>(modes, steps, stress);
+  sweep<false>(modes, steps, stress);
 }
 
 void even_tangent_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d) {
-  by_rule(steps.rule, [&](auto two_step, auto memory) {
-    constexpr bool two = decltype(two_step)::value;
-    sweep<decltype(memory)::value, two ? 3 : 4>(modes, steps, {stress, d.stress}, [&](auto size, int at) {
-      return EvenTangentBlock<two, decltype(size)::value>(modes, steps, d, at);
-    });
-  });
+  if (steps.rule == StepRule::bdf2) return sweep<true>(modes, steps, stress, d);
+  sweep<false>(modes, steps, stress, d);
 }
 
 }  // namespace probation::kernels::PROBATION_ISA

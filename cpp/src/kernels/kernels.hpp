@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/form_steps.hpp"
+#include "kernels/samples.hpp"
 #include "probation/schemes/step_rule.hpp"
 
 namespace probation::kernels {
@@ -82,11 +83,11 @@ struct NearStep {
   int slaved;  ///< modes (the first ones, a multiple of four) that keep nothing of what they were
 };
 
-/// What the modes before a step contribute to the stress after it: sum_j z_j+ for U = V = 0 is the sum over k
-/// of by_distance[k] distance^k, or where exponential, `kept` less scale times that.
+/// What the modes before a step contribute to the stress after it: sum_j z_j+ for U = V = 0 is the sum over
+/// k < CoefficientRows::terms of sums[k] distance^k, or where exponential, sums[kept] less scale times that.
 struct StressNearby {
-  double by_distance[CoefficientRows::terms];
-  double kept;
+  static constexpr int kept = CoefficientRows::terms;
+  double sums[kept + 2];  ///< the last is nothing: whole vectors
 };
 
 /// How the stress at the end of a step moves with its inputs.
@@ -133,6 +134,7 @@ struct Kernels {
   /// On top of it, d ln scale, dU and dV.
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
   StepPasses form;
+  SamplePasses samples;
 };
 
 /// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.

@@ -11,10 +11,10 @@ namespace probation::kernels::PROBATION_ISA {
 namespace {
 
 void sweep(const Modes& modes, const Steps& steps, double* stress) {
-  if (steps.uniform && steps.count > 1)
-    even_sweep(modes, steps, stress);
-  else
-    uneven_sweep(modes, steps, stress);
+  if (!steps.uniform || steps.count == 1) return uneven_sweep(modes, steps, stress);
+  if (steps.rule != StepRule::backward_euler) return even_sweep(modes, steps, stress);
+  // It starts afresh: there is seldom more than one of it.
+  for (int n = 0; n < steps.count; ++n) uneven_sweep(modes, part_of(steps, n, 1), stress + n);
 }
 
 template <class Step>
@@ -62,6 +62,7 @@ const Kernels table{PROBATION_TEXT(PROBATION_ISA),
                     linearise,
                     drift,
                     move,
-                    {form_two_step, form_straight, form_parabolic}};
+                    {form_two_step, form_straight, form_parabolic},
+                    {haward_thackray, inspect_steps, secant_changes, all_finite}};
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -1,11 +1,10 @@
 // Plain loops without branches, which every compiler can vectorise.
 
-#include "kernels/samples.hpp"
-
 #include <cmath>
 #include <cstring>
 
 #include "probation/inline.hpp"
+#include "sweeps.hpp"
 
 namespace probation::kernels::PROBATION_ISA {
 namespace {
@@ -40,6 +39,8 @@ PROBATION_INLINE double haward_thackray_strain(double x) {
   const double m = power * q + (power - 1.0);
   return m * (2.0 + m) + m / (power * (1.0 + q));
 }
+
+}  // namespace
 
 bool haward_thackray(const double* __restrict true_strain, std::int64_t count, double* __restrict result) {
   std::uint64_t beyond = 0;
@@ -80,9 +81,5 @@ bool all_finite(const double* values, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i) odd |= std::fabs(values[i]) <= largest ? 0U : 1U;
   return odd == 0;
 }
-
-}  // namespace
-
-const SamplePasses sample_passes = {haward_thackray, inspect_steps, secant_changes, all_finite};
 
 }  // namespace probation::kernels::PROBATION_ISA

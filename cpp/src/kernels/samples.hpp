@@ -21,17 +21,4 @@ struct SamplePasses {
   bool (*all_finite)(const double* values, std::int64_t count);
 };
 
-/// In the build of the kernels that runs.
-const SamplePasses& sample_passes();
-
-namespace portable {
-extern const SamplePasses sample_passes;
-}
-namespace baseline {
-extern const SamplePasses sample_passes;
-}
-namespace v3 {
-extern const SamplePasses sample_passes;
-}
-
 }  // namespace probation::kernels

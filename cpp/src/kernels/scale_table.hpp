@@ -12,7 +12,8 @@
 // steps fall into them, and kept.
 //
 // Beside coefficient_table.hpp, for steps whose scale is unknown until their stress is: here one function
-// serves phi and psi, and the terms of four modes lie together, as a sweep with time innermost reads them.
+// serves phi and psi, and the terms of the modes of a vector lie together, as a sweep with time innermost
+// reads them.
 
 #include <cstring>
 
@@ -86,7 +87,7 @@ struct PowersFromPoints {
   }
 };
 
-/// The rows of a cell, for all modes: the coefficients of four modes lie together.
+/// The rows of a cell, for all modes: the coefficients of the modes of a vector lie together.
 inline void form_cell(const Modes& modes, const ScaleCell& cell, double* rows) {
   static constexpr PowersFromPoints transform;
   constexpr int terms = ScaleTable::terms;
@@ -156,7 +157,7 @@ struct TabledSteps {
   }
 };
 
-/// chi of the four modes whose coefficients these are, by the first `terms` of them.
+/// chi of the modes whose coefficients these are, by the first `terms` of them.
 template <int terms = ScaleTable::terms>
 PROBATION_INLINE Vector tabled_chi(const double* row, double offset) {
   Vector chi = load(row + std::ptrdiff_t{terms - 1} * lanes);

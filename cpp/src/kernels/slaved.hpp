@@ -19,8 +19,7 @@ struct SlavedModes {
   /// For steps no smaller than `scale`.
   SlavedModes(const Modes& modes, double scale) : from(0), to(modes.padded) {
     const auto slaved = [&](int at) {
-      const Vector x = load(modes.inverse_ratio + at) * scale;
-      return x[0] > slaved_from && x[1] > slaved_from && x[2] > slaved_from && x[3] > slaved_from;
+      return all_above(load(modes.inverse_ratio + at) * scale, slaved_from);
     };
     while (from < to && slaved(from)) from += lanes;
     while (to > from && slaved(to - lanes)) to -= lanes;

@@ -5,7 +5,7 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-/// Even steps, two at least; `before` is left one instant behind the state.
+/// Even steps by bE2 or the exponential rule, two at least; `before` is left one instant behind the state.
 void even_sweep(const Modes&, const Steps&, double* stress);
 
 /// Steps of any length; `before` is left one instant behind the state.
@@ -30,5 +30,11 @@ void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDire
 bool form_two_step(const StepSamples&, const FormedSteps&);
 bool form_straight(const StepSamples&, const FormedSteps&);
 bool form_parabolic(const StepSamples&, const FormedSteps&);
+
+/// See SamplePasses.
+bool haward_thackray(const double* true_strain, std::int64_t count, double* result);
+StepTraits inspect_steps(const double* time, std::int64_t count, double allowed_difference);
+bool secant_changes(const double* time, const double* values, std::int64_t count, double least);
+bool all_finite(const double* values, std::int64_t count);
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -92,7 +92,7 @@ void tangent_sweep(const Modes& modes, const Steps& steps, double* stress, const
   const TangentDirection& d = directions[0];
   if (count == 1 && d.log_scale && !d.forcing && !d.curvature && !d.log_inverse && !d.weight) {
     if (!steps.uniform) return time_tangent_sweep(modes, steps, stress, d, scratch);
-    if (steps.count > 1 && all_equal(d.log_scale, steps.count))
+    if (steps.count > 1 && steps.rule != StepRule::backward_euler && all_equal(d.log_scale, steps.count))
       return even_tangent_sweep(modes, steps, stress, d);
   }
   general_tangent_sweep(modes, steps, stress, directions, count, scratch);

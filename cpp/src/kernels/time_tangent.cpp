@@ -9,7 +9,7 @@
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-constexpr int largest_block = 3;  // vectors of four modes whose states and slopes fit the registers
+constexpr int largest_block = 3;  // vectors whose states and slopes fit the registers
 
 /// K vectors of modes and of their slopes; weights included.
 template <int K>

@@ -8,7 +8,7 @@
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-// Vectors of four modes in a block: coefficients from a table or a reciprocal, or formed by an exponential.
+// Vectors in a block: coefficients from a table or a reciprocal, or formed by an exponential.
 constexpr int largest_block = 4, largest_formed_block = 2;
 
 /// K vectors of modes, their states in units of their weights: the forcing drives all of them alike.

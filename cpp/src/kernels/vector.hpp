@@ -1,15 +1,11 @@
 #pragma once
-// Four doubles in lockstep, for the files that are compiled once per instruction set.
+// Doubles in lockstep, as many as a register holds, for the files that are compiled once per instruction set.
 //
 // These files must not instantiate library templates that other files use too: the linker keeps one copy of
 // each, and it could be the one that an older processor cannot run. Hence no Eigen and no std:: containers
 // here.
 
 #include "probation/inline.hpp"
-
-namespace probation::kernels {
-constexpr int lanes = 4;
-}
 
 #ifdef PROBATION_PLAIN_VECTOR
 #include "plain_vector.hpp"
@@ -19,8 +15,16 @@ constexpr int lanes = 4;
 
 namespace probation {
 
-using Vector = double __attribute__((vector_size(32)));
-using IntegerVector = std::int64_t __attribute__((vector_size(32)));
+namespace kernels {
+#ifdef __AVX__
+constexpr int lanes = 4;
+#else
+constexpr int lanes = 2;  // SSE2, NEON
+#endif
+}  // namespace kernels
+
+using Vector = double __attribute__((vector_size(kernels::lanes * sizeof(double))));
+using IntegerVector = std::int64_t __attribute__((vector_size(kernels::lanes * sizeof(double))));
 
 namespace kernels {
 
@@ -31,17 +35,31 @@ PROBATION_INLINE Vector load(const double* from) {
 }
 PROBATION_INLINE void store(double* to, Vector v) { __builtin_memcpy(to, &v, sizeof v); }
 
-/// The first two of both, and the last two.
-PROBATION_INLINE Vector first_halves(Vector a, Vector b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
-PROBATION_INLINE Vector last_halves(Vector a, Vector b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
-
-/// The four sums a0+a1+a2+a3, b0+..., c0+..., d0+... as one vector.
-PROBATION_INLINE Vector sums(Vector a, Vector b, Vector c, Vector d) {
-  const Vector ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Vector cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  return first_halves(ab, cd) + last_halves(ab, cd);
+/// One of log2(lanes) foldings, at whose end stand the sums over the lanes of `lanes` vectors: of neighbours
+/// first, of pairs of them then.
+template <int vectors>
+PROBATION_INLINE Vector fold(Vector a, Vector b) {
+#ifdef __AVX__
+  if constexpr (vectors == 4)
+    return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  else
+    return __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+#else
+  return __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
+#endif
 }
-PROBATION_INLINE double sum(Vector a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+PROBATION_INLINE double sum(Vector a) {
+#ifdef __AVX__
+  return (a[0] + a[1]) + (a[2] + a[3]);
+#else
+  return a[0] + a[1];
+#endif
+}
+PROBATION_INLINE bool all_above(Vector a, double least) {
+  for (int i = 0; i < lanes; ++i)
+    if (!(a[i] > least)) return false;
+  return true;
+}
 }  // namespace kernels
 
 /// a where a comparison holds, b elsewhere.
