@@ -57,7 +57,7 @@ def solved(tmp_path_factory):
 def test_a_named_build_runs_and_gives_what_plain_cpp_gives(solved, build):
     """To 1e-12 of the largest: the builds differ in how they add and round."""
     for needed in (build, "portable"):
-        refused = _run("import probation", needed)
+        refused = _run("import probation; probation.Law", needed)
         if refused.returncode != 0:
             assert f"PROBATION_KERNELS is '{needed}'" in refused.stderr
             pytest.skip(f"{needed}: not for this processor, or not built (portable comes with the C++ tests)")
@@ -69,7 +69,7 @@ def test_a_named_build_runs_and_gives_what_plain_cpp_gives(solved, build):
 
 
 def test_an_unknown_build_stops_the_import_and_names_the_choices():
-    done = _run("import probation", "avx1024")
+    done = _run("import probation; probation.Law", "avx1024")
     assert done.returncode != 0
     last = done.stderr.strip().splitlines()[-1]
     assert "PROBATION_KERNELS is 'avx1024'" in last

@@ -110,7 +110,7 @@ def test_bold_is_the_programs_own_and_not_a_files(monkeypatch):
     terminal.isatty = lambda: True
     monkeypatch.setattr(sys, "stdout", terminal)
     with printed_escaped():
-        tell("verdict \x1b[8m\nrest", sys.stdout)
+        tell("verdict \x1b[8m\nrest")
     assert terminal.getvalue() == "\x1b[1mverdict \\u001b[8m\x1b[0m\nrest\n"
 
 
