@@ -1,0 +1,30 @@
+"""Kinds of input, one file each: ``NAME``, its ``SHARE`` of the cases, and ``make(chance)``. A new kind is a line here."""
+
+from fuzz.kinds import (
+    campaign,
+    comma_separated,
+    companion_table,
+    field_store,
+    fit_json,
+    gzipped,
+    history,
+    tab_separated,
+    units,
+    workbook,
+)
+
+KINDS = {
+    kind.NAME: kind
+    for kind in (
+        comma_separated,
+        tab_separated,
+        workbook,
+        gzipped,
+        units,
+        campaign,
+        fit_json,
+        companion_table,
+        history,
+        field_store,
+    )
+}

@@ -1,0 +1,288 @@
+"""Tables as laboratories write them, and what goes wrong with their cells and rows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fuzz import odd
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from random import Random
+
+SAMPLES = 14
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The cells of a file.
+
+    Attributes
+    ----------
+    cells : list of list of str
+    first : int
+        Index of the first row of numbers.
+    heading : int or None
+        Index of the row of headings.
+    separator : str
+        That such a file has.
+    encoding : str
+    options : tuple of str
+        With which the program reads it as it is meant.
+    """
+
+    cells: list[list[str]]
+    first: int
+    heading: int | None
+    separator: str = ","
+    encoding: str = "utf-8"
+    options: tuple[str, ...] = ()
+
+
+def _columns(*columns: list[float]) -> list[list[str]]:
+    return [[f"{value:.9g}" for value in row] for row in zip(*columns, strict=True)]
+
+
+def _curve(samples: int = SAMPLES) -> tuple[list[float], list[float], list[float]]:
+    """Time [s], true strain [-] and true stress [MPa] of a ramp with a little scatter."""
+    time = [0.5 * at for at in range(samples)]
+    strain = [0.012 * at for at in range(samples)]
+    stress = [22.0 * (1.0 - math.exp(-at / 3.0)) + 0.02 * math.sin(37.0 * at * at) for at in range(samples)]
+    return time, strain, stress
+
+
+def plain() -> Rows:
+    """The default form."""
+    return Rows([["time_s", "true_strain", "true_stress_MPa"], *_columns(*_curve())], 1, 0)
+
+
+def plain_truth() -> dict[str, list[float]]:
+    """What `plain` must read as."""
+    names = ("time", "true_strain", "true_stress")
+    columns = zip(*plain().cells[1:], strict=True)
+    return {name: [float(cell) for cell in column] for name, column in zip(names, columns, strict=True)}
+
+
+def with_rate_and_temperature() -> Rows:
+    """All optional columns."""
+    time, strain, stress = _curve()
+    names = ["time_s", "true_strain", "true_stress_MPa", "strain_rate_per_s", "transverse_strain", "temperature_C"]
+    columns = (time, strain, stress, [0.024] * SAMPLES, [-0.5 * each for each in strain], [23.0] * SAMPLES)
+    return Rows([names, *_columns(*columns)], 1, 0)
+
+
+def machine() -> Rows:
+    """Metadata above, units below the headings, a force and a displacement."""
+    time, strain, stress = _curve()
+    cells = [
+        ["Test", "tension 7"],
+        ["Operator", "nobody"],
+        [],
+        ["Time", "Extension", "Load", "Segment"],
+        ["s", "mm", "kN", "-"],
+        *([*row, "1"] for row in _columns(time, [25.0 * each for each in strain], [0.04 * each for each in stress])),
+    ]
+    return Rows(cells, 5, 3, options=("--specimen", "area_mm2=40", "--specimen", "gauge_length_mm=25"))
+
+
+def german() -> Rows:
+    """Decimal commas between semicolons, names of another language, cp1252."""
+    time, strain, stress = _curve()
+    numbers = [[cell.replace(".", ",") for cell in row] for row in _columns(time, [100.0 * e for e in strain], stress)]
+    options = (
+        "--column",
+        "time=Prüfzeit",
+        "--column",
+        "engineering_strain=Dehnung",
+        "--column",
+        "true_stress=Spannung",
+    )
+    names = ["Prüfzeit / s", "Dehnung / %", "Spannung / MPa"]
+    return Rows([names, *numbers], 1, 0, ";", "cp1252", options)
+
+
+def vhb() -> Rows:
+    """The profile `vhb`: Chinese headings in GBK, units below them."""
+    time, strain, stress = _curve()
+    numbers = _columns(time, [80.0 * each for each in strain], [0.1 * each for each in stress])
+    return Rows([[], ["时间", "位移", "力"], ["s", "mm", "N"], *numbers], 3, 1, encoding="gbk")
+
+
+def silicone() -> Rows:
+    """The profile `silicone`: a block of metadata."""
+    cells = [
+        ["PARAMETER", "INFO", ""],
+        ["Material", "Dragon", ""],
+        ["Rate", "450 mm/min", ""],
+        ["Time (s)", "True Strain", "True Stress (MPa)"],
+        *_columns(*_curve()),
+    ]
+    return Rows(cells, 4, 3, ";")
+
+
+def etfe() -> Rows:
+    """The profile `etfe`: fifteen columns without headings."""
+    time, strain, stress = _curve()
+    zero = [0.0] * SAMPLES
+    columns = (time, *[strain] * 2, stress, *[strain] * 2, zero, *[strain] * 2, *[stress] * 2, *[zero] * 4)
+    return Rows(_columns(*columns), 0, None)
+
+
+def etfe_relaxation() -> Rows:
+    """The profile `etfe_relaxation`: nine columns under headings that do not fit them."""
+    time, strain, stress = _curve()
+    zero = [0.0] * SAMPLES
+    names = [
+        "t01",
+        "exx01",
+        "S01",
+        "eyy01",
+        "z",
+        "exxHencky01SOI",
+        "StressTrue01AVG",
+        "SR0Hencky1AVG",
+        "eyyHencky01AVG",
+    ]
+    return Rows([names, *_columns(time, strain, stress, zero, zero, time, strain, stress, zero)], 1, 0)
+
+
+def etfe_temperature() -> Rows:
+    """The profile `etfe_temperature`: a log of temperatures."""
+    time, _, _ = _curve()
+    return Rows([["t", "TMean01", "TMean02"], *_columns(time, [23.0] * SAMPLES, [24.0] * SAMPLES)], 1, 0)
+
+
+def history() -> Rows:
+    """A strain history."""
+    time, strain, _ = _curve()
+    return Rows([["time_s", "true_strain"], *_columns(time, strain)], 1, 0)
+
+
+def history_with_rate() -> Rows:
+    """A strain history with its rate, in other units."""
+    time, strain, _ = _curve()
+    minutes = [each / 60.0 for each in time]
+    names = ["Time [min]", "True strain [%]", "Strain rate [1/min]"]
+    return Rows([names, *_columns(minutes, [100.0 * each for each in strain], [1.44] * SAMPLES)], 1, 0)
+
+
+def rate_table() -> Rows:
+    """Relaxation times by strain rate."""
+    rates = [5e-5, 2e-4, 1e-3, 4e-3, 1e-2]
+    times = [(0.00464 * math.log10(rate) + 0.0367) / rate * (1.0 + 0.01 * (-1) ** at) for at, rate in enumerate(rates)]
+    names = ["rate_per_s", "tau_max_s", "se_s", "hardening_modulus_MPa"]
+    return Rows([names, *_columns(rates, times, [0.02 * each for each in times], [2.0, 2.1, 2.2, 2.1, 2.0])], 1, 0)
+
+
+RECORDS = (plain, with_rate_and_temperature, machine, german, vhb, silicone, etfe, etfe_relaxation, etfe_temperature)
+WITH_HEADINGS = (plain, with_rate_and_temperature, machine, silicone)
+"""Of those, the ones that are read from a workbook or between tabs, too."""
+HISTORIES = (history, history_with_rate)
+
+
+def mutated(rows: Rows, chance: Random) -> Rows:
+    """One thing that goes wrong with cells, headings, units or rows."""
+    cells = [list(row) for row in rows.cells]
+    data = range(rows.first, len(cells))
+    filled = [at for at in data if cells[at]] or [0]
+    row = chance.choice(filled)
+    if not cells or not cells[row]:
+        return replace(rows, cells=[["1", "2", "3"]])
+    column = chance.randrange(len(cells[row]))
+    match chance.choice(_MUTATIONS):
+        case "cell":
+            cells[row][column] = chance.choice(odd.CELLS)
+        case "first cell":
+            cells[filled[0]][min(column, len(cells[filled[0]]) - 1)] = chance.choice(odd.CELLS)
+        case "column of one value":
+            value = chance.choice((*odd.NUMBERS[:12], "0", "1", "5"))
+            _change(cells[rows.first :], column, lambda _: value)
+        case "column scaled":
+            factor = chance.choice((0.0, -1.0, 1e-300, 1e-30, 1e-6, 1e3, 1e6, 1e30, 1e300))
+            _change(cells[rows.first :], column, lambda text: _scaled(text, factor))
+        case "column shifted":
+            shift = chance.choice((-1e3, -1.0, 1.0, 8.0, 1e6, 1e15))
+            _change(cells[rows.first :], column, lambda text: _scaled(text, 1.0, shift))
+        case "heading" if rows.heading is not None and cells[rows.heading]:
+            at = chance.randrange(len(cells[rows.heading]))
+            cells[rows.heading][at] = chance.choice(odd.HEADINGS)
+        case "unit of a heading" if rows.heading is not None and cells[rows.heading]:
+            at = chance.randrange(len(cells[rows.heading]))
+            form = chance.choice(("{} [{}]", "{} ({})", "{} / {}", "{}_{}", "{}, {}", "{} in {}", "{} {}"))
+            name = cells[rows.heading][at].split("[")[0].split("(")[0].split("/")[0].strip()
+            cells[rows.heading][at] = form.format(name, chance.choice(odd.UNITS))
+        case "units row":
+            at = rows.first if rows.heading is None else rows.heading + chance.choice((0, 1, 1, 1))
+            width = len(cells[row])
+            usual = chance.random() < 0.7
+            names = ("s", "mm", "kN", "MPa", "%", "-", "Sec", "segments") if usual else odd.UNITS
+            cells.insert(at, [chance.choice((*names, chance.choice(odd.UNITS))) for _ in range(width)])
+        case "row again":
+            cells.insert(row, list(cells[row]))
+        case "rows again":
+            cells += cells[rows.first :]
+        case "row lost":
+            del cells[row]
+        case "headings lost" if rows.heading is not None:
+            del cells[rows.heading]
+        case "headings again" if rows.heading is not None:
+            cells.insert(row, list(cells[rows.heading]))
+        case "reversed":
+            cells[rows.first :] = cells[rows.first :][::-1]
+        case "shuffled":
+            part = cells[rows.first :]
+            chance.shuffle(part)
+            cells[rows.first :] = part
+        case "cut":
+            cells = cells[:row]
+        case "cut at the start":
+            del cells[rows.first : row]
+        case "wider":
+            cells[row] += [chance.choice(odd.CELLS)] * chance.choice((1, 2, 50))
+        case "narrower":
+            cells[row] = cells[row][:column]
+        case "blank rows":
+            cells[row:row] = [chance.choice(([], [""] * len(cells[row]), [" "]))] * chance.choice((1, 3, 30))
+        case "columns swapped":
+            other = chance.randrange(len(cells[row]))
+            for each in cells:
+                if max(column, other) < len(each):
+                    each[column], each[other] = each[other], each[column]
+        case "column lost":
+            for each in cells:
+                del each[column : column + 1]
+        case "column again":
+            for each in cells:
+                each.extend(each[column : column + 1])
+        case "decimal comma":
+            cells[row][column] = cells[row][column].replace(".", ",")
+        case "decimal commas":
+            _change(cells[rows.first :], column, lambda text: text.replace(".", ","))
+        case "unit in a cell":
+            cells[row][column] += chance.choice((" s", " MPa", "%", "kN", "mm"))
+    return replace(rows, cells=cells or [[""]])
+
+
+_MUTATIONS = (
+    "cell", "cell", "cell", "cell", "first cell", "column of one value", "column of one value", "column scaled", "column scaled",
+    "column shifted", "heading", "heading", "unit of a heading", "unit of a heading", "units row", "units row", "row again",
+    "rows again", "row lost", "headings lost", "headings again", "reversed", "shuffled", "cut", "cut at the start", "wider",
+    "narrower", "blank rows", "columns swapped", "column lost", "column again", "decimal comma", "decimal commas",
+    "unit in a cell",
+)  # fmt: skip
+
+
+def _change(rows: list[list[str]], column: int, change: Callable[[str], str]) -> None:
+    """Change every cell of a column that is there."""
+    for row in rows:
+        if column < len(row):
+            row[column] = change(row[column])
+
+
+def _scaled(text: str, factor: float, shift: float = 0.0) -> str:
+    try:
+        return f"{float(text) * factor + shift:.9g}"
+    except ValueError:
+        return text
