@@ -55,15 +55,27 @@ class Verdict:
 
 def judge(case: Case, outcome: Outcome) -> Verdict:
     """Judge one outcome."""
+    verdict = _breakdown(case, outcome) or _print(outcome) or _by_status(case, outcome)
+    if case.outcome and verdict.answer not in (case.outcome, FAILURE):
+        return Verdict(FAILURE, f"{verdict.answer} and not {case.outcome}", _last(outcome))
+    return verdict
+
+
+def _breakdown(case: Case, outcome: Outcome) -> Verdict | None:
+    """Whether the program broke."""
     if outcome.ended.startswith("stopped"):
         return Verdict(FAILURE, "hang", f"{case.command[0]} took more than {outcome.seconds:g} s")
     if outcome.status is None:
         return Verdict(FAILURE, "crash", outcome.ended)
-    last = (outcome.err.strip().splitlines() or [""])[-1]
     if "Traceback (most recent call last)" in outcome.err + outcome.out:
-        return Verdict(FAILURE, "traceback", last)
-    if "unexpected" in last and outcome.status != _DONE:
-        return Verdict(FAILURE, "unexpected error", last)
+        return Verdict(FAILURE, "traceback", _last(outcome))
+    if outcome.status != _DONE and _last(outcome).startswith("probation: unexpected"):
+        return Verdict(FAILURE, "unexpected error", _last(outcome))
+    return None
+
+
+def _print(outcome: Outcome) -> Verdict | None:
+    """Whether something is printed that no user should see."""
     if max(len(outcome.out), len(outcome.err)) > MOST_PRINTED:
         return Verdict(FAILURE, "flood", f"more than {MOST_PRINTED} characters are printed")
     for text in (outcome.out, outcome.err):
@@ -72,27 +84,33 @@ def judge(case: Case, outcome: Outcome) -> Verdict:
     if found := _LIBRARY_WARNINGS.search(outcome.err):
         line = outcome.err[: found.end()].count("\n")
         return Verdict(FAILURE, "warning of a library", outcome.err.splitlines()[line])
-    verdict = _by_status(case, outcome, last)
-    if case.outcome and verdict.answer not in (case.outcome, FAILURE):
-        return Verdict(FAILURE, f"{verdict.answer}, and should be {case.outcome}", last)
-    return verdict
+    return None
 
 
-def _by_status(case: Case, outcome: Outcome, last: str) -> Verdict:
+def _by_status(case: Case, outcome: Outcome) -> Verdict:
     if outcome.status == _DONE:
         return _against_answer(case, outcome) or _against_truth(case, outcome)
-    if outcome.status != _BAD_INPUT:
-        if "did not converge" in last:
-            return Verdict(REFUSED)
-        return Verdict(FAILURE, f"status {outcome.status}", last)
+    if outcome.status == _BAD_INPUT:
+        return _complaint(case, outcome)
+    if "did not converge" in _last(outcome):
+        return Verdict(REFUSED)
+    return Verdict(FAILURE, f"status {outcome.status}", _last(outcome))
+
+
+def _complaint(case: Case, outcome: Outcome) -> Verdict:
+    """Whether a refusal is one line that names the file, and nothing else."""
     lines = outcome.err.splitlines()
     if len(lines) != 1 or not lines[0].startswith("probation: "):
         return Verdict(FAILURE, f"{len(lines)} lines of complaint", " | ".join(lines[:4]))
     if outcome.out.strip():
         return Verdict(FAILURE, "an answer beside the complaint", outcome.out[:100])
-    if not any(name in last for name in _names(case)):
-        return Verdict(FAILURE, "a complaint that names no file", last)
+    if not any(name in lines[0] for name in _names(case)):
+        return Verdict(FAILURE, "a complaint that names no file", lines[0])
     return Verdict(REFUSED)
+
+
+def _last(outcome: Outcome) -> str:
+    return (outcome.err.strip().splitlines() or [""])[-1]
 
 
 def _names(case: Case) -> set[str]:

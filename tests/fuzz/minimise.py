@@ -35,14 +35,20 @@ def minimised(case: Case, fails_alike: Callable[[Case], bool]) -> Case:
         if name not in case.command and fails(fewer):
             case = fewer
     for name, content in list(case.files.items()):
-        for split in (_lines, _pieces):
-            if isinstance(content, str):
-                kept = _fewest(split(content), lambda parts, name=name: fails(_with(case, name, "".join(parts))))
-                content = "".join(kept)
-                case = _with(case, name, content)
+        if isinstance(content, str):
+            case = _with_less_text(case, name, fails)
         if isinstance(content, dict) and "zip" in content:
             case = _without_members(case, name, fails)
     return case
+
+
+def _with_less_text(case: Case, name: str, fails: Callable[[Case], bool]) -> Case:
+    def fails_with(parts: Sequence[str]) -> bool:
+        return fails(_with(case, name, "".join(parts)))
+
+    lines = _fewest(_lines(case.files[name]), fails_with)
+    pieces = _fewest(_pieces("".join(lines)), fails_with)
+    return _with(case, name, "".join(pieces))
 
 
 def _with(case: Case, name: str, content: object) -> Case:

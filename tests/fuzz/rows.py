@@ -1,16 +1,9 @@
-"""Tables as laboratories write them, and what goes wrong with their cells and rows."""
+"""Tables as laboratories write them: what the program reads, before anything goes wrong."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
-
-from fuzz import odd
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from random import Random
+from dataclasses import dataclass
 
 SAMPLES = 14
 
@@ -180,109 +173,3 @@ RECORDS = (plain, with_rate_and_temperature, machine, german, vhb, silicone, etf
 WITH_HEADINGS = (plain, with_rate_and_temperature, machine, silicone)
 """Of those, the ones that are read from a workbook or between tabs, too."""
 HISTORIES = (history, history_with_rate)
-
-
-def mutated(rows: Rows, chance: Random) -> Rows:
-    """One thing that goes wrong with cells, headings, units or rows."""
-    cells = [list(row) for row in rows.cells]
-    data = range(rows.first, len(cells))
-    filled = [at for at in data if cells[at]] or [0]
-    row = chance.choice(filled)
-    if not cells or not cells[row]:
-        return replace(rows, cells=[["1", "2", "3"]])
-    column = chance.randrange(len(cells[row]))
-    match chance.choice(_MUTATIONS):
-        case "cell":
-            cells[row][column] = chance.choice(odd.CELLS)
-        case "first cell":
-            cells[filled[0]][min(column, len(cells[filled[0]]) - 1)] = chance.choice(odd.CELLS)
-        case "column of one value":
-            value = chance.choice((*odd.NUMBERS[:12], "0", "1", "5"))
-            _change(cells[rows.first :], column, lambda _: value)
-        case "column scaled":
-            factor = chance.choice((0.0, -1.0, 1e-300, 1e-30, 1e-6, 1e3, 1e6, 1e30, 1e300))
-            _change(cells[rows.first :], column, lambda text: _scaled(text, factor))
-        case "column shifted":
-            shift = chance.choice((-1e3, -1.0, 1.0, 8.0, 1e6, 1e15))
-            _change(cells[rows.first :], column, lambda text: _scaled(text, 1.0, shift))
-        case "heading" if rows.heading is not None and cells[rows.heading]:
-            at = chance.randrange(len(cells[rows.heading]))
-            cells[rows.heading][at] = chance.choice(odd.HEADINGS)
-        case "unit of a heading" if rows.heading is not None and cells[rows.heading]:
-            at = chance.randrange(len(cells[rows.heading]))
-            form = chance.choice(("{} [{}]", "{} ({})", "{} / {}", "{}_{}", "{}, {}", "{} in {}", "{} {}"))
-            name = cells[rows.heading][at].split("[")[0].split("(")[0].split("/")[0].strip()
-            cells[rows.heading][at] = form.format(name, chance.choice(odd.UNITS))
-        case "units row":
-            at = rows.first if rows.heading is None else rows.heading + chance.choice((0, 1, 1, 1))
-            width = len(cells[row])
-            usual = chance.random() < 0.7
-            names = ("s", "mm", "kN", "MPa", "%", "-", "Sec", "segments") if usual else odd.UNITS
-            cells.insert(at, [chance.choice((*names, chance.choice(odd.UNITS))) for _ in range(width)])
-        case "row again":
-            cells.insert(row, list(cells[row]))
-        case "rows again":
-            cells += cells[rows.first :]
-        case "row lost":
-            del cells[row]
-        case "headings lost" if rows.heading is not None:
-            del cells[rows.heading]
-        case "headings again" if rows.heading is not None:
-            cells.insert(row, list(cells[rows.heading]))
-        case "reversed":
-            cells[rows.first :] = cells[rows.first :][::-1]
-        case "shuffled":
-            part = cells[rows.first :]
-            chance.shuffle(part)
-            cells[rows.first :] = part
-        case "cut":
-            cells = cells[:row]
-        case "cut at the start":
-            del cells[rows.first : row]
-        case "wider":
-            cells[row] += [chance.choice(odd.CELLS)] * chance.choice((1, 2, 50))
-        case "narrower":
-            cells[row] = cells[row][:column]
-        case "blank rows":
-            cells[row:row] = [chance.choice(([], [""] * len(cells[row]), [" "]))] * chance.choice((1, 3, 30))
-        case "columns swapped":
-            other = chance.randrange(len(cells[row]))
-            for each in cells:
-                if max(column, other) < len(each):
-                    each[column], each[other] = each[other], each[column]
-        case "column lost":
-            for each in cells:
-                del each[column : column + 1]
-        case "column again":
-            for each in cells:
-                each.extend(each[column : column + 1])
-        case "decimal comma":
-            cells[row][column] = cells[row][column].replace(".", ",")
-        case "decimal commas":
-            _change(cells[rows.first :], column, lambda text: text.replace(".", ","))
-        case "unit in a cell":
-            cells[row][column] += chance.choice((" s", " MPa", "%", "kN", "mm"))
-    return replace(rows, cells=cells or [[""]])
-
-
-_MUTATIONS = (
-    "cell", "cell", "cell", "cell", "first cell", "column of one value", "column of one value", "column scaled", "column scaled",
-    "column shifted", "heading", "heading", "unit of a heading", "unit of a heading", "units row", "units row", "row again",
-    "rows again", "row lost", "headings lost", "headings again", "reversed", "shuffled", "cut", "cut at the start", "wider",
-    "narrower", "blank rows", "columns swapped", "column lost", "column again", "decimal comma", "decimal commas",
-    "unit in a cell",
-)  # fmt: skip
-
-
-def _change(rows: list[list[str]], column: int, change: Callable[[str], str]) -> None:
-    """Change every cell of a column that is there."""
-    for row in rows:
-        if column < len(row):
-            row[column] = change(row[column])
-
-
-def _scaled(text: str, factor: float, shift: float = 0.0) -> str:
-    try:
-        return f"{float(text) * factor + shift:.9g}"
-    except ValueError:
-        return text

@@ -56,16 +56,7 @@ class Findings:
                 chosen = Counter(answer for (_, answer), n in self.counts.items() for _ in range(n))
             answers = [chosen.get(answer, 0) for answer in ("read", "refused", FAILURE)]
             rows.append((kind, *map(str, [sum(answers), *answers])))
-        widths = [max(len(row[at]) for row in rows) for at in range(5)]
-        return "\n".join(
-            "| "
-            + " | ".join(
-                text.ljust(w) if at == 0 else text.rjust(w)
-                for at, (text, w) in enumerate(zip(row, widths, strict=True))
-            )
-            + " |"
-            for row in rows
-        )
+        return "\n".join(f"| {row[0]:<15} | " + " | ".join(f"{text:>8}" for text in row[1:]) + " |" for row in rows)
 
 
 def numbers(cases: int, seed: int, kinds: list[str] | None = None) -> Iterator[Number]:
@@ -129,6 +120,7 @@ def keep(workers: Workers, findings: Findings) -> list[str]:
 
         small = case if verdict.failure == "hang" else minimised(case, fails_alike)
         path = small.save(f"{verdict.failure} {number.seed} {number.at}")
-        return f"{kind}, {len(failures)} times: {verdict.failure}: {verdict.detail[:200]}\n    {path.name}: {' '.join(small.command)[:150]}"
+        told = f"{kind}, {len(failures)} times: {verdict.failure}: {verdict.detail[:200]}"
+        return f"{told}\n    {path.name}: {' '.join(small.command)[:150]}"
 
     return [str(line) for line in workers.map(kept, list(findings.failures.items()))]

@@ -6,14 +6,17 @@ from typing import TYPE_CHECKING
 
 from fuzz import odd
 from fuzz.bytes_damage import damaged
-from fuzz.rows import Rows, mutated
+from fuzz.row_mutations import mutated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from random import Random
 
+    from fuzz.rows import Rows
+
 _ENCODINGS = (
-    "utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp1252", "gbk", "shift-jis", "utf-7", "cp037",
+    "utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp1252", "gbk", "shift-jis", "utf-7",
+    "cp037",
 )  # fmt: skip
 _NEWLINES = ("\n", "\r\n", "\r", "\n\r", "\n\n", "\x85", "\u2028", "\x0b", "\r\r\n")
 

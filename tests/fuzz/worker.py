@@ -46,6 +46,8 @@ def _load_libraries() -> None:
     import zarr  # noqa: F401, PLC0415
 
     pint.UnitRegistry()
+    gc.collect()
+    gc.freeze()  # or each collection between two cases would walk through all of it
 
 
 def _outcome(case: dict[str, Any]) -> dict[str, Any]:

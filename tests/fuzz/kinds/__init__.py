@@ -1,4 +1,4 @@
-"""Kinds of input, one file each: ``NAME``, its ``SHARE`` of the cases, and ``make(chance)``. A new kind is a line here."""
+"""Kinds of input, one file each: ``NAME``, ``SHARE`` of the cases, ``make(chance)``. A new one is a line here."""
 
 from fuzz.kinds import (
     campaign,

@@ -9,7 +9,8 @@ from fuzz.bytes_damage import damaged
 from fuzz.case import Case
 from fuzz.content import from_bytes, to_bytes
 from fuzz.kinds.workbook import members
-from fuzz.rows import HISTORIES, machine, mutated, plain, with_rate_and_temperature
+from fuzz.row_mutations import mutated
+from fuzz.rows import HISTORIES, machine, plain, with_rate_and_temperature
 from fuzz.texts import render
 
 if TYPE_CHECKING:
@@ -92,10 +93,11 @@ file = "warm.csv"
 """
 _SEEDS = (_PLAIN, _FULL, _TABLE)
 _LINES = (
-    "[law]", "[[law]]", "[record]", "[[record]]", "[law.companion]", "[law.fixed]", "[[record.columns]]", "[record.noise]", "[a.b.c]",
-    "[[a]]", "[]", "x = 1", "law.modes = 3", "law = 1", "record = []", "record = 1", '"" = 1', '"a\\u0000b" = 1', "'\x1b[31m' = 1",
-    'name = "again"', "[" * 2000, "x = " + "[" * 2000 + "]" * 2000, "x = {" * 500, "a" + ".a" * 2000 + " = 1", "# \x1b[31m", "\x00", "\t\t",
-    "[law.fixed.x]", "companion = {}", "fixed = 3", "modes = 1", 'id = "ramp-1"', "x" * 30_000 + " = 1",
+    "[law]", "[[law]]", "[record]", "[[record]]", "[law.companion]", "[law.fixed]", "[[record.columns]]",
+    "[record.noise]", "[a.b.c]", "[[a]]", "[]", "x = 1", "law.modes = 3", "law = 1", "record = []", "record = 1",
+    '"" = 1', '"a\\u0000b" = 1', "'\x1b[31m' = 1", 'name = "again"', "[" * 2000, "x = " + "[" * 2000 + "]" * 2000,
+    "x = {" * 500, "a" + ".a" * 2000 + " = 1", "# \x1b[31m", "\x00", "\t\t", "[law.fixed.x]", "companion = {}",
+    "fixed = 3", "modes = 1", 'id = "ramp-1"', "x" * 30_000 + " = 1",
 )  # fmt: skip
 
 
@@ -161,9 +163,8 @@ def _changed(lines: list[str], chance: Random) -> list[str]:
                 lines[at] = _entry_changed(lines[at], chance)
         case "key":
             key, equals, value = lines[at].partition(" = ")
-            lines[at] = (
-                f"{chance.choice((key.upper(), key + 'x', key[:-1], 'modes', 'file', '1', 'a.b', key + '.x', '“' + key))}{equals}{value}"
-            )
+            other = (key.upper(), f"{key}x", key[:-1], "modes", "file", "1", "a.b", f"{key}.x", f"“{key}")
+            lines[at] = f"{chance.choice(other)}{equals}{value}"
         case "lost":
             del lines[at]
         case "again":

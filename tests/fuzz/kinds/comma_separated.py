@@ -15,13 +15,14 @@ if TYPE_CHECKING:
 
 NAME, SHARE = "csv", 20
 
+_PROFILES = ("csv", "excel", "etfe", "etfe_relaxation", "etfe_temperature", "vhb", "silicone", "no")
 _ODD_OPTIONS = (
     *(("--unit", f"{role}={unit}") for role in ("time", "true_strain", "force") for unit in odd.UNITS if unit),
     *(("--column", f"true_stress={label}") for label in ("1", "2", "99", "0", "nan", "Load", "x" * 300, "\x1b[31m")),
-    *(("--specimen", f"{key}={value}") for key in ("area_mm2", "gauge_length_mm") for value in ("0", "1e-320", "1e308", "nan", "-1")),
-    *(("--profile", name) for name in ("csv", "excel", "etfe", "etfe_relaxation", "etfe_temperature", "vhb", "silicone", "no")),
-    *(("--specimen-index", value) for value in ("1", "2", "0", "-1", "99999999999999999999")),
-    ("--sheet", "Sheet1"),
+    *(("--specimen", f"area_mm2={value}") for value in ("0", "1e-320", "1e308", "nan", "-1")),
+    *(("--specimen", f"gauge_length_mm={value}") for value in ("0", "1e-320", "1e308", "nan", "-1")),
+    *(("--profile", name) for name in _PROFILES),
+    *(("--specimen-index", value) for value in ("1", "2", "0", "-1", "99999999999999999999")), ("--sheet", "Sheet1"),
 )  # fmt: skip
 
 

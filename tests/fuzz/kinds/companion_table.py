@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 NAME, SHARE = "companion table", 6
 
+_FORMS = ("auto", "weissenberg", "exponential", "power", "table")
 _LAW = ("--set", "unrelaxed_modulus_MPa=3000", "--set", "hardening_modulus_MPa=2")
 
 
@@ -21,7 +22,7 @@ def make(chance: Random) -> Case:
     """A table that went wrong, regressed or used as it is."""
     data, _ = hostile((rate_table,), chance)
     commands = (
-        *(("companion", "times-7.csv", "--form", form) for form in ("auto", "weissenberg", "exponential", "power", "table")),
+        *(("companion", "times-7.csv", "--form", form) for form in _FORMS),
         ("companion", "times-7.csv", "--json", "-"),
         ("simulate", "--history", "ramp:rate=0.001,strain=1", *_LAW, "--companion", "table:times-7.csv"),
         ("simulate", "--history", "ramp:rate=0.001,strain=1", *_LAW, "--companion", "table:times-7.csv", "-o", "-"),

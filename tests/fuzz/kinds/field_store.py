@@ -1,4 +1,4 @@
-"""Stores of fields and of maps: metadata, attributes and chunks. Maps have checksums: damage never changes an answer."""
+"""Stores of fields and of maps: metadata, attributes, chunks. Maps have checksums: damage never changes an answer."""
 
 from __future__ import annotations
 

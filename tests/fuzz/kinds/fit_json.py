@@ -63,13 +63,16 @@ _KEYS = (
     "spectrum",
 )
 _TEXTS = (
-    "", "{", "[]", "null", "nan", '"text"', "3", "[" * 20_000, '{"schema":' * 2_000, "{}", '{"schema": null}', '{"schema": "probation.fit/2"}',
-    '{"schema": ["probation.fit/1"]}', '{"schema": {"a": 1}}', "9" * 5000, "\ufeff{}", '{"schema": "\\ud800"}', "{'schema': 1}", "x" * 100_000,
+    "", "{", "[]", "null", "nan", '"text"', "3", "[" * 20_000, '{"schema":' * 2_000, "{}", '{"schema": null}',
+    '{"schema": "probation.fit/2"}', '{"schema": ["probation.fit/1"]}', '{"schema": {"a": 1}}', "9" * 5000,
+    "\ufeff{}", '{"schema": "\\ud800"}', "{'schema': 1}", "x" * 100_000,
 )  # fmt: skip
 _FORMATS = (
-    ("c",), ("abaqus-umat",), ("calculix",), ("mgis",), ("list",), ("abaqus-prony", "--rate", "1e-3"), ("ansys-prony", "--rate", "1e-3"),
-    ("ls-dyna-prony", "--rate", "1e-3"), ("abaqus-plastic", "--rates", "1e-4,1e-2", "--strain", "1"),
-    ("ls-dyna-mat-024", "--rates", "1e-4,1e-2", "--strain", "1"), ("c", "--accuracy", "1e-2"), ("mgis", "--json", "-"),
+    ("c",), ("abaqus-umat",), ("calculix",), ("mgis",), ("list",), ("abaqus-prony", "--rate", "1e-3"),
+    ("ansys-prony", "--rate", "1e-3"), ("ls-dyna-prony", "--rate", "1e-3"),
+    ("abaqus-plastic", "--rates", "1e-4,1e-2", "--strain", "1"),
+    ("ls-dyna-mat-024", "--rates", "1e-4,1e-2", "--strain", "1"), ("c", "--accuracy", "1e-2"),
+    ("mgis", "--json", "-"),
 )  # fmt: skip
 
 

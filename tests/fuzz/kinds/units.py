@@ -54,7 +54,8 @@ _FORCE = {
     4448.2216152605: ("kip", "klbf"),
 }
 _STRESS = {
-    1.0: ("MPa", "Mpa", "MPA", "mpa", "N/mm2", "N/mm²", "N/mm^2", "N/mm**2", "N mm-2", "N·mm⁻²", "N*mm^-2", "MN/m2", "MN/m²", "megapascal"),
+    1.0: ("MPa", "Mpa", "MPA", "mpa", "N/mm2", "N/mm²", "N/mm^2", "N/mm**2", "N mm-2", "N·mm⁻²", "N*mm^-2",
+          "MN/m2", "MN/m²", "megapascal"),
     1e-3: ("kPa", "KPa", "kpa", "KPA", "kN/m2", "kN/m²"),
     1000.0: ("GPa", "Gpa", "GPA", "kN/mm2", "kN/mm²"),
     1e-6: ("Pa", "pa", "N/m2", "N/m^2", "N/m²"),
@@ -152,15 +153,17 @@ def make(chance: Random) -> Case:
     return Case(NAME, ("read", name, json.dumps(options)), {name: content}, truth, doubts)
 
 
+_STRAINS = ("true_strain", "engineering_strain", "stretch", "displacement")
 _BEHIND = {
     "time": ("time",),
-    "true_strain": ("true_strain", "engineering_strain", "stretch", "displacement"),
-    "true_stress": ("true_stress", "engineering_stress", "force", "true_strain", "engineering_strain", "stretch", "displacement"),
+    "true_strain": _STRAINS,
+    "true_stress": ("true_stress", "engineering_stress", "force", *_STRAINS),
     "temperature": ("temperature",),
-}  # fmt: skip
+}
 _STATEMENTS = (
-    "square", "round", "slash", "comma", "underscore", "space", "in", "units row", "units row", "units row", "bracketed row", "mixed row",
-    "mixed row", "mixed row", "row above", "row after a blank", "heading is the unit", "option", "nowhere", "some nowhere", "both",
+    "square", "round", "slash", "comma", "underscore", "space", "in", "units row", "units row", "units row",
+    "bracketed row", "mixed row", "mixed row", "mixed row", "row above", "row after a blank", "heading is the unit",
+    "option", "nowhere", "some nowhere", "both",
 )  # fmt: skip
 _FORMS = {
     "square": "{} [{}]",

@@ -11,7 +11,8 @@ from fuzz.bytes_damage import damaged
 from fuzz.case import Case
 from fuzz.content import from_bytes, to_bytes
 from fuzz.kinds.comma_separated import record_case
-from fuzz.rows import WITH_HEADINGS, mutated, plain, plain_truth
+from fuzz.row_mutations import mutated
+from fuzz.rows import WITH_HEADINGS, plain, plain_truth
 
 if TYPE_CHECKING:
     from random import Random
@@ -23,6 +24,7 @@ NAME, SHARE = "xlsx", 12
 _FILE = "tension-7.xlsx"
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_SPREADSHEET = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -34,8 +36,9 @@ _LAUGHS = (
     + "]>"
 )
 _CELLS = (
-    "<v>1e400</v>", "<v>nan</v>", "<v>abc</v>", "<v></v>", "", "<v>" + "9" * 5000 + "</v>", "<v>1,5</v>", "<f>1/0</f>", "<f>A1</f><v>3</v>",
-    "<is><t>x</t></is>", "<v>&j;</v>", "<v>-1</v>", "<v>99999999999</v>", "<v>0x10</v>", "<v> 3 </v>", "<v>1e-320</v>",
+    "<v>1e400</v>", "<v>nan</v>", "<v>abc</v>", "<v></v>", "", "<v>" + "9" * 5000 + "</v>", "<v>1,5</v>",
+    "<f>1/0</f>", "<f>A1</f><v>3</v>", "<is><t>x</t></is>", "<v>&j;</v>", "<v>-1</v>", "<v>99999999999</v>",
+    "<v>0x10</v>", "<v> 3 </v>", "<v>1e-320</v>",
 )  # fmt: skip
 _TYPES = (
     "",
@@ -68,8 +71,7 @@ def members(cells: list[list[str]], *, shared: bool = False) -> dict[str, str]:
         "/xl/sharedStrings.xml": "sharedStrings",
     }
     kinds = "".join(
-        f'<Override PartName="{part}" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.{what}+xml"/>'
-        for part, what in overrides.items()
+        f'<Override PartName="{part}" ContentType="{_SPREADSHEET}.{what}+xml"/>' for part, what in overrides.items()
     )
     targets = {"worksheet": "worksheets/sheet1.xml", "styles": "styles.xml", "sharedStrings": "sharedStrings.xml"}
     relations = "".join(
@@ -84,8 +86,10 @@ def members(cells: list[list[str]], *, shared: bool = False) -> dict[str, str]:
         f'Type="{_OFFICE}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
         "xl/workbook.xml": f'{_HEAD}<workbook xmlns="{_MAIN}" xmlns:r="{_OFFICE}"><sheets>'
         '<sheet name="Data" sheetId="1" r:id="rId1"/></sheets></workbook>',
-        "xl/_rels/workbook.xml.rels": f'{_HEAD}<Relationships xmlns="{_PACKAGE}/relationships">{relations}</Relationships>',
-        "xl/styles.xml": f'{_HEAD}<styleSheet xmlns="{_MAIN}"><fonts count="1"><font/></fonts><fills count="1"><fill><patternFill patternType="none"/></fill></fills>'
+        "xl/_rels/workbook.xml.rels": f'{_HEAD}<Relationships xmlns="{_PACKAGE}/relationships">'
+        f"{relations}</Relationships>",
+        "xl/styles.xml": f'{_HEAD}<styleSheet xmlns="{_MAIN}"><fonts count="1"><font/></fonts>'
+        '<fills count="1"><fill><patternFill patternType="none"/></fill></fills>'
         '<borders count="1"><border/></borders><cellStyleXfs count="1"><xf/></cellStyleXfs>'
         '<cellXfs count="2"><xf/><xf numFmtId="14" applyNumberFormat="1"/></cellXfs></styleSheet>',
         "xl/sharedStrings.xml": f'{_HEAD}<sst xmlns="{_MAIN}" count="{len(strings)}">{items}</sst>',
