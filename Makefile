@@ -6,6 +6,10 @@ WERROR ?= $(if $(CI),ON,OFF)
 # What is looked for beside a compiler, Eigen and SUNDIALS: asked for at once, so that it is one line to install.
 SYSTEM_EXTRAS := $(if $(filter test lint sanitize,$(MAKECMDGOALS)),doctest)
 
+# Of make fuzz: how many cases, and the seed that makes them.
+CASES ?= 20000
+SEED ?= 1
+
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 VENV := .venv
@@ -26,7 +30,7 @@ engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROB
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench fe blind lint format sanitize wheel clean
+.PHONY: help demo test fuzz bench fe blind lint format sanitize wheel clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -39,6 +43,9 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 	@# A process per core, files kept together: what a file computes once, it computes once.
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
 	    --cov=probation --cov=probation_studies --cov-report=term:skip-covered --cov-fail-under=90
+
+fuzz: $(VENV)/.engine-tests  ## read CASES=20000 damaged and hostile files (SEED=1) on all cores; keeps those that fail
+	@PYTHONPATH="$(CURDIR)/tests" $(BIN)/python -m fuzz --cases $(CASES) --seed $(SEED)
 
 bench: $(VENV)/.engine $(VENV)/.bench  ## compare the schemes with what one would use instead
 	@$(BIN)/python bench/run.py

@@ -59,11 +59,15 @@ class Case:
 
     def save(self, name: str) -> Path:
         """Keep the case in the corpus."""
-        folder = CORPUS / self.kind
+        folder = CORPUS / _slug(self.kind)
         folder.mkdir(parents=True, exist_ok=True)
-        path = folder / f"{re.sub('[^a-z0-9]+', '-', name.casefold()).strip('-')[:80]}.json"
+        path = folder / f"{_slug(name)[:80]}.json"
         path.write_text(self.to_json(), encoding="ascii")
         return path
+
+
+def _slug(text: str) -> str:
+    return re.sub("[^a-z0-9]+", "-", text.casefold()).strip("-")
 
 
 def corpus() -> list[Path]:

@@ -22,7 +22,7 @@ TOLERANCE = 1e-6
 _DONE, _BAD_INPUT = 0, 2
 _LIBRARY_WARNINGS = re.compile(
     r"encountered in|Mean of empty slice|Degrees of freedom|could not be estimated|[Ii]ll-conditioned|On entry to|"
-    r"RuntimeWarning|DeprecationWarning|UserWarning|ResourceWarning|FutureWarning|invalid value|Polyfit|"
+    r"RuntimeWarning|DeprecationWarning|UserWarning|ResourceWarning|FutureWarning|Polyfit|"
     r"Exception ignored|All-NaN"
 )
 _BIDI = frozenset("\u061c\u200e\u200f\u2028\u2029\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
@@ -104,7 +104,7 @@ def _complaint(case: Case, outcome: Outcome) -> Verdict:
         return Verdict(FAILURE, f"{len(lines)} lines of complaint", " | ".join(lines[:4]))
     if outcome.out.strip():
         return Verdict(FAILURE, "an answer beside the complaint", outcome.out[:100])
-    if not any(name in lines[0] for name in _names(case)):
+    if not _names_input(case, lines[0]):
         return Verdict(FAILURE, "a complaint that names no file", lines[0])
     return Verdict(REFUSED)
 
@@ -113,11 +113,14 @@ def _last(outcome: Outcome) -> str:
     return (outcome.err.strip().splitlines() or [""])[-1]
 
 
-def _names(case: Case) -> set[str]:
-    """What a complaint may call the input by: a file, an option, or, of a campaign, a record or a setting."""
-    paths = [PurePosixPath(name) for name in (*case.files, *case.command[1:2])]
-    stems = {path.name.split(".")[0][:30] for path in paths}
-    return {name for name in stems if len(name) > 1} | {"--"}
+def _names_input(case: Case, complaint: str) -> bool:
+    """Whether a complaint names a file of the case, an option, or a file that a campaign names."""
+    tops = {PurePosixPath(name).parts[0] for name in case.files}
+    stores = {name for name in tops if name not in case.files}
+    names = stores | {name.split(".")[0] for name in tops - stores} | {case.command[1].split("/")[-1][:30], "--"}
+    place = complaint.removeprefix("probation: ").partition(":")[0]
+    quoted = any(place in content for content in case.files.values() if isinstance(content, str))
+    return quoted or any(name in complaint for name in names if len(name) > 1)
 
 
 def _control(text: str) -> str | None:

@@ -41,11 +41,9 @@ def main() -> None:
 def _load_libraries() -> None:
     """What the program loads when it needs it: no part of the time of the first case that does."""
     import openpyxl  # noqa: F401, PLC0415
-    import pint  # noqa: PLC0415
     import xarray  # noqa: F401, PLC0415
     import zarr  # noqa: F401, PLC0415
 
-    pint.UnitRegistry()
     gc.collect()
     gc.freeze()  # or each collection between two cases would walk through all of it
 

@@ -97,7 +97,9 @@ def test_making_data_shares_nothing_with_what_is_tested():
 def test_only_numpy_and_scipy_are_used_beside_the_standard_library():
     for path in (SOURCE / "blind" / "laboratory").rglob("*.py"):
         roots = {name.split(".")[0] for name in _imports(path)}
-        assert roots <= {"numpy", "scipy", "probation", "probation_studies", "__future__"} | set(sys.stdlib_module_names), path
+        assert roots <= {"numpy", "scipy", "probation", "probation_studies", "__future__"} | set(
+            sys.stdlib_module_names
+        ), path
 
 
 def _specimen(time, strain, law, **more):

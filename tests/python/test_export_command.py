@@ -1,6 +1,7 @@
 """``probation export`` and where its law comes from."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import probation
 from probation import Campaign, InputError, Law, Record, Weissenberg, export, fit
 from probation.cli import main
+from probation.exporting.check import compared
 from probation.law.settings import CompanionSettings, LawSettings
 
 SET = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "hardening_modulus_MPa=1.85", "--set", "alpha=1.045"]
@@ -78,6 +80,119 @@ def test_a_json_that_is_no_fit_is_named(tmp_path, text, complaint):
     (tmp_path / "fit.json").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=complaint):
         export(tmp_path / "fit.json", "c")
+
+
+GOOD = {
+    "parameters": {"unrelaxed_modulus_MPa": 3220.0, "alpha": 1.0, "hardening_modulus_MPa": 1.85},
+    "modes": 2,
+    "decades": 6.0,
+    "companion": {
+        "form": "weissenberg",
+        "slope": 0.00464,
+        "intercept": 0.0367,
+        "rate_floor_per_s": 1e-7,
+        "calibrated_rates_per_s": [5e-5, 1e-2],
+    },
+    "spectrum": {"relaxation_ratio": [0.01, 1.0], "modal_weight": [0.5, 0.5]},
+}
+NAN = float("nan")
+
+
+def changed(place, value):
+    """A good law with one entry replaced: ``changed("companion.slope", 3)``; left out where the value is `...`."""
+    law = json.loads(json.dumps(GOOD))
+    *above, key = place.split(".")
+    table = law
+    for each in above:
+        table = table[each]
+    if value is ...:
+        del table[key]
+    else:
+        table[key] = value
+    return law
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "complaint"),
+    [
+        ("parameters", None, "law.parameters: found a value of type NoneType, expected a table"),
+        ("parameters", [1, 2], "law.parameters: found a value of type list, expected a table"),
+        ("parameters.unrelaxed_modulus_MPa", ..., "law.parameters: found no unrelaxed_modulus_MPa, expected it"),
+        ("parameters.unrelaxed_modulus_MPa", None, "law.parameters.unrelaxed_modulus_MPa is None; a number is needed"),
+        ("parameters.unrelaxed_modulus_MPa", "3220", "law.parameters.unrelaxed_modulus_MPa is '3220'; a number"),
+        ("parameters.unrelaxed_modulus_MPa", 10**400, "law.parameters.unrelaxed_modulus_MPa is too large|401 digits"),
+        ("parameters.unrelaxed_modulus_MPa", NAN, "unrelaxed_modulus is nan"),
+        ("parameters.unrelaxed_modulus_MPa", 0, "unrelaxed_modulus"),
+        ("parameters.unrelaxed_modulus_MPa", 1e308, "unrelaxed_modulus"),
+        ("modes", ..., "law: found no modes, expected it"),
+        ("modes", "50", "law.modes is '50'; a whole number"),
+        ("modes", 50, "law.modes: found 50 beside a spectrum of 2, expected as many"),
+        ("decades", NAN, "decades is nan; a positive number is needed"),
+        ("decades", [6], r"law.decades is \[6\]; a number is needed"),
+        ("companion", "weissenberg", "law.companion: found 'weissenberg', expected a table"),
+        ("companion.form", ..., "law.companion: found no form, expected it"),
+        ("companion.form", ["weissenberg"], "law.companion.form: found a value of type list, expected one of"),
+        ("companion.slope", ..., "law.companion: found no slope, expected it"),
+        ("companion.slope", NAN, "slope is nan; a finite number is needed"),
+        ("companion.slope", 1e308, "tau_max"),
+        ("companion.self", 1, "law.companion: found no 'self' that is known of the form weissenberg"),
+        ("companion.calibrated_rates_per_s", "x", "calibrated"),
+        ("companion.calibrated_rates_per_s", [1e-3], "calibrated is .* expected two positive rates"),
+        ("companion.calibrated_rates_per_s", [1e-2, 1e-3], "calibrated is .* the lower one first"),
+        ("companion.calibrated_rates_per_s", [[1], [2]], "calibrated"),
+        ("spectrum", [1, 2], "law.spectrum: found a value of type list, expected a table"),
+        ("spectrum.modal_weight", ..., "law.spectrum: found no modal_weight, expected it"),
+        ("spectrum.modal_weight", [0.5, None], "modal_weight"),
+        ("spectrum.modal_weight", [1.0], "modal_weight has 1 entries, relaxation_ratio 2"),
+    ],
+)
+def test_a_law_in_json_that_no_law_can_be_is_refused_in_one_line(tmp_path, capsys, place, value, complaint):
+    text = json.dumps({"schema": "probation.fit/1", "law": changed(place, value)})
+    (tmp_path / "fit.json").write_text(text, encoding="utf-8")
+    assert main(["export", str(tmp_path / "fit.json"), "--format", "mgis"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert re.match(rf"probation: .*fit\.json: .*({complaint})", err)
+
+
+def test_the_good_law_of_these_cases_is_exported(tmp_path):
+    (tmp_path / "fit.json").write_text(json.dumps({"schema": "probation.fit/1", "law": GOOD}), encoding="utf-8")
+    assert export(tmp_path / "fit.json", "mgis").checks[0].error == 0.0
+
+
+@pytest.mark.parametrize(
+    "text", ["[" * 100_000, '{"schema":' * 20_000, "null", "[1]", '{"schema": ["probation.fit/1"]}']
+)
+def test_a_json_of_another_shape_is_refused_in_one_line(tmp_path, capsys, text):
+    (tmp_path / "fit.json").write_text(text, encoding="utf-8")
+    assert main(["export", str(tmp_path / "fit.json"), "--format", "mgis"]) == 2
+    _, err = capsys.readouterr()
+    assert err.count("\n") == 1
+    assert err.startswith(f"probation: {tmp_path / 'fit.json'}: found ")
+
+
+def test_a_campaign_in_json_that_is_no_text_is_refused(tmp_path):
+    answer = {"schema": "probation.fit/1", "law": GOOD, "campaign": {"a": 1}}
+    (tmp_path / "fit.json").write_text(json.dumps(answer), encoding="utf-8")
+    with pytest.raises(InputError, match="campaign: found a value of type dict, expected text"):
+        export(tmp_path / "fit.json", "mgis")
+
+
+def test_a_stress_that_is_not_finite_is_no_round_trip():
+    good = np.array([0.0, 1.0])
+    assert compared("x", "x", [good], [good]).error == 0.0
+    for bad in (np.inf, np.nan):
+        with pytest.raises(InputError, match="law: found a stress beyond all numbers"):
+            compared("x", "x", [np.array([0.0, bad])], [good])
+
+
+def test_a_law_that_never_flows_has_no_table(tmp_path):
+    """With alpha = 1e300 every mode is elastic: no plastic strain at all."""
+    answer = {"schema": "probation.fit/1", "law": changed("parameters.alpha", 1e300)}
+    (tmp_path / "fit.json").write_text(json.dumps(answer), encoding="utf-8")
+    with pytest.raises(InputError, match=r"fit\.json: strain: found 1\.5, expected a strain with plastic flow"):
+        export(tmp_path / "fit.json", "abaqus-plastic", rates=[1e-4, 1e-2])
 
 
 def test_one_format_goes_to_standard_output_and_its_errors_to_the_other(capsys):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.errors import InputError
 from probation.report.estimate import percentage
 
 if TYPE_CHECKING:
@@ -43,7 +44,17 @@ class Check:
 
 
 def compared(name: str, what: str, found: list[FloatArray], expected: list[FloatArray]) -> Check:
-    """The largest difference over several histories, each taken over its own largest stress."""
+    """The largest difference over several histories, each taken over its own largest stress.
+
+    Raises
+    ------
+    InputError
+        If a stress is not finite: nothing can be said of such an export.
+    """
+    if not all(np.isfinite(stress).all() for stress in (*found, *expected)):
+        raise InputError(
+            "law: found a stress beyond all numbers in the check, expected parameters and rates of a solid"
+        )
     errors = [float(np.max(np.abs(a - b))) for a, b in zip(found, expected, strict=True)]
     scales = [float(np.max(np.abs(b))) for b in expected]
     return Check(name, what, max(errors), max(e / s if s else e for e, s in zip(errors, scales, strict=True)))

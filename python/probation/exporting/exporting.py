@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from probation._arrays import one_of
 from probation.errors import InputError
@@ -14,7 +17,6 @@ from probation.exporting.source import law_and_source
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from os import PathLike
 
     from probation.exporting.kind import Format
     from probation.identify.result import Fit
@@ -74,8 +76,8 @@ def export(
     """
     chosen = FORMATS[one_of(format, "format", tuple(FORMATS))]
     law, words = law_and_source(source)
-    return export_law(
-        Request(
+    try:
+        request = Request(
             law=law,
             original=law,
             source=words,
@@ -83,15 +85,17 @@ def export(
             rate=rate,
             rates=None if rates is None else tuple(float(each) for each in rates),
             strain=strain,
-            bulk_modulus=BULK_TO_SHEAR * law.unrelaxed_modulus / 3.0 if bulk_modulus is None else bulk_modulus,
+            bulk_modulus=_usual_bulk_modulus(law) if bulk_modulus is None else bulk_modulus,
             density=density,
-        ),
-        chosen,
-        accuracy=accuracy,
-        modes=modes,
-    )
+        )
+        return export_law(request, chosen, accuracy=accuracy, modes=modes)
+    except InputError as error:
+        if not isinstance(source, str | PathLike):
+            raise
+        raise InputError(f"{fspath(source)}: {error}") from None
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # the checks refuse what is not finite
 def export_law(
     request: Request, chosen: Format[Any], *, accuracy: float | None = None, modes: int | None = None
 ) -> Export:
@@ -104,6 +108,13 @@ def export_law(
         chosen.what, [request.lines(), [check.text for check in checks], list(chosen.kind.say(request, content))]
     )
     return Export(chosen.name, chosen.write(request, content, header), read, checks, request, chosen)
+
+
+def _usual_bulk_modulus(law: Law) -> float:
+    modulus = BULK_TO_SHEAR * law.unrelaxed_modulus / 3.0
+    if not 0.0 < modulus < float("inf"):
+        raise InputError(f"unrelaxed_modulus: found {law.unrelaxed_modulus:g} MPa, expected that of a solid")
+    return modulus
 
 
 def _with_modes(request: Request, chosen: Format[Any], accuracy: float | None, modes: int | None) -> Request:

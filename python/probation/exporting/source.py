@@ -6,6 +6,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from probation._complaint import quoted
 from probation._files import read_json
 from probation.errors import InputError
 from probation.identify.fit import fit
@@ -51,9 +52,13 @@ def _read(path: Path) -> tuple[Law, str]:
     answer = read_json(path, "what fit --json writes")
     schema = answer.get("schema") if isinstance(answer, dict) else None
     if schema != SCHEMA:
-        raise InputError(f"{path}: found the schema {schema!r}, expected {SCHEMA!r}, as fit --json writes it")
+        found = "the schema " + quoted(schema) if isinstance(schema, str) else "no schema"
+        raise InputError(f"{path}: found {found}, expected {SCHEMA!r}, as fit --json writes it")
+    campaign = answer.get("campaign", path.stem)
+    if not isinstance(campaign, str):
+        raise InputError(f"{path}: campaign: found a value of type {type(campaign).__name__}, expected text")
     try:
-        return law_from_answer(_law(answer)), f"identified on {answer.get('campaign', path.stem)} ({path.name})"
+        return law_from_answer(_law(answer)), f"identified on {campaign} ({path.name})"
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

@@ -96,7 +96,7 @@ def _make(request: Request) -> StressTable:
     law, rates = request.law, _rates(request)
     fine = np.geomspace(0.01 * YIELD_OFFSET, request.strain, _FINE)
     curves = [_curve(law, rate, fine) for rate in rates]
-    last = min(float(plastic[-1]) for plastic, _ in curves)
+    last = min(float(plastic[-1]) if len(plastic) else 0.0 for plastic, _ in curves)
     if last <= 2.0 * YIELD_OFFSET:
         raise InputError(f"strain: found {request.strain:g}, expected a strain with plastic flow; take a larger one")
     at = np.geomspace(YIELD_OFFSET, last, _FINE)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import MISSING, fields
 from typing import TYPE_CHECKING, Any
 
+from probation._arrays import as_number, as_whole_number
+from probation._complaint import quoted
 from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
 from probation.law.companion import FORMS
 from probation.law.modal import Law, Spectrum
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from probation.law.companion import Companion
 
 _NAMES = {outside: inside for inside, outside in PARAMETER_KEYS.items()}
@@ -38,28 +40,34 @@ def law_answer(law: Law) -> dict[str, Any]:
     return answer
 
 
-def law_from_answer(answer: Mapping[str, Any]) -> Law:
-    """The law that `law_answer` told of.
+def law_from_answer(answer: object) -> Law:
+    """The law that `law_answer` told of; further keys are left alone.
 
     Raises
     ------
     InputError
-        If a key is missing, or says what no law can have.
+        Naming the key that is missing, or that holds what no law can have.
     """
-    try:
-        parameters = {_NAMES[key]: value for key, value in answer["parameters"].items()}
-        spectrum = answer.get("spectrum")
-        return Law(
-            **parameters,
-            modes=answer["modes"],
-            decades=answer["decades"],
-            companion=_companion_from(answer["companion"]),
-            spectrum=None if spectrum is None else Spectrum(**spectrum),
+    law = _table(answer, "law")
+    parameters = _table(_entry(law, "law", "parameters"), "law.parameters")
+    for key in parameters:
+        if key not in _NAMES:
+            raise InputError(f"law: found no {quoted(key)} that is known, expected what fit --json writes")
+    for name in ("unrelaxed_modulus", "hardening_modulus"):
+        _entry(parameters, "law.parameters", PARAMETER_KEYS[name])
+    spectrum = _spectrum_from(law.get("spectrum"))
+    modes = as_whole_number(_entry(law, "law", "modes"), "law.modes")
+    if spectrum is not None and len(spectrum.modal_weight) != modes:
+        raise InputError(
+            f"law.modes: found {modes} beside a spectrum of {len(spectrum.modal_weight)}, expected as many"
         )
-    except KeyError as missing:
-        raise InputError(f"law: found no {missing.args[0]!r} that is known, expected what fit --json writes") from None
-    except (TypeError, AttributeError) as wrong:
-        raise InputError(f"law: found {' '.join(str(wrong).split())}, expected what fit --json writes") from None
+    return Law(
+        **{_NAMES[key]: as_number(value, f"law.parameters.{key}") for key, value in parameters.items()},
+        modes=modes,
+        decades=as_number(_entry(law, "law", "decades"), "law.decades"),
+        companion=_companion_from(_entry(law, "law", "companion")),
+        spectrum=spectrum,
+    )
 
 
 def _companion_answer(companion: Companion) -> dict[str, object]:
@@ -77,14 +85,48 @@ def _companion_answer(companion: Companion) -> dict[str, object]:
     }
 
 
-def _companion_from(answer: Mapping[str, Any] | None) -> Companion | None:
+def _companion_from(answer: object) -> Companion | None:
     if answer is None:
         return None
-    if answer["form"] not in FORMS:
-        raise InputError(f"law: found the companion form {answer['form']!r}, expected one of {', '.join(FORMS)}")
+    table = _table(answer, "law.companion")
+    form = _entry(table, "law.companion", "form")
+    if not isinstance(form, str) or form not in FORMS:
+        raise InputError(f"law.companion.form: found {_shown(form)}, expected one of {', '.join(FORMS)}")
+    relation: Any = FORMS[form]
+    outside = {name: key for key, name in _COMPANION_NAMES.items()}
+    known = {outside.get(each.name, each.name): each for each in fields(relation)}
+    for key in table:
+        if key not in known and key != "form":
+            raise InputError(f"law.companion: found no {quoted(key)} that is known of the form {form}")
     values = {
-        _COMPANION_NAMES.get(key, key): tuple(value) if isinstance(value, list) else value
-        for key, value in answer.items()
-        if key != "form"
+        each.name: _entry(table, "law.companion", key)
+        for key, each in known.items()
+        if key in table or each.default is MISSING
     }
-    return FORMS[answer["form"]](**values)
+    made: Companion = relation(
+        **{name: tuple(each) if isinstance(each, list) else each for name, each in values.items()}
+    )
+    return made
+
+
+def _spectrum_from(answer: object) -> Spectrum | None:
+    if answer is None:
+        return None
+    table = _table(answer, "law.spectrum")
+    return Spectrum(*(_entry(table, "law.spectrum", key) for key in ("relaxation_ratio", "modal_weight")))
+
+
+def _table(value: object, place: str) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise InputError(f"{place}: found {_shown(value)}, expected a table, as fit --json writes it")
+    return value
+
+
+def _entry(table: Mapping[str, Any], place: str, key: str) -> Any:
+    if key not in table:
+        raise InputError(f"{place}: found no {key}, expected it, as fit --json writes it")
+    return table[key]
+
+
+def _shown(value: object) -> str:
+    return quoted(value) if isinstance(value, str) else f"a value of type {type(value).__name__}"

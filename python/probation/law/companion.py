@@ -6,6 +6,7 @@ A new form is one class here with its engine part in ``cpp/include/probation/com
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from math import isfinite
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -48,8 +49,21 @@ class Companion:
     def __post_init__(self) -> None:
         for each in fields(self):  # type: ignore[arg-type]
             if each.name != "calibrated":
-                object.__setattr__(self, each.name, as_number(getattr(self, each.name), each.name))
+                number = as_number(getattr(self, each.name), each.name)
+                if not isfinite(number):
+                    raise InputError(f"{each.name} is {number}; a finite number is needed")
+                object.__setattr__(self, each.name, number)
+        self._check_calibrated()
         self._engine()
+
+    def _check_calibrated(self) -> None:
+        """Refuse what is no range of rates; a range may be a single rate."""
+        if self.calibrated is None:
+            return
+        rates = as_samples(self.calibrated, "calibrated").tolist()
+        if len(rates) != 2 or not 0.0 < rates[0] <= rates[1]:
+            raise InputError(f"calibrated is {self.calibrated!r}; expected two positive rates, the lower one first")
+        object.__setattr__(self, "calibrated", (rates[0], rates[1]))
 
     def _engine(self) -> _core.CompanionRelation:
         raise NotImplementedError
@@ -225,6 +239,7 @@ class Table(Companion):
         object.__setattr__(self, "rates", tuple(as_samples(self.rates, "rates").tolist()))
         object.__setattr__(self, "tau_max", tuple(as_samples(self.tau_max, "tau_max").tolist()))
         object.__setattr__(self, "rate_floor", as_number(self.rate_floor, "rate_floor"))
+        self._check_calibrated()
         self._engine()
         if self.calibrated is None:
             object.__setattr__(self, "calibrated", (self.rates[0], self.rates[-1]))
@@ -270,6 +285,7 @@ class RateFunction(Companion):
         if times.shape not in ((), rates.shape):
             raise InputError(f"function(rates) has the shape {times.shape}; expected {rates.shape}, as rates")
         times = as_samples(np.broadcast_to(times, rates.shape), "function(rates)")
+        self._check_calibrated()
         object.__setattr__(self, "_table", Table(tuple(rates), tuple(times), self.rate_floor))
 
     def _engine(self) -> _core.CompanionRelation:

@@ -173,6 +173,8 @@ class Law:
             object.__setattr__(self, "spectrum", Spectrum.log_spaced(self.modes, self.decades))
         else:
             object.__setattr__(self, "modes", len(self.spectrum.modal_weight))
+            if not (isfinite(as_number(self.decades, "decades")) and self.decades > 0.0):
+                raise InputError(f"decades is {self.decades}; a positive number is needed")
         for name in self.parameter_names:
             object.__setattr__(self, name, as_number(getattr(self, name), name))
         self.engine  # noqa: B018 - refuses what cannot be

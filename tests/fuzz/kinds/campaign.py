@@ -91,7 +91,15 @@ tau_max_s = [200.0, 30.0, 4.0]
 id = "warm-1"
 file = "warm.csv"
 """
-_SEEDS = (_PLAIN, _FULL, _TABLE)
+SEEDS = (_PLAIN, _FULL, _TABLE)
+_NUMBERS = (
+    "0", "1", "2", "3", "12", "1e-320", "1e-30", "1e-9", "1e-3", "0.5", "1e3", "1e6", "1e15", "1e30", "1e308", "-1",
+)  # fmt: skip
+_WORDS = (
+    '"x"', '"ramp-1"', '"ramp-1.csv"', '"warm.csv"', '"machine.csv"', '"book.xlsx"', '"chamber.csv"', '"strain-rate"',
+    '"hold"', '"other"', '"held-out"', '"identify"', '"csv"', '"excel"', '"vhb"', '"Data"', '"kN"', '"table"',
+    '"power"',
+)  # fmt: skip
 _LINES = (
     "[law]", "[[law]]", "[record]", "[[record]]", "[law.companion]", "[law.fixed]", "[[record.columns]]",
     "[record.noise]", "[a.b.c]", "[[a]]", "[]", "x = 1", "law.modes = 3", "law = 1", "record = []", "record = 1",
@@ -103,13 +111,13 @@ _LINES = (
 
 def make(chance: Random) -> Case:
     """A campaign.toml with one to three lines that went wrong, perhaps a record too."""
-    lines = chance.choice(_SEEDS).splitlines()
+    lines = chance.choice(SEEDS).splitlines()
     for _ in range(chance.choice((1, 1, 1, 1, 2, 3))):
         lines = _changed(lines, chance)
     data = "\n".join(lines).encode("utf-8", "surrogatepass")
-    if chance.random() < 0.07:
+    if chance.random() < 0.04:
         data = damaged(data, chance)
-    files = _records(chance)
+    files = records(chance)
     if chance.random() < 0.03:
         del files[chance.choice(list(files))]
     files["campaign.toml"] = from_bytes(data)
@@ -117,8 +125,8 @@ def make(chance: Random) -> Case:
     return Case(NAME, (asked, chance.choice((".", "campaign.toml"))), files)
 
 
-def _records(chance: Random) -> dict[str, Content]:
-    """The files that the seeds name, one of them gone wrong now and then."""
+def records(chance: Random, wrong: float = 0.1) -> dict[str, Content]:
+    """The files that the seeds name, one of them gone wrong with this probability."""
     chamber = "t,TMean01\n" + "".join(f"{0.5 * at},{23 + 0.01 * at}\n" for at in range(14))
     files: dict[str, Content] = {
         "ramp-1.csv": render(plain()),
@@ -128,7 +136,7 @@ def _records(chance: Random) -> dict[str, Content]:
         "chamber.csv": chamber,
         "book.xlsx": {"zip": members(plain().cells)},
     }
-    if chance.random() < 0.1:
+    if chance.random() < wrong:
         name = chance.choice(list(files))
         files[name] = chance.choice(_WRONG)(to_bytes(files[name]), chance)
     return files
@@ -155,7 +163,7 @@ def _changed(lines: list[str], chance: Random) -> list[str]:
         case "value":
             at = chance.choice([at for at, line in enumerate(lines) if " = " in line] or [0])
             key = lines[at].partition(" = ")[0]
-            lines[at] = f"{key} = {chance.choice(odd.TOML_VALUES)}"
+            lines[at] = f"{key} = {_other_value(lines[at], chance)}"
         case "entry":
             tables = [at for at, line in enumerate(lines) if "{" in line or "[" in line.partition("=")[2]]
             if tables:
@@ -178,6 +186,14 @@ def _changed(lines: list[str], chance: Random) -> list[str]:
         case "moved":
             lines.insert(chance.randrange(len(lines)), lines.pop(at))
     return lines or [""]
+
+
+def _other_value(line: str, chance: Random) -> str:
+    """A value of the same type as often as any other."""
+    old = line.partition(" = ")[2]
+    if chance.random() < 0.5 or old.startswith(("[", "{")):
+        return chance.choice(odd.TOML_VALUES)
+    return chance.choice(_WORDS if old.startswith('"') else _NUMBERS)
 
 
 def _entry_changed(line: str, chance: Random) -> str:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 NAME, SHARE = "field store", 4
 
 _ROWS, _COLUMNS, _TIMES = 2, 3, 24
-_IDENTIFY = (
+IDENTIFY = (
     "field",
     "identify",
     "field.zarr",
@@ -35,7 +35,7 @@ _IDENTIFY = (
     "1",
     "--raw-strain",
 )
-_MAP = ("field", "map", "maps.zarr", "--json", "-")
+MAP = ("field", "map", "maps.zarr", "--json", "-")
 
 
 def make(chance: Random) -> Case:
@@ -47,8 +47,8 @@ def make(chance: Random) -> Case:
         for layer in layers:
             _change(files, layer, chance)
     if not maps:
-        return Case(NAME, _IDENTIFY, files)
-    return Case(NAME, _MAP, files, answer=maps_answer() if layers == {"chunks"} else {})
+        return Case(NAME, IDENTIFY, files)
+    return Case(NAME, MAP, files, answer=maps_answer() if layers == {"chunks"} else {})
 
 
 @cache
@@ -86,7 +86,7 @@ def field_store() -> dict[str, Content]:
 @cache
 def maps_store() -> dict[str, Content]:
     """What `field identify` makes of that field, by file; the folder's own name is left out."""
-    from probation.field import identify_field  # noqa: PLC0415
+    from probation.field.identify import identify_field  # noqa: PLC0415
 
     with tempfile.TemporaryDirectory() as folder:
         _write(Path(folder), field_store())
@@ -102,7 +102,7 @@ def maps_store() -> dict[str, Content]:
 @cache
 def maps_answer() -> dict[str, Any]:
     """What `field map` says of those maps, but for how long they took and where they are."""
-    from probation.field import open_maps  # noqa: PLC0415
+    from probation.field.maps import open_maps  # noqa: PLC0415
 
     with tempfile.TemporaryDirectory() as folder:
         _write(Path(folder), maps_store())

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 NAME, SHARE = "history", 6
 
-_LAW = ("--set", "unrelaxed_modulus_MPa=3000", "--set", "hardening_modulus_MPa=2")
-_TIMES = (("--set", "tau_max_s=5"), ("--companion", "weissenberg:0.00464,0.0367"), ("--companion", "power:0.03,-1"))
+LAW = ("--set", "unrelaxed_modulus_MPa=3000", "--set", "hardening_modulus_MPa=2")
+TIMES = (("--set", "tau_max_s=5"), ("--companion", "weissenberg:0.00464,0.0367"), ("--companion", "power:0.03,-1"))
 
 
 def make(chance: Random) -> Case:
@@ -23,5 +23,5 @@ def make(chance: Random) -> Case:
     data, _ = hostile((*HISTORIES, *HISTORIES, *HISTORIES, *RECORDS), chance)
     scheme = chance.choice(("be2", "sa2", "sa3", "exact"))
     output = chance.choice((("-o", "-"), ("--json", "-"), ()))
-    command = ("simulate", "history-7.csv", "--scheme", scheme, *_LAW, *chance.choice(_TIMES), *output)
+    command = ("simulate", "history-7.csv", "--scheme", scheme, *LAW, *chance.choice(TIMES), *output)
     return Case(NAME, command, {"history-7.csv": from_bytes(data)})
