@@ -67,6 +67,9 @@ SHORTEST_STEP = 1e-15
 LARGEST_PARAMETER = 1e30
 """Largest magnitude of a number in campaign.toml, in its own unit: moduli, times, coefficients, variances."""
 
+MOST_MODES = 10_000
+"""Modes of a law, at most: what the engine has room for."""
+
 LARGEST_DECADES = 100.0
 """Decades that the relaxation times of a law span, at most; the square of the shortest stays above 1e-308 s²."""
 

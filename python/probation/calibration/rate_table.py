@@ -10,6 +10,7 @@ import numpy as np
 
 from probation._arrays import FloatArray, as_samples
 from probation.errors import InputError
+from probation.limits import USABLE, is_usable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -79,6 +80,8 @@ class RateTable:
         for label, value in zip(self.labels, values, strict=True):
             if value <= 0.0 and not (name == "hardening_modulus" and value == 0.0):
                 raise InputError(f"{self.source}, {label}: found {name} = {value:g} {unit}, expected a positive number")
+            if not is_usable(value):
+                raise InputError(f"{self.source}, {label}: found {name} = {value:g} {unit}, expected {USABLE}")
         return values
 
     def __len__(self) -> int:

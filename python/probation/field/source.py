@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 Samples: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
+
+SHOWN_REASON = 200
+"""Characters of a reader's own complaint that are quoted; a codec may name itself by thousands."""
 
 STRAINS = ("true_strain", "engineering_strain", "stretch")
 STRESSES = ("true_stress", "engineering_stress", "force")
@@ -186,13 +191,15 @@ def _opened(path: str) -> xr.Dataset:
     if not Path(path).exists():
         raise InputError(f"{path}: found no such file, expected a zarr store or a netCDF file")
     try:
-        if Path(path).is_dir():
-            load("zarr")
-            opened = xarray.open_dataset(path, engine="zarr", decode_times=False, consolidated=False)
-        else:
-            opened = xarray.open_dataset(path, decode_times=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # zarr's, of entries that are none of its own
+            if Path(path).is_dir():
+                load("zarr")
+                opened = xarray.open_dataset(path, engine="zarr", decode_times=False, consolidated=False)
+            else:
+                opened = xarray.open_dataset(path, decode_times=False)
     except Exception as failure:  # whatever a reader or a codec raises
-        reason = " ".join(str(failure).split())
+        reason = shorten(" ".join(str(failure).split()), SHOWN_REASON, placeholder=" …")
         raise InputError(f"{path}: expected a zarr store or a netCDF file that xarray opens, found: {reason}") from None
     found: xr.Dataset = opened
     return found

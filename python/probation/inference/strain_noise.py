@@ -95,14 +95,15 @@ class StrainNoise:
         """Derivatives of `along` by the law's parameters number `wanted`; shape (n_times, wanted)."""
         columns = []
         for index in wanted:
-            sides = []
             value = law.parameters[index]
             step = _STEP * (abs(value) or 1.0)
-            for sign in (1.0, -1.0):
+            ends = (max(value - step, 0.0), value + step)  # one-sided where the parameter ends, at 0
+            sides = []
+            for end in ends:
                 moved = law.parameters
-                moved[index] = value + sign * step
+                moved[index] = end
                 sides.append(self.along(law.with_parameters(moved), errors))
-            columns.append((sides[0] - sides[1]) / (2.0 * step))
+            columns.append((sides[1] - sides[0]) / (ends[1] - ends[0]))
         return np.column_stack(columns)
 
     def _tangents(self, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:

@@ -14,6 +14,7 @@ import numpy as np
 from probation import _core
 from probation._arrays import FloatArray, as_number, as_samples
 from probation.errors import InputError
+from probation.limits import USABLE, is_usable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -239,6 +240,10 @@ class Table(Companion):
         object.__setattr__(self, "rates", tuple(as_samples(self.rates, "rates").tolist()))
         object.__setattr__(self, "tau_max", tuple(as_samples(self.tau_max, "tau_max").tolist()))
         object.__setattr__(self, "rate_floor", as_number(self.rate_floor, "rate_floor"))
+        for name, values in (("rates", self.rates), ("tau_max", self.tau_max)):
+            for place, value in enumerate(values, 1):
+                if not is_usable(value):
+                    raise InputError(f"{name}: found {value:g} in place {place}, expected {USABLE}")
         self._check_calibrated()
         self._engine()
         if self.calibrated is None:

@@ -9,7 +9,7 @@ from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
 from probation.law.modal import ACCURACIES
-from probation.limits import LARGEST_DECADES, USABLE, is_usable
+from probation.limits import LARGEST_DECADES, MOST_MODES, USABLE, is_usable
 
 COMPANION_FORMS: dict[str, tuple[str, ...]] = {
     "weissenberg": ("slope", "intercept"),
@@ -120,8 +120,8 @@ class LawSettings:
     accuracy: float | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 1:
-            raise InputError(f"law: found modes = {self.modes!r}, expected a whole number of at least 1")
+        if isinstance(self.modes, bool) or not isinstance(self.modes, int) or not 1 <= self.modes <= MOST_MODES:
+            raise InputError(f"law: found modes = {self.modes!r}, expected a whole number from 1 to {MOST_MODES}")
         if not 0 < self.decades <= LARGEST_DECADES:
             raise InputError(
                 f"law: found decades = {self.decades!r}, expected a positive number of at most {LARGEST_DECADES:g}"

@@ -164,8 +164,11 @@ def convert(values: FloatArray, unit: str, target: str) -> FloatArray:
         raise ValueError(f"unit {quoted(unit)}")
     ratio = found.factor / wanted.factor
     shift = (found.offset - wanted.offset) / wanted.factor
-    converted = values * float(ratio.numerator) / float(ratio.denominator)  # of 0.5 %, exactly 0.005
-    return converted + float(shift) if shift else converted
+    with np.errstate(
+        over="ignore"
+    ):  # what is beyond all numbers is refused with its place, as is all beyond the limits
+        converted = values * float(ratio.numerator) / float(ratio.denominator)  # of 0.5 %, exactly 0.005
+        return converted + float(shift) if shift else converted
 
 
 def measures(text: str, target: str) -> bool:
