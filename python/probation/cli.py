@@ -34,7 +34,7 @@ from probation.commands import (
 from probation.commands.delivery import described
 from probation.errors import ConvergenceError, InputError
 from probation.histories.named import nearest
-from probation.report.provenance import running
+from probation.provenance import running
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

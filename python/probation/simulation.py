@@ -12,7 +12,7 @@ from probation.answers import json_answer
 from probation.law.answer import law_answer
 from probation.law.creep import creep
 from probation.law.modal import SCHEMES, Law, Scheme, Start
-from probation.report.provenance import samples_sha256
+from probation.provenance import samples_sha256
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

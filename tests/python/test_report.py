@@ -11,10 +11,10 @@ from PIL import Image
 
 import probation
 from probation.answers import json_answer, plain
+from probation.provenance import provenance, running
 from probation.report.figures import figure_to_svg, house_style, new_figure, save_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
-from probation.report.provenance import provenance, running
 from probation.report.style import COLOURS
 from probation.report.table import Table
 

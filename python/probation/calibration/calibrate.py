@@ -30,8 +30,8 @@ from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
 from probation.law.modal import SCHEMES, Scheme
+from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
-from probation.report.provenance import samples_sha256
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from scipy.special import stdtrit
 from probation.answers import json_answer
 from probation.calibration.rate_table import rate_groups
 from probation.calibration.summary import percent, summary_text
+from probation.estimate import percentage, plus_minus
 from probation.records.saving import companion_text
-from probation.report.estimate import percentage, plus_minus
 
 if TYPE_CHECKING:
     from os import PathLike

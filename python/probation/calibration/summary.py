@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.estimate import percentage, plus_minus
+from probation.estimate import percentage, plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:

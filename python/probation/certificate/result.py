@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from probation.answers import json_answer
+from probation.estimate import plus_minus
 from probation.inference.parameter import SYMBOLS, UNITS, outside_name
-from probation.report.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:

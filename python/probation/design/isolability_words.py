@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.design.telling_apart import DETECTED
-from probation.report.estimate import percentage
+from probation.estimate import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,7 +6,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
-from probation.report.estimate import percentage
+from probation.estimate import percentage
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis

@@ -17,7 +17,7 @@ from probation.diagnosis.words import (
     short_ids,
     span_text,
 )
-from probation.report.estimate import plus_minus
+from probation.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation.detection.gap_test import LEVEL
 from probation.diagnosis.result import UNKNOWN
-from probation.report.estimate import plus_minus
+from probation.estimate import plus_minus
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

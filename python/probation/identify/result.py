@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from probation.answers import json_answer
+from probation.estimate import percentage
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
-from probation.report.estimate import percentage
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
-    from os import PathLike
-
-    from matplotlib.figure import Figure
-
     from probation._arrays import FloatArray
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
@@ -69,8 +65,10 @@ class RecordFit(ModelledRecord):
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class Fit(Result):
     """Parameters identified on a campaign, and what is known about them.
+
+    `plot` draws stress against strain with the fit residuals below, as the paper's Figure 2.
 
     Attributes
     ----------
@@ -145,24 +143,6 @@ class Fit:
         return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
 
     @property
-    def noise_text(self) -> str:
-        """What the standard errors take the noise for, in words."""
-        what = {
-            "plain": "white noise of the stress",
-            "autocorrelated": "autocorrelated noise of the stress",
-            "strain-noise": "noise of the stress, and of the strain as the law carries it there",
-            "strain-noise-frozen": "noise of the stress and, at the plain estimate, of the strain",
-            "plain, strain noise resampled": "white noise of the stress, and that of the strain drawn again",
-        }[self.weighting]
-        correlated = [each for each in self.records.values() if each.noise_correlation > 0.0]
-        if correlated:
-            what += ", AR(1) " + ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
-        if self.newey_west:
-            what += "; autocorrelated fit residuals (Newey-West)"
-        intervals = "; intervals from the profile likelihood" if self.profiles else ""
-        return f"standard errors for {what}{intervals}"
-
-    @property
     def verdict(self) -> str:
         """One sentence."""
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
@@ -179,49 +159,6 @@ class Fit:
             return f"All parameters are identifiable; {quality}."
         names = ", ".join(f"{SYMBOLS[p.name]} ({p.status.replace('_', ' ')})" for p in poor)
         return f"Not all parameters are determined by these records: {names}; {quality}."
-
-    def summary(self) -> str:
-        """Verdict first, then numbers, then details."""
-        lines = [f"{self.campaign}: {self.verdict}", ""]
-        width = max(len(f"{SYMBOLS[n]} [{p.unit}]" if p.unit else SYMBOLS[n]) for n, p in self.parameters.items())
-        for name, parameter in self.parameters.items():
-            label = f"{SYMBOLS[name]} [{parameter.unit}]" if parameter.unit else SYMBOLS[name]
-            lines.append(f"  {label:<{width}}  {estimate_text(parameter)}, {parameter.status.replace('_', ' ')}")
-        second = self.law.parameter_names[1]
-        label = f"E_u·{SYMBOLS[second]}" + (f" [{self.product.unit}]" if self.product.unit else "")
-        lines.append(f"  {label}  {estimate_text(self.product)}, {self.product.status.replace('_', ' ')}")
-        if len(self.names) > 1:
-            lines += ["", "  correlations: " + ", ".join(self._correlations())]
-        lines.append(f"  condition number of the scaled Jacobian: {self.condition_number:.3g}")
-        lines += [
-            "",
-            f"  fit residual [MPa]: rms {self.rms_MPa:.4g}, noise {self.noise_MPa:.4g}, bias {self.bias_MPa:.4g}",
-        ]
-        for each in self.records.values():
-            lines.append(
-                f"    {each.id}: rms {each.rms_MPa:.4g}, largest {each.max_MPa:.4g}, noise {each.noise_MPa:.4g} MPa; "
-                f"rate: {each.excitation.differentiator}"
-            )
-            lines.append(f"      {each.bias.text}")
-        if self.scheme_shift:
-            worst = max(self.scheme_shift, key=lambda name: abs(self.scheme_shift[name]))
-            shift = self.scheme_shift[worst]
-            lines.append(
-                f"  error of the scheme itself: up to {self.scheme_error_MPa:.2g} MPa, "
-                f"shifts {SYMBOLS[worst]} by {shift:+.2g} standard errors"
-                + ("; use sa3, or sample more finely" if abs(shift) > 0.5 else "")
-            )
-        steps = f", {self.substeps} steps from sample to sample" if self.substeps > 1 else ""
-        lines += ["", f"  {self.method}, scheme {self.scheme}{steps}, start {self.start}", f"  {self.noise_text}"]
-        lines += [f"  warning: {warning}" for warning in self.warnings]
-        return "\n".join(lines)
-
-    def _correlations(self) -> list[str]:
-        return [
-            f"{SYMBOLS[self.names[i]]}–{SYMBOLS[self.names[j]]} {self.correlation[i, j]:+.3f}"
-            for i in range(len(self.names))
-            for j in range(i)
-        ]
 
     def to_dict(self) -> dict[str, Any]:
         """The answer in the form of the contract, `probation.fit/1`, as Python objects."""
@@ -256,28 +193,3 @@ class Fit:
     def to_json(self) -> str:
         """The answer as JSON text."""
         return json_answer("probation.fit/1", self.to_dict())
-
-    def plot(self) -> Figure:
-        """Stress against strain with the fit residuals below, as the paper's Figure 2."""
-        from probation.report.fit_page import fit_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return fit_figure(self)
-
-    def report(self, path: str | PathLike[str]) -> Path:
-        """Write a self-contained HTML page and return its path."""
-        from probation.report.fit_page import write_fit_page  # noqa: PLC0415
-
-        return write_fit_page(self, Path(path))
-
-
-def estimate_text(parameter: Parameter) -> str:
-    """Value, standard error and interval with the digits that mean something."""
-    if parameter.se is None or parameter.interval95 is None:
-        return f"{parameter.value:.6g}"
-    digits = max(int(np.ceil(-np.log10(parameter.se))) + 1, 0) if parameter.se > 0.0 else 6
-    relative = percentage(parameter.se / abs(parameter.value) if parameter.value else np.inf)
-    low, high = parameter.interval95
-    return (
-        f"{parameter.value:.{digits}f} ± {parameter.se:.{digits}f} ({relative} %), "
-        f"95 % [{low:.{digits}f}, {high:.{digits}f}]"
-    )

@@ -9,10 +9,10 @@ import numpy as np
 from probation.certificate.hardening import FROM_STRAIN
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.law.kinematics import haward_thackray_strain
+from probation.provenance import provenance
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
-from probation.report.provenance import provenance
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from probation.calibration.summary import (
     residuals_table,
     scores_table,
 )
+from probation.provenance import provenance
 from probation.report.companion_figure import companion_figure
 from probation.report.page import Page, Section, picture
-from probation.report.provenance import provenance
 from probation.report.table import Table
 
 if TYPE_CHECKING:

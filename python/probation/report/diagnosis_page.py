@@ -10,11 +10,11 @@ from probation.diagnosis.summary import gap_text, next_test_text, signs
 from probation.diagnosis.tables import base_table, leading, mended_by, shrink_table, where_table, which_table
 from probation.diagnosis.words import closed, explanation_name, listed, name_of, percent, span_text
 from probation.effects.registry import effects as known_effects
+from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
 from probation.report.isolability_figure import isolability_figure
 from probation.report.isolability_page import HOW_TO_READ_THE_MAP
 from probation.report.page import Gallery, Page, Section, picture
-from probation.report.provenance import provenance
 from probation.report.residual_map import residual_map
 from probation.report.table import Table
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.provenance import provenance
 from probation.report import excitation_figures as figures
 from probation.report.page import Page, Section, picture
-from probation.report.provenance import provenance
 from probation.report.table import Table
 
 if TYPE_CHECKING:

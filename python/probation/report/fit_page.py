@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.identify.result import estimate_text
 from probation.inference.parameter import SYMBOLS, Parameter
+from probation.provenance import provenance
+from probation.report.fit_summary import estimate_text, noise_text
 from probation.report.page import Page, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
-from probation.report.provenance import provenance
 from probation.report.residual_plots import profile_figure, residual_parts
 from probation.report.table import Table
 
@@ -31,8 +31,8 @@ def sensitivity_figure(fit: Fit, record: RecordFit) -> Figure:
     return sensitivities(record.true_strain, scaled, [SYMBOLS[name] for name in fit.law.parameter_names])
 
 
-def write_fit_page(fit: Fit, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_fit_page(fit: Fit, path: Path) -> None:
+    """Write the page."""
     good = fit.bias_MPa <= fit.noise_MPa
     poor = any(p.status not in ("identifiable", "held") for p in fit.parameters.values())
     Page(
@@ -43,7 +43,6 @@ def write_fit_page(fit: Fit, path: Path) -> Path:
         sections=(_parameters(fit), _records(fit), *_profiles(fit), _sensitivities(fit), _how(fit)),
         provenance=provenance(fit.data_sha256),
     ).write(path)
-    return path
 
 
 def _curve(record: RecordFit) -> Curve:
@@ -134,10 +133,11 @@ def _sensitivities(fit: Fit) -> Section:
 
 
 def _how(fit: Fit) -> Section:
+    noise = noise_text(fit)
     text = (
         f"Method {fit.method}; scheme {fit.scheme} with {fit.substeps} steps from sample to sample, start {fit.start}; "
         f"{fit.law.spectrum.modal_weight.size if fit.law.spectrum else fit.law.modes} modes. "
-        f"{fit.noise_text[0].upper()}{fit.noise_text[1:]}."
+        f"{noise[0].upper()}{noise[1:]}."
     )
     shift = ", ".join(f"{SYMBOLS[name]} {moved:+.2g}" for name, moved in fit.scheme_shift.items())
     scheme = (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
+from probation.provenance import provenance
 from probation.report.isolability_figure import isolability_figure
 from probation.report.page import Page, Section, picture
-from probation.report.provenance import provenance
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,8 +12,8 @@ from markupsafe import Markup
 
 from probation._files import write_whole
 from probation._text import printable_lines
+from probation.provenance import Provenance, provenance
 from probation.report.figures import figure_to_svg
-from probation.report.provenance import Provenance, provenance
 from probation.report.style import css_variables
 from probation.report.table import Table
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from probation.histories.necking import NECKING_SETS
 from probation.law.modal import Law
+from probation.provenance import samples_sha256
 from probation.published.experiments import GRIP_LAWS, experiment, necking_history
-from probation.report.provenance import samples_sha256
 from probation.schemes.candidates import StrainPath
 from probation.schemes.smooth import RampHistory, SmoothHistory
 

@@ -14,7 +14,7 @@ from scipy.integrate import cumulative_simpson
 from probation._arrays import FloatArray
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.report.estimate import percentage, plus_minus
+from probation.estimate import percentage, plus_minus
 from probation.report.table import Table
 from probation.smoothing.differences import differences
 from probation.smoothing.excitation import Excitation, excite

@@ -9,8 +9,8 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.errors import InputError
+from probation.estimate import percentage
 from probation.records.record import Record
-from probation.report.estimate import percentage
 from probation.report.table import Table
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from probation.report.estimate import plus_minus
+from probation.estimate import plus_minus
 from probation.report.table import Table
 
 if TYPE_CHECKING:

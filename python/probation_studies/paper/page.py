@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.provenance import provenance
 from probation.report.page import Page, Picture, Section, picture
-from probation.report.provenance import provenance
 from probation_studies.paper.exhibit import TOLERANCE, Drawing
 
 if TYPE_CHECKING:

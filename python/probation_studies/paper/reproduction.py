@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from probation._files import make_folder, write_whole
 from probation.answers import json_answer
 from probation.errors import InputError
+from probation.provenance import samples_sha256
 from probation.report.figures import save_figure
-from probation.report.provenance import samples_sha256
 from probation.report.table import Table
 from probation_studies.paper.exhibit import Settings
 from probation_studies.paper.exhibits import named_exhibits

@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.report.estimate import percentage, plus_minus
+from probation.estimate import percentage, plus_minus
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,38 @@
+"""Which function says, draws or writes which result: one line each.
+
+A result is named by its module and class, a renderer by its module in `probation.report` and its function. Both are
+names, so that a summary does not load matplotlib.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+RENDERERS: dict[str, dict[str, str]] = {
+    "identify.result.Fit": {
+        "summary": "fit_summary.fit_summary",
+        "plot": "fit_page.fit_figure",
+        "report": "fit_page.write_fit_page",
+    },
+}
+
+
+def renderer(result: type, what: str) -> Callable[..., Any]:
+    """The function that makes `what` of results of a class; a class without a line of its own has its parent's.
+
+    Parameters
+    ----------
+    result : type
+    what : {"summary", "plot", "report"}
+    """
+    for each in result.__mro__:
+        name = f"{each.__module__}.{each.__qualname__}".removeprefix("probation.")
+        if name in RENDERERS:
+            module, _, function = RENDERERS[name][what].rpartition(".")
+            found: Callable[..., Any] = getattr(import_module(f"probation.report.{module}"), function)
+            return found
+    raise LookupError(f"{result.__name__} has no line in probation/report/renderers.py")

@@ -1,0 +1,1 @@
+"""What every answer has in common; the answers themselves stand beside the methods that find them."""
