@@ -21,6 +21,7 @@ from probation.law.settings import LawSettings
 from probation.provenance import provenance, samples_sha256
 from probation.published.experiments import Twin, experiment, twin_campaign
 from probation.published.numbers import UNRELAXED_MODULUS
+from probation.report.certificate_summary import parameter_table, prediction_table
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
@@ -141,8 +142,8 @@ def probation_test() -> Outcome:
         passed=found.verdict == "intrinsic_except" and not found.parameters["hardening_modulus"].passes,
         parts=(
             "The twins carry the paper's own parameters: α and G differ between the kinds of test, E_u does not.",
-            found.parameter_table(),
-            found.prediction_table(),
+            parameter_table(found),
+            prediction_table(found),
             picture(figure, "Measured, predicted with nothing adjusted, and identified alone (Figures 4 to 6)"),
         ),
         answer=json.loads(found.to_json()),

@@ -10,6 +10,12 @@ from probation.certificate.hardening import FROM_STRAIN
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.law.kinematics import haward_thackray_strain
 from probation.provenance import provenance
+from probation.report.certificate_summary import (
+    hardening_table,
+    identification_table,
+    parameter_table,
+    prediction_table,
+)
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
@@ -131,8 +137,8 @@ def hardening_figure(found: Certificate) -> Figure:
     return figure
 
 
-def write_certificate_page(found: Certificate, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_certificate_page(found: Certificate, path: Path) -> None:
+    """Write the page."""
     sections = [_prediction(found), _parameters(found), _identification(found)]
     if found.without_companion:
         sections.append(_without_companion(found))
@@ -148,7 +154,6 @@ def write_certificate_page(found: Certificate, path: Path) -> Path:
         sections=tuple(sections),
         provenance=provenance(found.data_sha256),
     ).write(path)
-    return path
 
 
 def _prediction(found: Certificate) -> Section:
@@ -161,7 +166,7 @@ def _prediction(found: Certificate) -> Section:
     return Section(
         "Prediction",
         (
-            found.prediction_table(),
+            prediction_table(found),
             "The error is judged without the noise: the tolerance is "
             f"{100 * found.tolerance:g} % of the largest stress of each record.",
             picture(
@@ -177,7 +182,7 @@ def _parameters(found: Certificate) -> Section:
     return Section(
         "Does every parameter keep its value?",
         (
-            found.parameter_table(),
+            parameter_table(found),
             "Each record is identified alone, held-out ones too, after the predictions were made. A standard error "
             "holds the noise, the wave that the law leaves behind (taken as a sample of a bias that may also hide "
             "behind the parameters), and the uncertainty of the E_u that is held. p is the chance of values that "
@@ -197,7 +202,7 @@ def _identification(found: Certificate) -> Section:
         "is its identification 4. Where those differ much in E_u and hardly in what is left, the record does not tell "
         "E_u from the relaxation times."
     )
-    return Section("Each record by itself", (found.identification_table(), text))
+    return Section("Each record by itself", (identification_table(found), text))
 
 
 def _without_companion(found: Certificate) -> Section:
@@ -217,7 +222,7 @@ def _hardening(found: Certificate) -> Section:
         "The regression assumes that all viscous stress stays constant; where it relaxes or grows with the strain rate "
         "the slope differs from the G that the law needs."
     )
-    return Section("G by regression", (found.hardening_table(), text, picture(hardening_figure(found), caption)))
+    return Section("G by regression", (hardening_table(found), text, picture(hardening_figure(found), caption)))
 
 
 def _how(found: Certificate) -> Section:

@@ -18,6 +18,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "fit_page.fit_figure",
         "report": "fit_page.write_fit_page",
     },
+    "certificate.result.Certificate": {
+        "summary": "certificate_summary.certificate_summary",
+        "plot": "certificate_page.certificate_figure",
+        "report": "certificate_page.write_certificate_page",
+    },
 }
 
 

@@ -12,6 +12,7 @@ from probation.certificate.certify import certify
 from probation.inference.parameter import outside_name
 from probation.published.experiments import twin_campaign
 from probation.report.certificate_page import certificate_figure, parameter_figure
+from probation.report.certificate_summary import parameter_table, prediction_table
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings
 from probation_studies.paper.wavy_bias import drawn_wave
 
@@ -47,12 +48,12 @@ def exhibit(settings: Settings) -> Exhibit:
         f"most, and G differs by {100.0 * hardening.spread:.0f} %. E_u passes either way.",
         parts=(
             plain.headline,
-            plain.parameter_table(),
-            plain.prediction_table(),
+            parameter_table(plain),
+            prediction_table(plain),
             Drawing("certificate", certificate_figure(plain), "The twins measured, predicted and identified alone"),
             f"With a wavy bias of at most {', '.join(f'{size:g}' for size in LARGEST_BIAS.values())} MPa: "
             + biased.headline,
-            biased.parameter_table(),
+            parameter_table(biased),
             Drawing("certificate-parameters", parameter_figure(biased), "E_u, α and G by experiment, bias allowed for"),
         ),
         answer={

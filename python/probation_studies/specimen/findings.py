@@ -11,6 +11,7 @@ import numpy as np
 from probation.answers import json_answer
 from probation.certificate.certify import certify
 from probation.diagnosis.diagnose import diagnose
+from probation.report.certificate_summary import parameter_table, prediction_table
 from probation.report.table import Table
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ class Findings:
         for judged, words in ((self.control, "The control, without a neck's triaxiality"), (self.neck, "The specimen")):
             if judged is not None:
                 parts += [f"{words}: probation test\n{judged.certificate.headline}"]
-                parts += [judged.certificate.parameter_table().text(), judged.certificate.prediction_table().text()]
+                parts += [parameter_table(judged.certificate).text(), prediction_table(judged.certificate).text()]
                 parts += [f"{words}: diagnosis\n{judged.diagnosis.summary()}", blame_table(judged).text()]
         return "\n\n".join(parts)
 
