@@ -91,3 +91,11 @@ def apart(one: Score, other: Score) -> bool:
     if count == 0 or not np.isfinite(other.rms):
         return False
     return bool(other.rms**2 > float(fdtri(count, count, 0.95)) * one.rms**2)
+
+
+def percent(error: float, sign: str = "") -> str:
+    """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
+    if not np.isfinite(error):
+        return "–"
+    digits = ".0f" if abs(error) >= 0.1 else ".1f" if abs(error) >= 0.0005 else ".1g"
+    return f"{100.0 * error:{sign}{digits}}"

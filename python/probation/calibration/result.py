@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import stdtrit
 
 from probation.answers import json_answer
+from probation.calibration.cross_validation import percent
 from probation.calibration.rate_table import rate_groups
-from probation.calibration.summary import percent, summary_text
 from probation.estimate import percentage, plus_minus
 from probation.records.saving import companion_text
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
-    from os import PathLike
-
-    from matplotlib.figure import Figure
-
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.calibration.cross_validation import Score
@@ -113,8 +109,10 @@ _REASONS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class Calibration(Result):
     """Companion relations calibrated on one source.
+
+    `plot` draws tau_max and We against the strain rate, as the paper's Figure S2.
 
     Attributes
     ----------
@@ -215,10 +213,6 @@ class Calibration:
             sentence += f"; {each.form.name} {told}"
         return sentence
 
-    def summary(self) -> str:
-        """Verdict first, then the relations, then the scores."""
-        return summary_text(self)
-
     def toml(self) -> str:
         """The [law.companion] to paste into a campaign.toml, covariance and range included."""
         return companion_text(self.companion.settings())
@@ -313,15 +307,3 @@ class Calibration:
     def to_json(self) -> str:
         """The answer as JSON text, schema "probation.companion/1"."""
         return json_answer(SCHEMA, self.to_dict())
-
-    def plot(self) -> Figure:
-        """tau_max and We against the strain rate: the paper's Figure S2."""
-        from probation.report.companion_figure import companion_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return companion_figure(self)
-
-    def report(self, path: str | PathLike[str]) -> Path:
-        """Write a self-contained HTML page and return its path."""
-        from probation.report.companion_page import write_companion_page  # noqa: PLC0415
-
-        return write_companion_page(self, Path(path))

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.calibration.summary import (
+from probation.provenance import provenance
+from probation.report.companion_figure import companion_figure
+from probation.report.companion_summary import (
     foretold_table,
     notes_on,
     relations_table,
     residuals_table,
     scores_table,
 )
-from probation.provenance import provenance
-from probation.report.companion_figure import companion_figure
 from probation.report.page import Page, Section, picture
 from probation.report.table import Table
 
@@ -32,8 +32,8 @@ _LEADS = {
 }
 
 
-def write_companion_page(found: Calibration, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_companion_page(found: Calibration, path: Path) -> None:
+    """Write the page."""
     sections = [_relations(found), _choice(found), _use(found)]
     if found.paper is not None:
         sections.insert(2, _paper(found.paper))
@@ -47,7 +47,6 @@ def write_companion_page(found: Calibration, path: Path) -> Path:
         sections=tuple(sections),
         provenance=provenance(found.data_sha256),
     ).write(path)
-    return path
 
 
 def _relations(found: Calibration) -> Section:

@@ -23,6 +23,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "certificate_page.certificate_figure",
         "report": "certificate_page.write_certificate_page",
     },
+    "calibration.result.Calibration": {
+        "summary": "companion_summary.companion_summary",
+        "plot": "companion_figure.companion_figure",
+        "report": "companion_page.write_companion_page",
+    },
 }
 
 

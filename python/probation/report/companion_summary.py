@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.calibration.cross_validation import percent
 from probation.estimate import percentage, plus_minus
 from probation.report.table import Table
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from probation.calibration.result import Calibration
 
 
-def summary_text(found: Calibration) -> str:
+def companion_summary(found: Calibration) -> str:
     """Verdict first, then the relations, then the scores, then what should be known about them."""
     tables = [relations_table(found), residuals_table(found), scores_table(found), foretold_table(found)]
     parts = [f"{found.source}: {found.verdict}", *(each.text() for each in tables if each is not None)]
@@ -166,14 +167,6 @@ def parameters_text(companion: CalibratedCompanion) -> str:
         return f"{len(errors)} points"
     pairs = zip(companion.parameter_names, companion.parameters, errors, strict=True)
     return ", ".join(f"{name} {plus_minus(value, error)}" for name, value, error in pairs)
-
-
-def percent(error: float, sign: str = "") -> str:
-    """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
-    if not np.isfinite(error):
-        return "–"
-    digits = ".0f" if abs(error) >= 0.1 else ".1f" if abs(error) >= 0.0005 else ".1g"
-    return f"{100.0 * error:{sign}{digits}}"
 
 
 def _scatter_text(scatter: float) -> str:
