@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.smoothing.answer import RecordExcitation
+    from probation.smoothing.answer import ExcitationAnswer, RecordExcitation
     from probation.smoothing.comparison import Comparison
     from probation.smoothing.necking import NeckingFit
 
@@ -37,6 +37,11 @@ def excitation_figure(answer: RecordExcitation) -> Figure:
         below.set_xlabel(_TIME)
         figure.align_ylabels()
     return figure
+
+
+def answer_figure(answer: ExcitationAnswer) -> Figure:
+    """The one record of an answer."""
+    return excitation_figure(answer.only("a plot"))
 
 
 def strain_figure(answer: RecordExcitation) -> Figure:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.provenance import provenance
 from probation.report import excitation_figures as figures
+from probation.report.excitation_summary import facts_table
 from probation.report.page import Page, Section, picture
 from probation.report.table import Table
 
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
     from probation.smoothing.necking import NeckingFit
 
 
-def write_excitation_page(answer: ExcitationAnswer, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_excitation_page(answer: ExcitationAnswer, path: Path) -> None:
+    """Write the page."""
     sections = []
     for record in answer.records:
         sections += [_record(record), *([_two_steps(record, record.necking)] if record.necking else [])]
@@ -31,12 +32,11 @@ def write_excitation_page(answer: ExcitationAnswer, path: Path) -> Path:
         sections=tuple(sections),
         provenance=provenance(hashes[0] if len(set(hashes)) == 1 else ""),
     ).write(path)
-    return path
 
 
 def _record(record: RecordExcitation) -> Section:
     name = record.id
-    parts: list[str | Table | Picture] = [record.table(), *record.warnings]
+    parts: list[str | Table | Picture] = [facts_table(record), *record.warnings]
     parts += [
         picture(figures.strain_figure(record), f"{name}: measured and used strain; below, their difference."),
         picture(

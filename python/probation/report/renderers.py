@@ -28,6 +28,18 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "companion_figure.companion_figure",
         "report": "companion_page.write_companion_page",
     },
+    "smoothing.answer.RecordExcitation": {
+        "plot": "excitation_figures.excitation_figure",
+    },
+    "smoothing.answer.ExcitationAnswer": {
+        "summary": "excitation_summary.excitation_summary",
+        "plot": "excitation_figures.answer_figure",
+        "report": "excitation_page.write_excitation_page",
+    },
+    "smoothing.comparison.Comparison": {
+        "summary": "excitation_summary.comparison_summary",
+        "plot": "excitation_figures.comparison_figure",
+    },
 }
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,17 +13,14 @@ from scipy.integrate import cumulative_simpson
 from probation._arrays import FloatArray
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.estimate import percentage, plus_minus
-from probation.report.table import Table
+from probation.estimate import percentage
+from probation.results.rendering import Plotted, Result
 from probation.smoothing.differences import differences
 from probation.smoothing.excitation import Excitation, excite
 from probation.smoothing.necking import NeckingFit, fit_necking
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from os import PathLike
-
-    from matplotlib.figure import Figure
 
     from probation.records.record import Record
     from probation.smoothing.methods import Method
@@ -45,8 +41,10 @@ CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se
 
 
 @dataclass(frozen=True, eq=False)
-class RecordExcitation:
+class RecordExcitation(Plotted):
     """One record's excitation beside what was measured.
+
+    `plot` draws strain, residual, and the rate with its band.
 
     Attributes
     ----------
@@ -129,37 +127,6 @@ class RecordExcitation:
         return f"{self.id}: {said}, {known}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
 
     @property
-    def facts(self) -> tuple[tuple[str, str], ...]:
-        """Quantity and value, as text."""
-        excitation = self.excitation
-        known = "given with the record" if self.record.noise.strain is not None else "estimated"
-        rate, strain = excitation.rate, excitation.true_strain
-        parts = [percentage(each) for each in _spread(self.relative_error)]
-        rows = [
-            ("method", f"{excitation.method}: {excitation.differentiator}"),
-            ("samples", f"{len(self.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
-            ("strain noise", f"{excitation.strain_noise:.2g}, {known}{self._correlation()}"),
-            ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
-            ("rate at the start", f"{plus_minus(rate[0], excitation.rate_se[0])} 1/s"),
-            ("rate at the end", f"{plus_minus(rate[-1], excitation.rate_se[-1])} 1/s"),
-            ("its standard error", "median {}, 95 % below {}, largest {} %".format(*parts)),
-            ("integrated rate − measured strain", f"{np.abs(self.integrated - self.measured).max():.2g} at most"),
-        ]
-        if excitation.strain_rate is None:
-            rows[-1:] = []
-        if self.necking is not None:
-            fit = self.necking
-            rows += [
-                ("(A-1) leaves", f"{np.std(fit.strain.first_residual):.2g} (rms of the strain)"),
-                ("sines", f"{len(fit.strain.sines.frequencies)} leave {np.std(fit.strain.final_residual):.2g}"),
-                (
-                    "the rate's own fit",
-                    f"{len(fit.rate.sines.frequencies)} sines; integrated {fit.largest_drift:.2g} off",
-                ),
-            ]
-        return tuple(rows)
-
-    @property
     def warnings(self) -> tuple[str, ...]:
         """What a reader should know."""
         excitation = self.excitation
@@ -175,10 +142,6 @@ class RecordExcitation:
             told.append("the differences of the strain are mostly noise: another method smooths it")
         return tuple(told)
 
-    def table(self) -> Table:
-        """The facts as a table."""
-        return Table(("quantity", "value"), self.facts, left=2)
-
     def content(self) -> dict[str, object]:
         """What goes into JSON."""
         excitation = self.excitation
@@ -193,7 +156,7 @@ class RecordExcitation:
             "noise_inflation": excitation.noise_inflation,
             "rate_jumps_s": [float(self.time[jump]) for jump in excitation.jumps],
             "strain_rate_per_s": {"smallest": float(excitation.rate.min()), "largest": float(excitation.rate.max())},
-            "relative_se_of_rate": dict(zip(("median", "p95", "largest"), _spread(self.relative_error), strict=True)),
+            "relative_se_of_rate": dict(zip(("median", "p95", "largest"), spread(self.relative_error), strict=True)),
             "integrated_rate_minus_measured_strain": float(np.abs(self.integrated - self.measured).max()),
             "data_sha256": self.record.sha256,
             "warnings": list(self.warnings),
@@ -221,12 +184,6 @@ class RecordExcitation:
         rows = zip(*(each.tolist() for each in columns), strict=True)
         return "\n".join([CSV_HEADER, *(",".join(repr(value) for value in row) for row in rows)]) + "\n"
 
-    def plot(self) -> Figure:
-        """Strain, residual, and the rate with its band."""
-        from probation.report.excitation_figures import excitation_figure  # noqa: PLC0415 - matplotlib is slow to load
-
-        return excitation_figure(self)
-
     def _missed(self) -> str:
         """Where the used strain misses the measured one by far more than noise, such as the run-up of a machine."""
         off = np.flatnonzero(np.abs(self.residual) > FAR * self.excitation.strain_noise)
@@ -239,14 +196,12 @@ class RecordExcitation:
             "are outliers; raw takes them as they are"
         )
 
-    def _correlation(self) -> str:
-        grown = self.excitation.noise_inflation
-        return "" if grown <= CORRELATED else f", correlated from sample to sample (×{grown:.2g})"
-
 
 @dataclass(frozen=True, eq=False)
-class ExcitationAnswer:
+class ExcitationAnswer(Result):
     """The excitation of some records.
+
+    `plot` draws strain, residual, and the rate with its band, of one record; with several it raises InputError.
 
     Attributes
     ----------
@@ -257,14 +212,6 @@ class ExcitationAnswer:
 
     source: str
     records: tuple[RecordExcitation, ...]
-
-    def summary(self) -> str:
-        """A verdict per record, then a table and warnings for each."""
-        parts = ["\n".join(each.verdict for each in self.records)]
-        for each in self.records:
-            title = [each.id] if len(self.records) > 1 else []
-            parts.append("\n".join([*title, each.table().text(), *(f"  warning: {text}" for text in each.warnings)]))
-        return "\n\n".join(parts)
 
     def to_json(self) -> str:
         """As JSON, schema "probation.excitation/1"."""
@@ -279,25 +226,21 @@ class ExcitationAnswer:
         InputError
             If there is more than one record.
         """
-        return self._only("a CSV file").to_csv()
+        return self.only("a CSV file").to_csv()
 
-    def plot(self) -> Figure:
-        """Strain, residual, and the rate with its band.
+    def only(self, what: str) -> RecordExcitation:
+        """The one record.
+
+        Parameters
+        ----------
+        what : str
+            What needs it, for the message.
 
         Raises
         ------
         InputError
-            If there is more than one record.
+            If there are several.
         """
-        return self._only("a plot").plot()
-
-    def report(self, path: str | PathLike[str]) -> Path:
-        """Write the page and return its path."""
-        from probation.report.excitation_page import write_excitation_page  # noqa: PLC0415
-
-        return write_excitation_page(self, Path(path))
-
-    def _only(self, what: str) -> RecordExcitation:
         if len(self.records) > 1:
             names = ", ".join(each.id for each in self.records)
             raise InputError(f"{self.source}: found the records {names}, expected one for {what}; choose by its id")
@@ -338,7 +281,7 @@ def describe_excitation(
     return ExcitationAnswer(source or ", ".join(record.id for record in records), tuple(described))
 
 
-def _spread(error: FloatArray) -> tuple[float, float, float]:
+def spread(error: FloatArray) -> tuple[float, float, float]:
     """Median, 95 % quantile and largest."""
     if not error.size:
         return 0.0, 0.0, 0.0

@@ -11,7 +11,7 @@ from probation.answers import json_answer
 from probation.errors import InputError
 from probation.estimate import percentage
 from probation.records.record import Record
-from probation.report.table import Table
+from probation.results.rendering import Plotted, Summarised
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES
 from probation.smoothing.methods import DEFAULT, SMOOTHERS
@@ -19,7 +19,6 @@ from probation.smoothing.methods import DEFAULT, SMOOTHERS
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from matplotlib.figure import Figure
 
 NOISES = (2e-5, 1e-4, 3e-4, 1e-3)
 """Standard deviations of the strain noise [-]."""
@@ -50,8 +49,10 @@ class Closeness:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Summarised, Plotted):
     """All methods on histories whose rate is known.
+
+    `plot` draws the errors over the noise, one panel per history.
 
     Attributes
     ----------
@@ -68,10 +69,6 @@ class Comparison:
     methods: tuple[str, ...]
     draws: int
     seed: int
-
-    def summary(self) -> str:
-        """Verdict, then a table of errors, then one of coverage."""
-        return "\n\n".join([self.verdict, self.errors.text(), self.coverage.text()])
 
     @property
     def verdict(self) -> str:
@@ -91,32 +88,11 @@ class Comparison:
         parts.append(f"at most {percentage(worst.p95)} % ({worst_key[0]}, noise {worst_key[1]:g})")
         return f"Default {DEFAULT}: 95 % of the rates are within " + "; ".join(parts) + "."
 
-    @property
-    def errors(self) -> Table:
-        """p95 and, in brackets, median of the relative error in percent."""
-        return self._table(
-            f"p95 (median) of the relative error of the rate [%], mean of {self.draws} draws, seed {self.seed}",
-            lambda each: f"{_digits(100 * each.p95)} ({_digits(100 * each.median)})",
-        )
-
-    @property
-    def coverage(self) -> Table:
-        """How often the 95 % band holds the truth."""
-        return self._table(
-            "samples whose true rate lies within 1.96 standard errors [%]", lambda each: f"{100 * each.coverage:.0f}"
-        )
-
     def errors_over_noise(self, history: str, method: str) -> tuple[list[float], list[float]]:
         """Noises [-] and p95 [%] where the method applies."""
         found = [(noise, self.results[history, noise, method]) for noise in self.noises]
         known = [(noise, 100.0 * each.p95) for noise, each in found if isinstance(each, Closeness)]
         return [noise for noise, _ in known], [error for _, error in known]
-
-    def plot(self) -> Figure:
-        """The errors over the noise, one panel per history."""
-        from probation.report.excitation_figures import comparison_figure  # noqa: PLC0415 - matplotlib is slow to load
-
-        return comparison_figure(self)
 
     def to_json(self) -> str:
         """The comparison as JSON, schema "probation.excitation-comparison/1"."""
@@ -130,17 +106,6 @@ class Comparison:
             rows.append(row)
         content = {"default": DEFAULT, "verdict": self.verdict, "draws": self.draws, "seed": self.seed, "results": rows}
         return json_answer("probation.excitation-comparison/1", content)
-
-    def _table(self, caption: str, cell: Callable[[Closeness], str]) -> Table:
-        rows = []
-        for history in dict.fromkeys(key[0] for key in self.results):
-            for noise in self.noises:
-                row = [history, f"{noise:g}"]
-                for method in self.methods:
-                    each = self.results[history, noise, method]
-                    row.append("–" if isinstance(each, str) else cell(each))
-                rows.append(tuple(row))
-        return Table(("history", "noise", *self.methods), tuple(rows), caption)
 
 
 def compare(
@@ -198,7 +163,3 @@ def _closeness(key: Key, draws: int, seed: int) -> Closeness | str:
         seen.append((np.quantile(relative, 0.95), np.median(relative), np.mean(off < 1.96 * found.rate_se)))
     p95, median, coverage = np.mean(seen, axis=0).tolist()
     return Closeness(p95, median, coverage)
-
-
-def _digits(percent: float) -> str:
-    return f"{percent:.2f}" if percent < 10.0 else f"{percent:.0f}"
