@@ -22,6 +22,7 @@ from probation.provenance import provenance, samples_sha256
 from probation.published.experiments import Twin, experiment, twin_campaign
 from probation.published.numbers import UNRELAXED_MODULUS
 from probation.report.certificate_summary import parameter_table, prediction_table
+from probation.report.crosscheck_summary import record_table
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
@@ -126,7 +127,7 @@ def schemes() -> Outcome:
     return Outcome(
         verdict=answer.verdict,
         passed=not any(check.failure for record in answer.records for check in record.schemes),
-        parts=(*(record.table() for record in answer.records), picture(figure, caption)),
+        parts=(*(record_table(record) for record in answer.records), picture(figure, caption)),
         answer=json.loads(answer.to_json()),
         plots={"crosscheck": figure},
     )

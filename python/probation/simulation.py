@@ -13,17 +13,18 @@ from probation.law.answer import law_answer
 from probation.law.creep import creep
 from probation.law.modal import SCHEMES, Law, Scheme, Start
 from probation.provenance import samples_sha256
+from probation.results.rendering import Plotted, rendered
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from probation._arrays import FloatArray
     from probation.histories import ImposedHistory
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation:
+class Simulation(Plotted):
     """A simulated test.
+
+    `plot` draws stress over strain, and both over time.
 
     Attributes
     ----------
@@ -53,33 +54,8 @@ class Simulation:
 
     def summary(self, *, picture: bool = True) -> str:
         """What came out, with a plot for the terminal unless `picture` is off."""
-        from probation.records.text_plot import text_plot  # noqa: PLC0415 - records need not be read to simulate
-
-        strain = f"true strain from {_number(self.true_strain.min())} to {_number(self.true_strain.max())}"
-        stress = f"true stress from {_number(self.true_stress.min())} to {_number(self.true_stress.max())} MPa"
-        found, imposed = (strain, stress) if self.stress_imposed else (stress, strain)
-        parameters = ", ".join(f"{key} {value:g}" for key, value in law_answer(self.law)["parameters"].items())
-        if self.stress_imposed:
-            curve = (self.time, self.true_strain, "time [s]", "true strain [–]")
-        else:
-            curve = (self.true_strain, self.true_stress, "true strain [–]", "true stress [MPa]")
-        lines = [
-            f"Simulated {self.name}: {found}.",
-            f"  {len(self.time)} instants over {_number(self.time[-1] - self.time[0])} s, {imposed}; {self.how}",
-            f"  {parameters}{self._companion()}",
-        ]
-        return "\n".join([*lines, text_plot(*curve)] if picture else lines)
-
-    @property
-    def how(self) -> str:
-        """The scheme, for people."""
-        return f"scheme {self.scheme}" + (f", start {self.start}" if self.scheme == "be2" else "")
-
-    def plot(self) -> Figure:
-        """Stress over strain, and both over time."""
-        from probation.report.plots import simulation_plot  # noqa: PLC0415 - plots are slow to load
-
-        return simulation_plot(self)
+        text: str = rendered(self, "summary", picture=picture)
+        return text
 
     def to_csv(self) -> str:
         """``time_s,true_strain,true_stress_MPa``: every number the shortest text that reads back the same."""
@@ -104,9 +80,6 @@ class Simulation:
                 "true_stress_MPa": self.true_stress,
             },
         )
-
-    def _companion(self) -> str:
-        return "" if self.law.companion is None else f", companion relation {self.law.companion.form}"
 
 
 def simulate(
@@ -175,7 +148,3 @@ def simulate(
         stress_imposed=history.true_stress is not None,
         warnings=() if extrapolation is None else (extrapolation,),
     )
-
-
-def _number(value: float) -> str:
-    return f"{value + 0.0:.4g}"  # + 0.0: no "-0"

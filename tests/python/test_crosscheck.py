@@ -10,6 +10,7 @@ import probation
 from probation.cli import main
 from probation.published.experiments import RAMP_LAW, experiment_1, experiment_3, twin_campaign
 from probation.records.record import Record
+from probation.report.crosscheck_page import sections
 from probation.schemes.steps import observed_order
 
 
@@ -61,7 +62,7 @@ def test_the_answer_as_json_carries_every_scheme(answer):
 
 def test_without_a_smooth_history_there_is_no_order_and_an_empty_plot(answer):
     flat = replace(answer, records=tuple(replace(record, steps=None) for record in answer.records))
-    assert len(flat.sections()) == 2
+    assert len(sections(flat)) == 2
     assert flat.plot().axes == []
 
 

@@ -20,17 +20,14 @@ from probation._files import kind_of, read_whole, write_whole, written_to
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
-from probation.inference.parameter import SYMBOLS
 from probation.pool import run_all
 from probation.records.campaign import Campaign
 from probation.records.record import Record
-from probation.report.table import Table
+from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from os import PathLike
-
-    from matplotlib.figure import Figure
 
     from probation.identify.weighting import Weighting
     from probation.smoothing.methods import Method as ExcitationMethod
@@ -127,8 +124,10 @@ class Counted:
 
 
 @dataclass(frozen=True)
-class Coverage:
+class Coverage(Summarised, Plotted):
     """The study.
+
+    `plot` draws the coverage of every case, method and parameter with its interval.
 
     Attributes
     ----------
@@ -165,25 +164,6 @@ class Coverage:
             "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
         )
 
-    def table(self) -> Table:
-        """Coverage in percent with its exact 99 % interval, and bias of E_u, per case and method."""
-        names = list(TRUTH)
-        rows = []
-        for each in self.counted:
-            cells = []
-            for name in names:
-                low, high = each.interval(name)
-                mark = "" if each.holds(name) else " ✗"
-                cells.append(f"{100 * each.coverage(name):.1f} [{100 * low:.1f}, {100 * high:.1f}]{mark}")
-            rows.append((each.case, each.method, str(each.draws), *cells, f"{100 * each.bias[names[0]]:+.2f}"))
-        headings = ("noise", "weighting", "draws", *(f"{SYMBOLS[name]} [%]" for name in names), "bias of E_u [%]")
-        return Table(headings, tuple(rows), left=2)
-
-    def summary(self) -> str:
-        """Verdict and table."""
-        note = "✗: the exact 99 % binomial interval of the coverage does not contain 95 %."
-        return f"{self.verdict}\n\n{self.table().text()}\n\n  {note} Seed {self.seed}."
-
     def to_json(self) -> str:
         """The answer, schema "probation.coverage/1"."""
         rows = [
@@ -204,12 +184,6 @@ class Coverage:
             for each in self.counted
         ]
         return json_answer("probation.coverage/1", {"verdict": self.verdict, "seed": self.seed, "rows": rows})
-
-    def plot(self) -> Figure:
-        """Coverage of every case, method and parameter with its interval."""
-        from probation.report.coverage_plot import coverage_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return coverage_figure(self)
 
 
 def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tuple[float, float]:

@@ -40,6 +40,19 @@ RENDERERS: dict[str, dict[str, str]] = {
         "summary": "excitation_summary.comparison_summary",
         "plot": "excitation_figures.comparison_figure",
     },
+    "simulation.Simulation": {
+        "summary": "simulation_summary.simulation_summary",
+        "plot": "plots.simulation_plot",
+    },
+    "schemes.result.CrossCheck": {
+        "summary": "crosscheck_summary.crosscheck_summary",
+        "plot": "crosscheck_figure.crosscheck_figure",
+        "report": "crosscheck_page.write_crosscheck_page",
+    },
+    "identify.coverage.Coverage": {
+        "summary": "coverage_summary.coverage_summary",
+        "plot": "coverage_figure.coverage_figure",
+    },
 }
 
 

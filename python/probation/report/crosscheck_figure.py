@@ -17,13 +17,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
+    from probation.schemes.result import CrossCheck
     from probation.schemes.steps import StepStudy
 
 _MARKERS = "osD^vPX"
 _BOTTOM = 1e-13  # MPa: errors below are drawn there
 
 
-def crosscheck_plot(studies: Sequence[StepStudy]) -> Figure:
+def crosscheck_figure(found: CrossCheck) -> Figure:
+    """Error against step and against time, with the slopes of the orders."""
+    return steps_figure([record.steps for record in found.records if record.steps is not None])
+
+
+def steps_figure(studies: Sequence[StepStudy]) -> Figure:
     """One row per study: error against step on the left, against the time of one solve on the right."""
     with house_style():
         figure = new_figure(7.6, 0.6 + 3.1 * max(1, len(studies)))
