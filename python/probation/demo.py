@@ -14,8 +14,6 @@ from probation._files import make_folder, write_whole
 from probation.answers import PARAMETER_KEYS, json_answer
 from probation.certificate.certify import certify
 from probation.diagnosis.diagnose import diagnose
-from probation.diagnosis.tables import MOST, shrink_table, where_table, which_table
-from probation.estimate import plus_minus
 from probation.identify.fit import fit
 from probation.law.settings import LawSettings
 from probation.provenance import provenance, samples_sha256
@@ -23,11 +21,13 @@ from probation.published.experiments import Twin, experiment, twin_campaign
 from probation.published.numbers import UNRELAXED_MODULUS
 from probation.report.certificate_summary import parameter_table, prediction_table
 from probation.report.crosscheck_summary import record_table
+from probation.report.diagnosis_tables import MOST, shrink_table, where_table, which_table
 from probation.report.figures import save_figure
 from probation.report.page import Page, Picture, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
 from probation.report.table import Table
 from probation.schemes.crosscheck import crosscheck
+from probation.wording import plus_minus
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -10,8 +10,8 @@ from probation.diagnosis.closure import Closure
 from probation.diagnosis.headline import choices
 from probation.diagnosis.result import CauseParameter, Checks, Explanation
 from probation.diagnosis.signatures import changes_with
-from probation.diagnosis.tables import MOST, where_table, which_table
-from probation.diagnosis.words import (
+from probation.report.diagnosis_tables import MOST, where_table, which_table
+from probation.report.diagnosis_words import (
     NOTHING,
     OUTSIDE,
     checks_text,
@@ -22,10 +22,10 @@ from probation.diagnosis.words import (
     p_text,
     parameter_lines,
     parameter_text,
-    percent,
     short_ids,
     span_text,
 )
+from probation.wording import percent
 
 
 @pytest.mark.parametrize("found", [made_up.self_heating(), made_up.no_gap(), made_up.unexplained()])

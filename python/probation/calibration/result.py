@@ -11,9 +11,9 @@ from scipy.special import stdtrit
 from probation.answers import json_answer
 from probation.calibration.cross_validation import percent
 from probation.calibration.rate_table import rate_groups
-from probation.estimate import percentage, plus_minus
 from probation.records.saving import companion_text
 from probation.results.rendering import Result
+from probation.wording import percentage, plus_minus
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

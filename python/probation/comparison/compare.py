@@ -12,13 +12,13 @@ from scipy.special import logsumexp
 from probation._arrays import one_of
 from probation.comparison.evidence import Tangent
 from probation.comparison.faults import considered
+from probation.comparison.headline import headline
 from probation.comparison.measured_law import MeasuredLaw
 from probation.comparison.noise import change_noise, missed_by_smoother, own_residual, record_noises
 from probation.comparison.pairing import pair
 from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.comparison.search import ChangeSearch, Found
-from probation.comparison.words import headline
 from probation.diagnosis.diagnose import SCHEMES
 from probation.diagnosis.probabilities import leading
 from probation.effects.record_view import views_of

@@ -6,11 +6,10 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from probation.answers import json_answer
+from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
 
@@ -78,8 +77,10 @@ class ChangeCurves:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Summarised, Plotted):
     """What changed from one campaign to another.
+
+    `plot` draws every record's change and what the best explanation says of it.
 
     Attributes
     ----------
@@ -134,15 +135,3 @@ class Comparison:
     def to_json(self) -> str:
         """The answer as JSON text."""
         return json_answer("probation.comparison/1", self.to_dict())
-
-    def summary(self) -> str:
-        """The headline, then what may have changed, with probabilities and sizes."""
-        from probation.comparison.words import summary  # noqa: PLC0415 - words only when asked for
-
-        return summary(self)
-
-    def plot(self) -> Figure:
-        """Every record's change and what the best explanation says of it."""
-        from probation.report.comparison_figure import comparison_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return comparison_figure(self)

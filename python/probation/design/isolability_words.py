@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.design.telling_apart import DETECTED
-from probation.estimate import percentage
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
-from probation.diagnosis.words import listed, percent
 from probation.effects.registry import effect
+from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from probation.answers import json_answer
 from probation.design.isolability import isolability
 from probation.diagnosis.base_fit import base_fit
-from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
-from probation.diagnosis.summary import WIDTH
 from probation.effects.registry import effects as known_effects
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-    from os import PathLike
-
-    from matplotlib.figure import Figure
 
     from probation.design.isolability import Isolability
     from probation.law.modal import Scheme
@@ -26,8 +20,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class CampaignIsolability:
+class CampaignIsolability(Result):
     """What the tests of a campaign could tell apart.
+
+    `plot` draws how probably each effect would be named rightly against each other.
 
     Attributes
     ----------
@@ -42,29 +38,10 @@ class CampaignIsolability:
     found: Isolability
     data_sha256: str
 
-    def summary(self) -> str:
-        """The headline, then every effect."""
-        table = isolability_table(self.found).wrapped({"effect": 36, "these tests": 40})
-        return "\n\n".join(
-            [f"{self.campaign}: {in_words(self.found.headline, self.found)}", table.text(), fill(HOW_TO_READ, WIDTH)]
-        )
-
-    def plot(self) -> Figure:
-        """How probably each effect would be named rightly against each other."""
-        from probation.report.isolability_figure import isolability_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return isolability_figure(self.found)
-
     def to_json(self) -> str:
         """The answer as JSON text, `probation.isolability/1`."""
         content: dict[str, Any] = {"campaign": self.campaign, "data_sha256": self.data_sha256, "scheme": self.scheme}
         return json_answer("probation.isolability/1", content | self.found.to_dict())
-
-    def report(self, path: str | PathLike[str]) -> Path:
-        """Write a self-contained HTML page and return its path."""
-        from probation.report.isolability_page import write_isolability_page  # noqa: PLC0415
-
-        return write_isolability_page(self, Path(path))
 
 
 def campaign_isolability(

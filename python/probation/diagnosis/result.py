@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from probation.answers import json_answer
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from os import PathLike
-
-    from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
     from probation.design.isolability import Isolability
@@ -185,8 +182,10 @@ class NextTest:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis:
+class Diagnosis(Result):
     """Where, which, how far.
+
+    `plot` draws every record before and after the best explanation, the regions of the gap marked.
 
     Attributes
     ----------
@@ -304,24 +303,6 @@ class Diagnosis:
     def to_json(self) -> str:
         """The answer as JSON text."""
         return json_answer("probation.diagnosis/1", self.to_dict())
-
-    def summary(self) -> str:
-        """The headline, then where, which, how far as three short tables, then the next test."""
-        from probation.diagnosis.summary import summary  # noqa: PLC0415 - words only when asked for
-
-        return summary(self)
-
-    def plot(self) -> Figure:
-        """Every record before and after the best explanation, the regions of the gap marked."""
-        from probation.report.diagnosis_figures import diagnosis_figure  # noqa: PLC0415 - plotting only when asked for
-
-        return diagnosis_figure(self)
-
-    def report(self, path: str | PathLike[str]) -> Path:
-        """Write a self-contained HTML page and return its path."""
-        from probation.report.diagnosis_page import write_diagnosis_page  # noqa: PLC0415
-
-        return write_diagnosis_page(self, Path(path))
 
 
 def _located(each: Located) -> dict[str, Any]:

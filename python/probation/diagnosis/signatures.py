@@ -9,7 +9,7 @@ import numpy as np
 from probation.detection.sharp import find_lines, find_steps
 from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
-from probation.diagnosis.words import listed
+from probation.wording import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import InputError
-from probation.estimate import percentage
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from probation._files import kind_of, write_whole
 from probation.answers import json_answer
-from probation.estimate import percentage
 from probation.law.answer import law_answer
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

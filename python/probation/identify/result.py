@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from probation.answers import json_answer
-from probation.estimate import percentage
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
 from probation.results.rendering import Result
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.estimate import plus_minus
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.report.table import Table
+from probation.wording import plus_minus
 
 if TYPE_CHECKING:
     from probation.certificate.consistency import Estimate

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.calibration.cross_validation import percent
-from probation.estimate import percentage, plus_minus
 from probation.report.table import Table
+from probation.wording import percentage, plus_minus
 
 if TYPE_CHECKING:
     from probation.calibration.calibrated import CalibratedCompanion

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.words import short_ids
+from probation.report.diagnosis_words import short_ids
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
 

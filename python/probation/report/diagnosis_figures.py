@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from probation.diagnosis.tables import WORTH_A_ROW
-from probation.diagnosis.words import closed, explanation_name, percent, short_ids
+from probation.report.diagnosis_tables import WORTH_A_ROW
+from probation.report.diagnosis_words import closed, explanation_name, short_ids
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour
+from probation.wording import percent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

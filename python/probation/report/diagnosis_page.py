@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.isolability_table import in_words, isolability_table
 from probation.diagnosis.result import UNKNOWN
-from probation.diagnosis.summary import gap_text, next_test_text, signs
-from probation.diagnosis.tables import base_table, leading, mended_by, shrink_table, where_table, which_table
-from probation.diagnosis.words import closed, explanation_name, listed, name_of, percent, span_text
 from probation.effects.registry import effects as known_effects
 from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
+from probation.report.diagnosis_summary import gap_text, next_test_text, signs
+from probation.report.diagnosis_tables import base_table, leading, mended_by, shrink_table, where_table, which_table
+from probation.report.diagnosis_words import closed, explanation_name, name_of, span_text
 from probation.report.isolability_figure import isolability_figure
 from probation.report.isolability_page import HOW_TO_READ_THE_MAP
+from probation.report.isolability_table import in_words, isolability_table
 from probation.report.page import Gallery, Page, Section, picture
 from probation.report.residual_map import residual_map
 from probation.report.table import Table
+from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,10 +30,9 @@ _EXPLANATIONS = 20
 _MOOD: dict[str, Mood] = {"no_gap": "good", "explained": "neutral", "unexplained": "bad"}
 
 
-def write_diagnosis_page(found: Diagnosis, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_diagnosis_page(found: Diagnosis, path: Path) -> None:
+    """Write the page."""
     diagnosis_page(found).write(path)
-    return path
 
 
 def diagnosis_page(found: Diagnosis) -> Page:

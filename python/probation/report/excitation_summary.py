@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.estimate import percentage, plus_minus
 from probation.report.table import Table
 from probation.smoothing.answer import CORRELATED, spread
 from probation.smoothing.comparison import Closeness
+from probation.wording import percentage, plus_minus
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.estimate import percentage
 from probation.inference.parameter import SYMBOLS, Parameter
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from probation.identify.result import Fit

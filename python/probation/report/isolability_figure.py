@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from matplotlib.patches import Rectangle
 
 from probation.design.telling_apart import DETECTED
-from probation.diagnosis.words import count_text
+from probation.report.diagnosis_words import count_text
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.design.isolability import Isolability
+    from probation.diagnosis.isolability import CampaignIsolability
 
 LEVELS = (0.95, 0.8, 0.6)
 """Chances of naming the right one of two below which a cell darkens; 0.5 is a toss of a coin."""
@@ -104,3 +105,8 @@ def _legend(axes: Axes) -> None:
         axes.text(place + 2.6, 0.5, label, va="center", fontsize=8)
         place += 5.0 + _LETTER * len(label)
     axes.set_axis_off()
+
+
+def campaign_isolability_figure(answer: CampaignIsolability) -> Figure:
+    """The map of a campaign's answer."""
+    return isolability_figure(answer.found)

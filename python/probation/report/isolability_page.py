@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
 from probation.provenance import provenance
 from probation.report.isolability_figure import isolability_figure
+from probation.report.isolability_table import HOW_TO_READ, in_words, isolability_table
 from probation.report.page import Page, Section, picture
 
 if TYPE_CHECKING:
@@ -21,8 +21,8 @@ HOW_TO_READ_THE_MAP = (
 )
 
 
-def write_isolability_page(answer: CampaignIsolability, path: Path) -> Path:
-    """Write the page and return its path."""
+def write_isolability_page(answer: CampaignIsolability, path: Path) -> None:
+    """Write the page."""
     found = answer.found
     Page(
         title=f"What the tests of {answer.campaign} could tell apart",
@@ -38,4 +38,3 @@ def write_isolability_page(answer: CampaignIsolability, path: Path) -> Path:
         ),
         provenance=provenance(answer.data_sha256),
     ).write(path)
-    return path

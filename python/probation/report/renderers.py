@@ -53,6 +53,20 @@ RENDERERS: dict[str, dict[str, str]] = {
         "summary": "coverage_summary.coverage_summary",
         "plot": "coverage_figure.coverage_figure",
     },
+    "diagnosis.result.Diagnosis": {
+        "summary": "diagnosis_summary.summary",
+        "plot": "diagnosis_figures.diagnosis_figure",
+        "report": "diagnosis_page.write_diagnosis_page",
+    },
+    "diagnosis.isolability.CampaignIsolability": {
+        "summary": "isolability_summary.isolability_summary",
+        "plot": "isolability_figure.campaign_isolability_figure",
+        "report": "isolability_page.write_isolability_page",
+    },
+    "comparison.result.Comparison": {
+        "summary": "comparison_summary.comparison_summary",
+        "plot": "comparison_figure.comparison_figure",
+    },
 }
 
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from probation.diagnosis.words import percent, short_ids
+from probation.report.diagnosis_words import short_ids
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
+from probation.wording import percent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,11 +13,11 @@ from scipy.integrate import cumulative_simpson
 from probation._arrays import FloatArray
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.estimate import percentage
 from probation.results.rendering import Plotted, Result
 from probation.smoothing.differences import differences
 from probation.smoothing.excitation import Excitation, excite
 from probation.smoothing.necking import NeckingFit, fit_necking
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

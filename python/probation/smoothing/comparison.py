@@ -9,12 +9,12 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.errors import InputError
-from probation.estimate import percentage
 from probation.records.record import Record
 from probation.results.rendering import Plotted, Summarised
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES
 from probation.smoothing.methods import DEFAULT, SMOOTHERS
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from probation.estimate import plus_minus
 from probation.report.table import Table
+from probation.wording import plus_minus
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -1,15 +1,11 @@
-"""A comparison in words."""
+"""A comparison in one sentence."""
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from probation.comparison.result import ChangedParameter, ChangeExplanation, Comparison
-
-WIDTH = 100
-MOST = 6
+    from probation.comparison.result import ChangedParameter, ChangeExplanation
 
 
 def named(each: ChangeExplanation) -> str:
@@ -41,23 +37,3 @@ def sized(each: ChangedParameter) -> str:
 def percent(part: float) -> str:
     """A probability."""
     return "> 99 %" if part > 0.99 else "< 1 %" if part < 0.01 else f"{100 * part:.0f} %"
-
-
-def summary(found: Comparison) -> str:
-    """The headline, then every explanation of the answer set and the next ones, then the records."""
-    lines = [f"{found.campaign}: {found.headline}", ""]
-    for each in found.explanations[:MOST]:
-        star = "*" if each in found.answer_set else " "
-        where = ", ".join(each.records)
-        text = f"{star} {percent(each.probability):>6}  {named(each)}" + (f" in {where}" if where else "")
-        lines.append(fill(text, WIDTH, subsequent_indent="            "))
-        lines += [f"            {sized(parameter)}" for parameter in each.parameters]
-    lines.append("")
-    for name, others in found.pairs.items():
-        text = (
-            f"{name} against {', '.join(others)}: the change is {found.rms_MPa[name]:.3g} MPa rms, the noise "
-            f"{found.noise_MPa[name]:.3g} MPa"
-        )
-        lines.append(fill(text, WIDTH, initial_indent="  ", subsequent_indent="    "))
-    lines += [fill(f"warning: {each}", WIDTH, initial_indent="  ", subsequent_indent="    ") for each in found.warnings]
-    return "\n".join(lines)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.tables import MOST, mended_by, shrink_table, where_table, which_table
-from probation.estimate import percentage
+from probation.report.diagnosis_tables import MOST, mended_by, shrink_table, where_table, which_table
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis

@@ -1,8 +1,13 @@
-"""A value beside its standard error, with the digits that mean something."""
+"""Numbers and lists as one reads them, with the digits that mean something."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 
 def percentage(part: float, sign: str = "") -> str:
@@ -37,3 +42,17 @@ def plus_minus(value: float, se: float) -> str:
     if float(f"{se:.{digits}f}") >= 10.0 ** (2 - digits) and digits > 0:  # 0.0996 is 0.10
         digits -= 1
     return f"{value:.{digits}f} ± {se:.{digits}f}"
+
+
+def percent(part: float) -> str:
+    """A probability or a share: "91 %", "< 1 %", "> 99 %"."""
+    if part < 0.01:
+        return "< 1 %" if part > 0.0 else "0 %"
+    if 0.99 < part < 1.0:
+        return "> 99 %"
+    return f"{100.0 * part:.0f} %"
+
+
+def listed(names: Sequence[str], last: str = "or") -> str:
+    """Such as "a, b or c"."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""

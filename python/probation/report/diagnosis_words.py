@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation.detection.gap_test import LEVEL
 from probation.diagnosis.result import UNKNOWN
-from probation.estimate import plus_minus
+from probation.wording import plus_minus
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -63,11 +63,6 @@ def set_names(sets: Iterable[Sequence[str]], found: Diagnosis) -> list[str]:
     return names
 
 
-def listed(names: Sequence[str], last: str = "or") -> str:
-    """Such as "a, b or c"."""
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""
-
-
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)
@@ -83,15 +78,6 @@ def _shortened(text: str, longest: int) -> str:
     head = front if len(front) > longest // 4 else head.rstrip()
     tail = back if len(back) > longest // 4 else tail.lstrip()
     return f"{head} … {tail}" if front and back else f"{head}…{tail}"
-
-
-def percent(part: float) -> str:
-    """A probability or a share: "91 %", "< 1 %", "> 99 %"."""
-    if part < 0.01:
-        return "< 1 %" if part > 0.0 else "0 %"
-    if 0.99 < part < 1.0:
-        return "> 99 %"
-    return f"{100.0 * part:.0f} %"
 
 
 def count_text(value: float) -> str:

@@ -6,8 +6,9 @@ import re
 from typing import TYPE_CHECKING
 
 from probation.design.telling_apart import DETECTED
-from probation.diagnosis.words import count_text, listed, percent
+from probation.report.diagnosis_words import count_text
 from probation.report.table import Table
+from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from probation.design.isolability import EffectIsolability, Isolability

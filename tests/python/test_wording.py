@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.estimate import percentage, plus_minus
+from probation.wording import percentage, plus_minus
 
 
 @pytest.mark.parametrize(

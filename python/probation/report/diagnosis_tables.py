@@ -6,19 +6,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
-from probation.diagnosis.words import (
+from probation.report.diagnosis_words import (
     checks_text,
     closed,
     closed_interval,
     explanation_name,
     p_text,
     parameter_lines,
-    percent,
     short_ids,
     span_text,
 )
-from probation.estimate import plus_minus
 from probation.report.table import Table
+from probation.wording import percent, plus_minus
 
 if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
