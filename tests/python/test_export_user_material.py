@@ -10,8 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from probation import Exponential, InputError, Law, PowerLaw, Table, Weissenberg, export
+from probation.exporting.constants import MaterialConstants
 from probation.fe import MaterialPoint
-from probation.fe.constants import MaterialConstants
 
 E_U, G, ALPHA = 3220.0, 1.85, 1.045
 LAW = Law(unrelaxed_modulus=E_U, alpha=ALPHA, hardening_modulus=G, companion=Weissenberg(0.00464, 0.0367))

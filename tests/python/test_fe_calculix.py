@@ -7,6 +7,7 @@ import pytest
 
 import probation
 from probation.errors import InputError
+from probation.exporting.constants import MaterialConstants
 from probation.fe import MaterialPoint
 from probation.fe.calculix import Dumbbell, can_load_routines, find_ccx, neck, necking, read_printed, run
 from probation.fe.calculix.__main__ import main
@@ -14,7 +15,6 @@ from probation.fe.calculix.deck import elements, material, nodes
 from probation.fe.calculix.necking import neck_deck
 from probation.fe.calculix.one_dimension import pull_bar
 from probation.fe.calculix.printed import Printed
-from probation.fe.constants import MaterialConstants
 
 LAW = probation.Law(
     unrelaxed_modulus=2000.0, alpha=1.0, hardening_modulus=1.5, companion=probation.Weissenberg(0.00464, 0.0367)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import probation
+from probation.exporting.constants import MaterialConstants
 from probation.fe import CutStep, MaterialPoint, cmake_prefix, include_path, interface_path
 from probation.fe.__main__ import main
-from probation.fe.constants import MaterialConstants
 from probation.fe.where import calculix_library
 
 LAW = probation.Law(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from probation._files import kind_of, write_whole
 from probation.answers import json_answer
 from probation.law.answer import law_answer
-from probation.wording import percentage
+from probation.results.rendering import Summarised
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Export:
+class Export(Summarised):
     """One file for a finite-element code.
 
     Attributes
@@ -48,16 +48,10 @@ class Export:
         """Such as "hdpe-abaqus-umat.inp"."""
         return f"{self.request.name.lower()}-{self.format}{self._format.ending}"
 
-    def summary(self) -> str:
-        """The round trip first, then what is left out."""
-        first, *others = self.checks
-        lines = [
-            f"{self._format.what}.",
-            f"  round trip: {first.error:.2g} MPa at most, {percentage(first.relative)} % of the largest stress",
-        ]
-        if self.request.reduction is not None:
-            lines.append(f"  {self.request.reduction.summary()}")
-        return "\n".join([*lines, *(f"  {check.text}" for check in others)])
+    @property
+    def what(self) -> str:
+        """The format, for people."""
+        return self._format.what
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the file, whole or not at all; into a folder under its own name.

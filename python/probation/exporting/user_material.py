@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.exporting.check import Check, compared, ramp_jump_unload
+from probation.exporting.constants import NAMES, MaterialConstants, state_size
 from probation.exporting.kind import Kind
-from probation.fe.constants import NAMES, MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

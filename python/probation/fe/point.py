@@ -11,7 +11,7 @@ import numpy as np
 
 from probation._arrays import FloatArray, as_number, as_samples
 from probation.errors import InputError
-from probation.fe.constants import MaterialConstants
+from probation.exporting.constants import MaterialConstants
 from probation.fe.where import library_path
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class MaterialPoint:
     def from_law(
         cls, law: Law, bulk_modulus: float, *, rate_filter: float = 0.0, stress_tolerance: float = 0.0
     ) -> MaterialPoint:
-        """The point of a law; arguments as in `probation.fe.constants.MaterialConstants.of`."""
+        """The point of a law; arguments as in `probation.exporting.constants.MaterialConstants.of`."""
         return cls(np.array(MaterialConstants.of(law, bulk_modulus, rate_filter, stress_tolerance).values))
 
     @property

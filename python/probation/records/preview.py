@@ -9,35 +9,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from probation._text import printable
 from probation.records.assignment import assign_columns
-from probation.records.noise import scatter
 from probation.records.options import ReadOptions, read_options
 from probation.records.profiles import Reading
 from probation.records.reading import assemble_all, chosen_tables, open_file
 from probation.records.record import Record
 from probation.records.table import Column, Table
-from probation.records.text_plot import text_plot
+from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 FloatArray = NDArray[np.float64]
 
 _SHOWN_ROWS = 5
-_LABELS = {
-    "time": ("time", "s"),
-    "true_strain": ("true strain", ""),
-    "true_stress": ("true stress", "MPa"),
-    "strain_rate": ("strain rate", "1/s"),
-    "transverse_strain": ("transverse strain", ""),
-    "temperature": ("temperature", "°C"),
-}
 
 
 @dataclass(frozen=True, eq=False)
-class Preview:
+class Preview(Summarised, Plotted):
     """How a file would be read.
+
+    `plot` draws stress over strain, and both over time, of every record.
 
     Attributes
     ----------
@@ -74,63 +66,6 @@ class Preview:
     metadata: Mapping[str, str]
     first_rows: tuple[tuple[str, ...], ...]
     rows: int
-
-    def summary(self) -> str:
-        """All of it as text, the verdict first, with a plot of each record."""
-        parts = [self._verdict(), self._layout(), self._columns()]
-        if self.metadata:
-            facts = (printable(f"{key}: {text}") for key, text in self.metadata.items())
-            parts.append("\n".join(["metadata", *(f"  {fact}" for fact in facts)]))
-        parts += [_describe(record) for record in self.records]
-        parts.append(self._first_rows())
-        return "\n\n".join(parts)
-
-    def plot(self) -> "Figure":
-        """Stress over strain, and both over time, of every record."""
-        from probation.report.figures import new_figure  # noqa: PLC0415 - a second that reading need not wait for
-
-        figure = new_figure(10.0, 4.0)
-        over_strain, over_time = figure.subplots(1, 2)
-        strain_axis = over_time.twinx()
-        for record in self.records:
-            (line,) = over_strain.plot(record.true_strain, record.true_stress, lw=1.0, label=record.id)
-            over_time.plot(record.time, record.true_stress, lw=1.0, color=line.get_color())
-            strain_axis.plot(record.time, record.true_strain, lw=1.0, ls="--", color=line.get_color())
-        over_strain.set(xlabel="true strain [–]", ylabel="true stress [MPa]", title=self.path.name)
-        over_time.set(xlabel="time [s]", ylabel="true stress [MPa], solid")
-        strain_axis.set_ylabel("true strain [–], dashed")
-        if self.records:
-            over_strain.legend(frameon=False)
-        return figure
-
-    def _verdict(self) -> str:
-        known = f"{printable(str(self.path))}: reads as {self.profile} ({self.title})"
-        if self.auxiliary:
-            return f"{known}: {self.auxiliary}, no stress-strain record"
-        count = len(self.records)
-        records = "1 record" if count == 1 else f"{count} records, one per specimen"
-        warned = sum(len(record.warnings) for record in self.records)
-        return f"{known}, {records}" + (f", {warned} warning{'s' if warned > 1 else ''}" if warned else "")
-
-    def _layout(self) -> str:
-        headings = f"headings in row {self.header_row}" if self.header_row else "no headings"
-        decimal = "comma" if self.decimal == "," else "point"
-        separator = f"separator {self.separator}" if self.encoding else self.separator
-        facts = [separator, f"decimal {decimal}", headings, f"{self.rows} rows"]
-        return "layout    " + ", ".join(([f"encoding {self.encoding}"] if self.encoding else []) + facts)
-
-    def _columns(self) -> str:
-        shown = [(printable(label), printable(unit or "no unit"), role) for label, unit, role in self.columns]
-        width = max(len(label) for label, _, _ in shown)
-        lines = [f"  {label:<{width}}  {unit:<8}  {'→ ' + role if role else 'not used'}" for label, unit, role in shown]
-        return "\n".join(["columns", *lines])
-
-    def _first_rows(self) -> str:
-        """Show the first rows of the columns in use; of all where none is."""
-        used = [at for at, (_, _, role) in enumerate(self.columns) if role] or list(range(len(self.columns)))
-        headed = [tuple(label for label, _, _ in self.columns), *self.first_rows]
-        lines = ("  " + "  ".join(printable(row[at].strip()) for at in used) for row in headed)
-        return "\n".join(["first rows", *lines])
 
 
 def preview(
@@ -199,26 +134,3 @@ def _columns_with_roles(
 def _first_rows(table: Table) -> tuple[tuple[str, ...], ...]:
     columns = [table.cells(column)[:_SHOWN_ROWS] for column in table.columns]
     return tuple(zip(*columns, strict=True))
-
-
-def _describe(record: Record) -> str:
-    """One record in text: ranges, sampling, noise, warnings and a plot."""
-    duration = record.time[-1] - record.time[0]
-    lines = [f"{record.id}: {len(record)} samples over {duration:.6g} s, {_sampling(record.time)}"]
-    for name, values in record.samples.items():
-        label, unit = _LABELS[name]
-        noise = ""
-        if name in ("true_strain", "true_stress"):
-            noise = f", noise about {scatter(record.time, values):.2g} {unit}".rstrip()
-        span = f"{values.min() + 0.0:.6g} to {values.max() + 0.0:.6g} {unit}".rstrip()  # + 0.0: no "-0"
-        lines.append(f"  {label:<17}  {span}{noise}")
-    lines += [f"  warning: {warning}" for warning in record.warnings]
-    lines.append(text_plot(record.true_strain, record.true_stress, "true strain [–]", "true stress [MPa]"))
-    return "\n".join(lines)
-
-
-def _sampling(time: FloatArray) -> str:
-    steps = np.diff(time)
-    if steps.max() - steps.min() <= 1e-3 * np.median(steps):
-        return f"every {np.median(steps):.4g} s"
-    return f"unevenly, every {steps.min():.4g} to {steps.max():.4g} s (median {np.median(steps):.4g} s)"

@@ -67,6 +67,13 @@ RENDERERS: dict[str, dict[str, str]] = {
         "summary": "comparison_summary.comparison_summary",
         "plot": "comparison_figure.comparison_figure",
     },
+    "records.preview.Preview": {
+        "summary": "preview_summary.preview_summary",
+        "plot": "preview_figure.preview_figure",
+    },
+    "exporting.result.Export": {
+        "summary": "export_summary.export_summary",
+    },
 }
 
 

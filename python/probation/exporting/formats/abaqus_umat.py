@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.exporting.constants import MaterialConstants, state_size
 from probation.exporting.formats.keyword_cards import data_under, listed, numbers
 from probation.exporting.header import commented
 from probation.exporting.kind import Format
 from probation.exporting.user_material import USER_MATERIAL
-from probation.fe.constants import MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

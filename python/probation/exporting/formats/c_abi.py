@@ -6,10 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
+from probation.exporting.constants import NAMES, MaterialConstants, state_size
 from probation.exporting.header import c_comment
 from probation.exporting.kind import Format
 from probation.exporting.user_material import USER_MATERIAL
-from probation.fe.constants import NAMES, MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

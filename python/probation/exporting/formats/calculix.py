@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
+from probation.exporting.constants import MaterialConstants, state_size
 from probation.exporting.formats import abaqus_umat
 from probation.exporting.formats.keyword_cards import listed
 from probation.exporting.header import commented
 from probation.exporting.kind import Format
 from probation.exporting.user_material import USER_MATERIAL
-from probation.fe.constants import MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,9 +9,9 @@ import json
 from typing import TYPE_CHECKING
 
 from probation.answers import json_answer
+from probation.exporting.constants import MaterialConstants, state_size
 from probation.exporting.kind import Format
 from probation.exporting.user_material import USER_MATERIAL
-from probation.fe.constants import MaterialConstants, state_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

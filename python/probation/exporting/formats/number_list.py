@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from probation.exporting.constants import MaterialConstants
 from probation.exporting.header import c_comment
 from probation.exporting.kind import Format
 from probation.exporting.user_material import USER_MATERIAL
-from probation.fe.constants import MaterialConstants
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

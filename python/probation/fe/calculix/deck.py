@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.fe.constants import MaterialConstants
+    from probation.exporting.constants import MaterialConstants
 
 Degree = tuple[int | str, int]
 """Node or set of nodes, and direction 1 to 3."""

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.exporting.constants import MaterialConstants
 from probation.fe.calculix import deck
 from probation.fe.calculix.one_dimension import pull_bar
 from probation.fe.calculix.program import run
-from probation.fe.constants import MaterialConstants
 from probation.fe.point import MaterialPoint
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.exporting.constants import MaterialConstants
 from probation.fe.calculix import deck
 from probation.fe.calculix.program import run
-from probation.fe.constants import MaterialConstants
 from probation.fe.neck_figures import neck_figures
 from probation.fe.point import MaterialPoint
 
