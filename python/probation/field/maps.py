@@ -14,12 +14,12 @@ from probation.field.chunks import array_of, read, require_chunks
 from probation.field.grid import BlockGrid
 from probation.field.status import MEANINGS, Status
 from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of, read_run
+from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping
 
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
@@ -34,7 +34,7 @@ the samples: 1/2 for even noise that is known, more where it grows along the rec
 
 
 @dataclass(frozen=True)
-class FieldMaps:
+class FieldMaps(Summarised, Plotted):
     """Maps of a field.
 
     Attributes
@@ -105,18 +105,6 @@ class FieldMaps:
         from probation.field.truth import closeness  # noqa: PLC0415
 
         return replace(self, closeness=closeness(self, truth))
-
-    def summary(self) -> str:
-        """The verdict, then numbers, as text."""
-        from probation.field.words import summary  # noqa: PLC0415
-
-        return summary(self)
-
-    def plot(self) -> Figure:
-        """The maps as a figure."""
-        from probation.field.figure import figure  # noqa: PLC0415 - matplotlib is slow to load
-
-        return figure(self)
 
     def to_json(self) -> str:
         """Counts and medians as JSON text; the maps themselves stay in the store."""

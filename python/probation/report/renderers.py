@@ -74,6 +74,10 @@ RENDERERS: dict[str, dict[str, str]] = {
     "exporting.result.Export": {
         "summary": "export_summary.export_summary",
     },
+    "field.maps.FieldMaps": {
+        "summary": "field_summary.field_summary",
+        "plot": "field_figure.field_figure",
+    },
 }
 
 

@@ -21,7 +21,7 @@ SYMBOLS = {
 }
 
 
-def summary(maps: FieldMaps) -> str:
+def field_summary(maps: FieldMaps) -> str:
     """The verdict, then what became of the pixels, the parameters, and how it was made."""
     return "\n".join(
         [_verdict(maps), "", *_pixels(maps), "", *_parameters(maps), *_closeness(maps), "", *_origin(maps)]

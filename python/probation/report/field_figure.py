@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import matplotlib as mpl
 import numpy as np
 
-from probation.field.words import SYMBOLS
+from probation.report.field_summary import SYMBOLS
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from probation.field.maps import FieldMaps
 
 
-def figure(maps: FieldMaps) -> Figure:
+def field_figure(maps: FieldMaps) -> Figure:
     """E_u tau_max, G and the residual; below, standard errors, and the residual over the noise."""
     product, hardening = maps.names[0], maps.names[3]
     with house_style(), np.errstate(invalid="ignore", divide="ignore"):
