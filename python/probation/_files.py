@@ -88,13 +88,31 @@ def read_json(path: str | os.PathLike[str], expected: str) -> Any:
     InputError
         If it cannot be read, is no JSON, or is nested or has numbers beyond the limits.
     """
-    data = read_whole(path)
+    return parse_json(read_whole(path), path, expected)
+
+
+def parse_json(data: bytes | str, source: str | os.PathLike[str], expected: str) -> Any:
+    """What JSON holds.
+
+    Parameters
+    ----------
+    data : bytes or str
+    source : str or path-like
+        Where it is from, for the error.
+    expected : str
+        As in `read_json`.
+
+    Raises
+    ------
+    InputError
+        If it is no JSON, or is nested or has numbers beyond the limits.
+    """
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig") if isinstance(data, bytes) else data
         _check_nesting(text)
         return json.loads(text, parse_int=_whole_number)
     except ValueError as failure:
-        raise InputError(f"{path}: found no JSON ({failure}), expected {expected}") from None
+        raise InputError(f"{source}: found no JSON ({failure}), expected {expected}") from None
 
 
 def kind_of(path: str | os.PathLike[str]) -> str | None:

@@ -10,6 +10,7 @@ import probation
 from campaigns import measured
 from probation import Campaign, InputError, Law, Record, Reference, compare
 from probation.cli import main
+from probation.comparison.result import Comparison
 from probation_studies.blind.inject import Injection
 
 GRID = {"slow": 0.002, "fast": 0.02}
@@ -138,3 +139,27 @@ def test_the_command_says_what_changed(tmp_path, capsys):
     assert "--report with --against" in capsys.readouterr().err
     assert main(["diagnose", str(tmp_path / "may"), "--pair", "a=b"]) == 2
     assert "--pair without --against" in capsys.readouterr().err
+
+
+def test_a_comparison_comes_back_from_its_json_without_curves(march):
+    done = compare(measured.injected(made_up(20), Injection("slow", "force_offset", 0.1, seed=3)), march, threads=1)
+    again = Comparison.from_json(done.to_json())
+    assert again.to_json() == done.to_json()
+    assert again.summary() == done.summary()
+    assert again.answer_set == done.answer_set
+    with pytest.raises(InputError, match=r"found no curves, as it was read from JSON"):
+        again.plot()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "the text: found no JSON"),
+        ('{"schema": "probation.fit/1"}', "the text: found the schema 'probation.fit/1', expected what to_json writes"),
+        ('{"schema": "probation.comparison/1"}', "the text: found no 'changes', expected what to_json writes"),
+        ('{"schema": "probation.comparison/1", "changes": [1]}', "the text: found 'int' object is not subscriptable"),
+    ],
+)
+def test_what_is_no_comparison_is_refused(text, message):
+    with pytest.raises(InputError, match=f"^{message}"):
+        Comparison.from_json(text)
