@@ -9,7 +9,8 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import Campaign, Law, Noise, Record, Weissenberg, fit
-from probation.identify.covariance import covariance, status_of
+from probation.identify.covariance import covariance
+from probation.inference.parameter import status_of
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.published.experiments import experiment, twin_campaign
 

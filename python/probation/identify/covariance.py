@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.inference.parameter import IDENTIFIABLE, WEAKLY, Status
+from probation.inference.information import inverse_information
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-
-SINGULAR = 1e-12
-"""Relative singular value below which a direction of the parameters is taken as not determined at all."""
 
 WHITE = 2.0
 """A residual whose variance at low frequency exceeds the white level by more than this factor is correlated."""
@@ -78,10 +75,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
         return Covariance(np.zeros((0, 0)), np.zeros(0), 1.0, False)
     size = np.where(values != 0.0, np.abs(values), 1.0)
     scaled = jacobian * size
-    _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
-    determined = singular > SINGULAR * max(singular[0], 1e-300)
-    inverse = (basis[determined].T / singular[determined] ** 2) @ basis[determined]
-    lost = np.sqrt(np.sum(basis[~determined] ** 2, axis=0)) > 1e-6
+    inverse, lost, condition = inverse_information(scaled)
 
     borders = np.concatenate([[0], np.cumsum(lengths)])
     parts = [slice(first, last) for first, last in pairwise(borders.tolist())]
@@ -99,7 +93,6 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
         scale = np.where(keep, np.sqrt(np.diag(relative) / np.maximum(np.diag(sandwich), 1e-300)), 1.0)
         relative = sandwich * np.outer(scale, scale)
     error = np.where(lost, np.inf, np.sqrt(np.maximum(np.diag(relative), 0.0)))
-    condition = float(singular[0] / singular[-1]) if singular[-1] > 0.0 else np.inf
     return Covariance(relative * np.outer(size, size), error, condition, correlated)
 
 
@@ -120,23 +113,6 @@ def correlation_lags(residual: FloatArray) -> int:
     if inflation < WHITE:
         return 0
     return min(max(int(4.0 * inflation), 1), count // 2)
-
-
-def status_of(relative_error: float) -> Status:
-    """How well the data determine a parameter."""
-    if relative_error <= IDENTIFIABLE:
-        return "identifiable"
-    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
-
-
-def correlation(matrix: FloatArray) -> FloatArray:
-    """Correlation matrix of a covariance matrix; 0 where a variance is."""
-    deviation = np.sqrt(np.diag(matrix))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scaled = matrix / np.outer(deviation, deviation)
-    scaled[~np.isfinite(scaled)] = 0.0
-    np.fill_diagonal(scaled, 1.0)
-    return np.asarray(scaled, dtype=np.float64)
 
 
 def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:

@@ -9,12 +9,13 @@ import numpy as np
 from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
-from probation.identify.covariance import Covariance, correlation, correlation_lags, status_of
+from probation.identify.covariance import Covariance, correlation_lags
 from probation.identify.ends import ends_of
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
 from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.weighting import known_of
+from probation.inference.information import correlation, estimated
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter
 from probation.records.noise import scatter
 
@@ -80,7 +81,7 @@ def describe(
         position = int(np.flatnonzero(free == index)[0])
         error = None if name in ends.withdrawn else known.standard_error(position)
         relative = float(known.relative_error[position])
-        found = _parameter(name, value, error, relative, degrees, UNITS[name])
+        found = estimated(name, value, error, relative, degrees, UNITS[name])
         if name in profiles:
             found = replace(found, interval95=profiles[name].interval95)
         parameters[name] = found
@@ -152,14 +153,6 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
     )
 
 
-def _parameter(name: str, value: float, se: float | None, relative_error: float, degrees: int, unit: str) -> Parameter:
-    if se is None:
-        return Parameter(name, value, None, None, "not_identifiable", unit)
-    reach = float(stdtrit(degrees, 0.975)) * se
-    interval = (max(value - reach, 0.0), value + reach)  # no parameter of the law is negative
-    return Parameter(name, value, se, interval, status_of(relative_error), unit)
-
-
 def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, withdrawn: bool) -> Parameter:
     """E_u tau_max (or E_u alpha) and its standard error, to first order."""
     values = law.parameters
@@ -173,7 +166,7 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, wit
     if withdrawn or not np.all(np.isfinite(known.relative_error[moved])):
         return Parameter("product", value, None, None, "not_identifiable", unit)
     se = float(np.sqrt(max(variance, 0.0)))
-    return _parameter("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
+    return estimated("product", value, se, se / abs(value) if value else np.inf, degrees, unit)
 
 
 def _modulus_warnings(problem: Problem, law: Law) -> list[str]:

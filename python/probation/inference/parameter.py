@@ -23,6 +23,13 @@ UNITS = {"unrelaxed_modulus": "MPa", "tau_max": "s", "alpha": "", "hardening_mod
 SYMBOLS = {"unrelaxed_modulus": "E_u", "tau_max": "τ_max", "alpha": "α", "hardening_modulus": "G"}
 
 
+def status_of(relative_error: float) -> Status:
+    """How well the data determine a parameter."""
+    if relative_error <= IDENTIFIABLE:
+        return "identifiable"
+    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
+
+
 def outside_name(name: str) -> str:
     """The name with its unit, as it leaves the program: "tau_max" becomes "tau_max_s"."""
     return PARAMETER_KEYS[name]
