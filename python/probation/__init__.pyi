@@ -10,6 +10,7 @@ from .certificate.result import Certificate
 from .comparison.compare import compare
 from .comparison.reference import Reference
 from .comparison.result import Comparison
+from .design.plan import Plan, plan
 from .diagnosis.diagnose import diagnose
 from .diagnosis.result import Diagnosis
 from .errors import ConvergenceError, InputError
@@ -57,6 +58,7 @@ __all__ = [
     "InputError",
     "Law",
     "Noise",
+    "Plan",
     "PowerActivation",
     "PowerLaw",
     "RateFunction",
@@ -84,6 +86,7 @@ __all__ = [
     "haward_thackray_strain",
     "identify_many",
     "named_history",
+    "plan",
     "preview",
     "ramp_stress",
     "read_history",

@@ -10,6 +10,7 @@ import numpy as np
 from probation.design.effect_signals import signal
 from probation.design.telling_apart import DETECTED
 from probation.errors import InputError
+from probation.inference.information import inverse_information
 from probation.inference.view_residual import residual_of
 from probation.noise.span import DEPENDENT
 from probation.noise.whitener import Whitener
@@ -17,6 +18,8 @@ from probation.noise.whitening import Whitened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
     from probation.design.effect_signals import EffectSignal
@@ -79,6 +82,12 @@ class Design:
         records = [residual_of(view, residual[rows], tangent[rows]) for view, rows in model.parts]
         white = Whitened.of(records, noises)
         return cls(model, parameters, white, Whitener(white.noises).columns(tangent))
+
+    def covariance(self) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Covariance of generalised least squares (p, p), and which parameters the records do not determine (p,)."""
+        size = np.where(self.parameters != 0.0, np.abs(self.parameters), 1.0)
+        inverse, lost, _ = inverse_information(self.tangent * size)
+        return inverse * np.outer(size, size), lost
 
     def whitened(self, columns: FloatArray) -> FloatArray:
         """Stresses (n_samples, m) in white coordinates."""

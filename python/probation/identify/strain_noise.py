@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from probation.law.modal import Law
     from probation.smoothing.methods import Method as ExcitationMethod
 
-LARGEST = 3000
-"""Samples of a record up to which its strain noise has a matrix (that of 3000 takes about 3 s to make and factor)."""
-
 DRAWS = 24
 """Of longer records, the strain is drawn again so often to see what its noise does to the parameters."""
 

@@ -20,13 +20,12 @@ from probation.identify.noise_model import NoiseModel
 from probation.identify.search import first_guess
 from probation.identify.strain_noise import (
     CARRIED_NOISE,
-    LARGEST,
     carried_at_end,
     left_over,
     resampled,
     share_of_error,
 )
-from probation.inference.strain_noise import StrainNoise
+from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.smoothing.excitation import excite
 from probation.smoothing.segments import CLEAN
 

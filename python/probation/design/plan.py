@@ -1,0 +1,318 @@
+"""`probation.plan`: what planned tests will say of the law, asked before any of them is done."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation.answers import json_answer
+from probation.design.effect_design import Design
+from probation.design.isolability import isolability
+from probation.design.planned_record import as_predicted, white_noise
+from probation.design.planned_strain import imposed, planned_excitation, planned_record, propagated
+from probation.effects.record_view import views_of
+from probation.effects.registry import effects as known_effects
+from probation.errors import InputError
+from probation.inference.information import correlation, estimated
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.parameter import UNITS, outside_name
+from probation.law.answer import law_answer
+from probation.law.modal import Scheme, engine_law
+from probation.records.campaign import Campaign
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.design.isolability import Isolability
+    from probation.design.planned_strain import History
+    from probation.inference.parameter import Parameter
+    from probation.law.modal import Law
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
+
+SCHEME: Scheme = "sa3"
+
+
+@dataclass(frozen=True)
+class PlannedTest:
+    """One of the tests, as it was planned.
+
+    Attributes
+    ----------
+    id, history : str
+        Its name, and what is imposed, for people.
+    samples : int
+    duration : float [s]
+    largest_strain : float [-]
+        True strain of the largest modulus.
+    stress_noise : float [MPa]
+    strain_noise : float [-]
+    smoothing : str
+        How the strain will be smoothed, one of `excitation.METHODS`; "raw": not at all.
+    """
+
+    id: str
+    history: str
+    samples: int
+    duration: float
+    largest_strain: float
+    stress_noise: float
+    strain_noise: float
+    smoothing: str
+
+    def to_dict(self) -> dict[str, object]:
+        """For JSON."""
+        return {
+            "id": self.id,
+            "history": self.history,
+            "samples": self.samples,
+            "duration_s": self.duration,
+            "largest_true_strain": self.largest_strain,
+            "noise_MPa": self.stress_noise,
+            "strain_noise": self.strain_noise,
+            "smoothing": self.smoothing,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What planned tests will say.
+
+    Attributes
+    ----------
+    law : Law
+        At whose parameters the question is asked.
+    scheme : str
+    tests : tuple of PlannedTest
+    parameters : dict of str to Parameter
+        By name: unrelaxed_modulus, tau_max or alpha, hardening_modulus; the law's value, with the standard error and
+        the 95 % interval that a fit of all tests together is expected to have if the law is right.
+    product : Parameter
+        E_u times tau_max (or alpha).
+    names : tuple of str
+        In the order of `correlation`.
+    correlation : ndarray, shape (3, 3)
+        Of the estimates; 0 where a parameter is not determined.
+    isolability : Isolability
+        Which effects these tests could detect, and which they could discriminate.
+    seed : int
+    warnings : tuple of str
+    """
+
+    law: Law
+    scheme: Scheme
+    tests: tuple[PlannedTest, ...]
+    parameters: dict[str, Parameter]
+    product: Parameter
+    names: tuple[str, ...]
+    correlation: FloatArray
+    isolability: Isolability
+    seed: int
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def verdict(self) -> str:
+        """One sentence on the parameters, one on the effects."""
+        from probation.report.plan_summary import plan_verdict  # noqa: PLC0415 - words only when asked for
+
+        return plan_verdict(self)
+
+    def summary(self) -> str:
+        """Verdict first, then the parameters, then every effect, then the tests."""
+        from probation.report.plan_summary import plan_summary  # noqa: PLC0415
+
+        return plan_summary(self)
+
+    def plot(self) -> Figure:
+        """How probably each effect would be named rightly against each other."""
+        from probation.report.isolability_figure import isolability_figure  # noqa: PLC0415 - as above
+
+        return isolability_figure(self.isolability)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects, `probation.plan/1`."""
+        second = outside_name(self.names[1])
+        return {
+            "verdict": self.verdict,
+            "scheme": self.scheme,
+            "seed": self.seed,
+            "law": law_answer(self.law),
+            "tests": [test.to_dict() for test in self.tests],
+            "parameters": {outside_name(name): found.to_json() for name, found in self.parameters.items()},
+            "products": {f"unrelaxed_modulus_MPa*{second}": self.product.to_json()},
+            "correlation": {"names": [outside_name(name) for name in self.names], "matrix": self.correlation},
+            "isolability": self.isolability.to_dict(),
+            "warnings": self.warnings,
+        }
+
+    def to_json(self) -> str:
+        """The answer as JSON text."""
+        return json_answer("probation.plan/1", self.to_dict())
+
+
+def plan(
+    law: Law,
+    histories: Mapping[str, History],
+    *,
+    noise: float | Mapping[str, float],
+    strain_noise: float | Mapping[str, float] = 0.0,
+    effects: Iterable[str] | None = None,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Plan:
+    """Say what planned tests will tell of the law, before any of them is done.
+
+    The law's sensitivities along the histories, weighed by the inverse covariance of the noise, give the standard
+    errors of its parameters (generalised least squares, all tests together), and the lengths and angles of what effects
+    add to the stress. The parameters of the law are the point at which both are taken: a guess of them is enough, since
+    they hardly change with it.
+
+    Parameters
+    ----------
+    law : Law
+    histories : mapping of str to history
+        By test, in the order in which they will be done. A history is an `ImposedHistory` (from `named_history`, or
+        ``read_history(path).history``) or two arrays, time [s] and true strain, each of shape (n_samples,): its
+        instants are the samples that will be taken. Along an imposed stress the law gives the strain.
+    noise : float or mapping of str to float [MPa]
+        Standard deviation of the white noise of the true stress, for all tests or by test.
+    strain_noise : float or mapping of str to float [-]
+        Standard deviation of the white noise of the measured strain, for all tests or by test. It is propagated by the
+        smoother that `fit` would take, and by the law, to the stress. Then a test has at most 3000 samples.
+    effects : iterable of str, optional
+        All that are known if left out.
+    seed : int
+        Of the noise on which it is found how a noisy strain will be smoothed.
+    threads : int, optional
+        At most so many at once (2).
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    InputError
+        For a history or a noise that is not possible, naming the test; for an unknown effect.
+    ConvergenceError
+        Where the law cannot carry an imposed stress.
+
+    Examples
+    --------
+    >>> law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
+    >>> ramps = {f"{rate} 1/s": probation.named_history("ramp", rate=rate, strain=1.5) for rate in (0.001, 0.02)}
+    >>> probation.plan(law, ramps, noise=0.5).parameters["tau_max"].se.round(3)
+    0.023
+    """
+    engine_law(law)
+    chosen = known_effects(effects)
+    told = progress or (lambda part: None)
+    tests = imposed(histories, law)
+    stress_noises = _by_test("noise", noise, tests, "MPa")
+    strain_noises = _by_test("strain_noise", strain_noise, tests, "", zero=True)
+    records = [planned_record(name, tests[name], stress_noises[name], strain_noises[name]) for name in tests]
+    campaign = Campaign("plan", tuple(records))
+    rng = np.random.default_rng(seed)
+    excitations = {}
+    for count, record in enumerate(campaign.records):
+        excitations[record.id] = planned_excitation(record, rng)
+        told(0.3 * (count + 1) / len(records))
+    views = views_of(campaign, excitations=excitations, scheme=SCHEME)
+    noises = [
+        replace(white, carried=propagated(excitations[view.id], law, SCHEME))
+        for view, white in zip(views, white_noise(views, list(stress_noises.values())), strict=True)
+    ]
+    model = CampaignModel(DnlrLaw(law), views)
+    design = Design.of(as_predicted(model, model.start), model.start, noises)
+    told(0.5)
+    found = isolability(model, model.start, noises, chosen, threads=threads or 2)
+    told(1.0)
+    covariance, lost = design.covariance()
+    return Plan(
+        law=law,
+        scheme=SCHEME,
+        tests=tuple(_described(each, tests[each.id].name, excitations[each.id]) for each in campaign.records),
+        **_known(law, covariance, lost, len(design.tangent)),
+        names=law.parameter_names,
+        correlation=correlation(covariance),
+        isolability=found,
+        seed=seed,
+        warnings=_extrapolations(law, excitations),
+    )
+
+
+def _by_test(
+    name: str, given: float | Mapping[str, float], tests: Iterable[str], unit: str, *, zero: bool = False
+) -> dict[str, float]:
+    """One number per test.
+
+    Raises
+    ------
+    InputError
+        For a test that is missing or not there, or a number that is not positive (or 0, where `zero` says so).
+    """
+    ids = list(tests)
+    by_test = dict(given) if isinstance(given, Mapping) else dict.fromkeys(ids, given)
+    if set(by_test) != set(ids):
+        raise InputError(f"{name}: found numbers for {', '.join(by_test)}, expected one for each of {', '.join(ids)}")
+    expected = f"a number of at least 0 {unit}" if zero else f"a positive number {unit}"
+    found = {}
+    for test in ids:
+        try:
+            found[test] = float(by_test[test])
+        except (TypeError, ValueError):
+            found[test] = np.nan
+        if not (0.0 < found[test] < np.inf or (zero and found[test] == 0.0)):
+            raise InputError(f"{name} of {test!r}: found {by_test[test]!r}, expected {expected.rstrip()}")
+    return found
+
+
+def _described(record: Record, history: str, excitation: Excitation) -> PlannedTest:
+    return PlannedTest(
+        id=record.id,
+        history=history,
+        samples=len(record),
+        duration=float(record.time[-1] - record.time[0]),
+        largest_strain=float(record.true_strain[np.argmax(np.abs(record.true_strain))]),
+        stress_noise=record.noise.stress_MPa or 0.0,
+        strain_noise=record.noise.strain or 0.0,
+        smoothing=excitation.method,
+    )
+
+
+def _known(law: Law, covariance: FloatArray, lost: NDArray[np.bool_], samples: int) -> dict[str, Any]:
+    """The parameters and their product with expected errors."""
+    values, degrees = law.parameters, max(samples - len(law.parameters), 1)
+
+    def expected(name: str, value: float, variance: float, gone: np.bool_, unit: str) -> Parameter:
+        se = None if gone else float(np.sqrt(max(variance, 0.0)))
+        relative = np.inf if se is None or not value else se / abs(value)
+        return estimated(name, float(value), se, relative, degrees, unit)
+
+    found = {
+        name: expected(name, values[at], covariance[at, at], lost[at], UNITS[name])
+        for at, name in enumerate(law.parameter_names)
+    }
+    slope = np.array([values[1], values[0], 0.0])
+    unit = "MPa·s" if law.companion is None else "MPa"
+    product = expected("product", values[0] * values[1], slope @ covariance @ slope, lost[:2].any(), unit)
+    return {"parameters": found, "product": product}
+
+
+def _extrapolations(law: Law, excitations: Mapping[str, Excitation]) -> tuple[str, ...]:
+    """Where the companion relation is asked outside the rates it was calibrated on."""
+    if law.companion is None:
+        return ()
+    warned = ((name, law.companion.extrapolation(each.rate)) for name, each in excitations.items())
+    return tuple(f"{name}: {text}" for name, text in warned if text)

@@ -1,0 +1,73 @@
+"""What planned tests will say, in words: the verdict, the parameters, the effects, the tests."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
+from probation.diagnosis.summary import WIDTH
+from probation.identify.result import estimate_text
+from probation.inference.parameter import SYMBOLS
+from probation.report.estimate import percentage
+from probation.report.table import Table
+
+if TYPE_CHECKING:
+    from probation.design.plan import Plan
+    from probation.inference.parameter import Parameter
+
+EXPECTED = "Expected of a fit of all tests together, if the law is right (value ± standard error)"
+
+
+def plan_verdict(plan: Plan) -> str:
+    """How well the parameters would be known, and which effects could be named."""
+    tests = "This test" if len(plan.tests) == 1 else f"These {len(plan.tests)} tests"
+    errors = [
+        f"{SYMBOLS[name]} {'not determined' if each.se is None else _relative(each)}"
+        for name, each in plan.parameters.items()
+    ]
+    effects = in_words(plan.isolability.headline, plan.isolability)
+    return f"{tests} would give the parameters with standard errors of {', '.join(errors)}. {effects}"
+
+
+def plan_summary(plan: Plan) -> str:
+    """As text of at most `WIDTH` columns, but for the first line, which holds the verdict."""
+    effects = isolability_table(plan.isolability).wrapped({"effect": 36, "these tests": 40})
+    warnings = "\n".join(fill(f"warning: {warning}", WIDTH) for warning in plan.warnings)
+    parts = [plan_verdict(plan), _parameters(plan), effects.text(), fill(HOW_TO_READ, WIDTH), _tests(plan), warnings]
+    return "\n\n".join(part for part in parts if part)
+
+
+def _parameters(plan: Plan) -> str:
+    names = [SYMBOLS[name] for name in plan.names]
+    named = [*zip(names, plan.parameters.values(), strict=True), (f"{names[0]}·{names[1]}", plan.product)]
+    labels = [f"{symbol} [{each.unit}]" if each.unit else symbol for symbol, each in named]
+    width = max(map(len, labels))
+    lines = [
+        f"  {label:<{width}}  {estimate_text(each)}, {each.status.replace('_', ' ')}"
+        for label, (_, each) in zip(labels, named, strict=True)
+    ]
+    correlations = [f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in range(len(names)) for j in range(i)]
+    return "\n".join([EXPECTED, *lines, f"  correlations: {', '.join(correlations)}"])
+
+
+def _tests(plan: Plan) -> str:
+    rows = tuple(
+        (
+            each.id,
+            each.history if each.history != each.id else "as given",
+            f"{each.samples}",
+            f"{each.duration:.4g}",
+            f"{each.largest_strain:.3g}",
+            f"{each.stress_noise:.3g}",
+            f"{each.strain_noise:.2g}" + ("" if each.smoothing == "raw" else f", {each.smoothing}"),
+        )
+        for each in plan.tests
+    )
+    headings = ("test", "history", "samples", "time [s]", "largest strain", "noise [MPa]", "strain noise [–]")
+    table = Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
+    return table.wrapped({"test": 24, "history": 30}).text()
+
+
+def _relative(each: Parameter) -> str:
+    return f"{percentage(each.se / abs(each.value))} %" if each.se is not None and each.value else f"{each.se:.2g}"
