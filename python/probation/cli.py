@@ -27,6 +27,7 @@ from probation.commands import (
     export,
     field,
     fit,
+    plan,
     preview,
     simulate,
     streams,
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 COMMANDS = (
-    demo, preview, excitation, fit, companion, certify, diagnose, crosscheck, simulate, export, coverage, field,
+    demo, preview, excitation, fit, companion, certify, diagnose, plan, crosscheck, simulate, export, coverage, field,
 )  # fmt: skip
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here.
 
@@ -58,6 +59,9 @@ Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline p
   identify the law on a campaign     probation fit hdpe-2020/ --report fit.html
   is the law intrinsic?              probation certify hdpe-2020/ --report certificate.html
   what does it leave out?            probation diagnose hdpe-2020/ --report diagnosis.html
+  what would planned tests tell?     probation plan --history ramp:rate=0.005,strain=2 --noise 0.04 \\
+                                         --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\
+                                         --set hardening_modulus_MPa=2.5
   how far the schemes agree          probation crosscheck hdpe-2020/
   simulate a test                    probation simulate --history ramp:rate=0.005,strain=2 \\
                                          --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\

@@ -57,6 +57,7 @@ RUNS = {
     "companion": Run(["--table-2"], "", {"--apply": ["rates", "--form", "power"]}),
     "certify": Run(["two"], "probation.certificate:certify"),
     "diagnose": Run(["two", "--effects", "force_offset"], "probation.diagnosis.diagnose:diagnose"),
+    "plan": Run(["--history", "ramp:samples=60", *LAW, "--noise", "0.04"], "probation.design.plan:plan"),
     "crosscheck": Run([], "probation.schemes.crosscheck:crosscheck"),
     "simulate": Run(["--history", "ramp:samples=400", *LAW]),
     "export": Run([*LAW, "--format", "abaqus-umat"]),

@@ -5,6 +5,13 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from probation.commands.analysis_options import (
+    add_effects,
+    add_seed,
+    add_threads,
+    check_effects,
+    effects_from_options,
+)
 from probation.commands.campaign_options import (
     add_campaign,
     add_control,
@@ -78,29 +85,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="with --against: the reference of a record whose id is another there; may be given several times",
     )
     add_held_out(parser)
-    parser.add_argument(
-        "--effects",
-        metavar="NAME,NAME",
-        action="append",
-        type=_names,
-        help="consider only these effects (all); names as --list-effects tells them",
-    )
+    add_effects(parser)
     add_scheme(parser, "sa3")
     add_hold(parser)
-    parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
-    parser.add_argument("--threads", metavar="N", type=_count, help="at most so many at once (one per core)")
+    add_seed(parser)
+    add_threads(parser)
     add_delivery(parser)
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    names = [name for group in options.effects or () for name in group] or None
+    names = effects_from_options(options)
     if options.pair and not options.against:
         raise InputError("found --pair without --against, expected both or neither")
     if options.against:
         return _change(options, names)
-    _known(names)
+    check_effects(names)
     if options.list_effects:
         return _list_effects(options, names)
     if not options.campaign:
@@ -177,31 +178,3 @@ def _list_effects(options: argparse.Namespace, names: list[str] | None) -> int:
 
     deliver(table, [text_output("JSON", options.json, to_json)])
     return 0
-
-
-def _known(names: list[str] | None) -> None:
-    from probation.effects.registry import effects  # noqa: PLC0415 - see the package
-
-    try:
-        effects(names)
-    except InputError as error:
-        raise InputError(f"--effects: {error}") from None
-
-
-def _names(text: str) -> list[str]:
-    names = [name.strip() for name in text.split(",") if name.strip()]
-    if not names:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected names such as self_heating,damage")
-    return names
-
-
-def _whole(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 0")
-    return int(text)
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 1")
-    return int(text)

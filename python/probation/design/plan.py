@@ -266,7 +266,7 @@ def _by_test(
     by_test = dict(given) if isinstance(given, Mapping) else dict.fromkeys(ids, given)
     if set(by_test) != set(ids):
         raise InputError(f"{name}: found numbers for {', '.join(by_test)}, expected one for each of {', '.join(ids)}")
-    expected = f"a number of at least 0 {unit}" if zero else f"a positive number {unit}"
+    expected = ("a number of at least 0" if zero else "a positive number") + (f" [{unit}]" if unit else "")
     found = {}
     for test in ids:
         try:
@@ -274,7 +274,7 @@ def _by_test(
         except (TypeError, ValueError):
             found[test] = np.nan
         if not (0.0 < found[test] < np.inf or (zero and found[test] == 0.0)):
-            raise InputError(f"{name} of {test!r}: found {by_test[test]!r}, expected {expected.rstrip()}")
+            raise InputError(f"{name} of {test!r}: found {by_test[test]!r}, expected {expected}")
     return found
 
 

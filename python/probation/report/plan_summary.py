@@ -22,12 +22,9 @@ EXPECTED = "Expected of a fit of all tests together, if the law is right (value 
 def plan_verdict(plan: Plan) -> str:
     """How well the parameters would be known, and which effects could be named."""
     tests = "This test" if len(plan.tests) == 1 else f"These {len(plan.tests)} tests"
-    errors = [
-        f"{SYMBOLS[name]} {'not determined' if each.se is None else _relative(each)}"
-        for name, each in plan.parameters.items()
-    ]
+    errors = [f"{SYMBOLS[name]} {_relative(each)}" for name, each in plan.parameters.items()]
     effects = in_words(plan.isolability.headline, plan.isolability)
-    return f"{tests} would give the parameters with standard errors of {', '.join(errors)}. {effects}"
+    return f"{tests} would give standard errors of {', '.join(errors)}. {effects}"
 
 
 def plan_summary(plan: Plan) -> str:
@@ -55,19 +52,21 @@ def _tests(plan: Plan) -> str:
     rows = tuple(
         (
             each.id,
-            each.history if each.history != each.id else "as given",
+            each.history,
             f"{each.samples}",
             f"{each.duration:.4g}",
             f"{each.largest_strain:.3g}",
             f"{each.stress_noise:.3g}",
-            f"{each.strain_noise:.2g}" + ("" if each.smoothing == "raw" else f", {each.smoothing}"),
+            f"{each.strain_noise:.2g}" + ("" if each.smoothing == "raw" else f"\n{each.smoothing}"),
         )
         for each in plan.tests
     )
-    headings = ("test", "history", "samples", "time [s]", "largest strain", "noise [MPa]", "strain noise [–]")
+    headings = ("test", "history", "samples", "time [s]", "max. strain", "noise [MPa]", "of strain [–]")
     table = Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
-    return table.wrapped({"test": 24, "history": 30}).text()
+    return table.wrapped({"test": 14, "history": 22}).text()
 
 
 def _relative(each: Parameter) -> str:
-    return f"{percentage(each.se / abs(each.value))} %" if each.se is not None and each.value else f"{each.se:.2g}"
+    if each.se is None or each.status == "not_identifiable":
+        return "not identifiable"
+    return f"{percentage(each.se / abs(each.value))} %" if each.value else f"{each.se:.2g} {each.unit}"

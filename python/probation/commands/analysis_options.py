@@ -1,0 +1,62 @@
+"""Which effects are considered, the seed of the noise, and how many threads work: options of several commands."""
+
+from __future__ import annotations
+
+import argparse
+
+from probation.errors import InputError
+
+
+def add_effects(parser: argparse._ActionsContainer) -> None:
+    """Add ``--effects``; `effects_from_options` reads it."""
+    parser.add_argument(
+        "--effects",
+        metavar="NAME,NAME",
+        action="append",
+        type=_names,
+        help="consider only these effects (all); names as probation diagnose --list-effects tells them",
+    )
+
+
+def add_seed(parser: argparse._ActionsContainer) -> None:
+    """Add ``--seed``."""
+    parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
+
+
+def add_threads(parser: argparse._ActionsContainer, default: str = "one per core") -> None:
+    """Add ``--threads``."""
+    parser.add_argument("--threads", metavar="N", type=_count, help=f"at most so many at once ({default})")
+
+
+def effects_from_options(options: argparse.Namespace) -> list[str] | None:
+    """Names of the effects to be considered; None: all."""
+    return [name for group in options.effects or () for name in group] or None
+
+
+def check_effects(names: list[str] | None) -> None:
+    """Raise an `InputError` for an effect that is not known."""
+    from probation.effects.registry import effects  # noqa: PLC0415 - see the package
+
+    try:
+        effects(names)
+    except InputError as error:
+        raise InputError(f"--effects: {error}") from None
+
+
+def _names(text: str) -> list[str]:
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected names such as self_heating,damage")
+    return names
+
+
+def _whole(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 0")
+    return int(text)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 1")
+    return int(text)
