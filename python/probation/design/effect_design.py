@@ -45,6 +45,7 @@ class Bias:
     percent : float
         Of its value; NaN where that is 0.
     standard_errors : float
+        NaN where the records do not depend on the parameter.
     """
 
     parameter: str
@@ -104,11 +105,13 @@ class Design:
     def biases(self, raw: FloatArray) -> tuple[Bias, ...]:
         """Where a refit without the effect ends, the largest share of a parameter's value first."""
         scale = np.linalg.norm(self.tangent, axis=0)
+        scale[scale == 0.0] = 1.0
         inverse = np.linalg.pinv(self.tangent / scale, rcond=DEPENDENT) / scale[:, None]
         shift, se = inverse @ raw, np.linalg.norm(inverse, axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
             percent = np.where(self.parameters != 0.0, 100.0 * shift / self.parameters, np.nan)
-        rows = zip(self.model.parameter_names, percent.tolist(), (shift / se).tolist(), strict=True)
+            errors = shift / se
+        rows = zip(self.model.parameter_names, percent.tolist(), errors.tolist(), strict=True)
         return tuple(sorted((Bias(*row) for row in rows), key=lambda bias: -abs(np.nan_to_num(bias.percent))))
 
     def smallest_seen(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:

@@ -38,7 +38,10 @@ def imposed(histories: Mapping[str, History], law: Law) -> dict[str, ImposedHist
     for name, given in histories.items():
         history = given
         if isinstance(history, tuple | list) and len(history) == 2:
-            history = ImposedHistory(name, *history)
+            try:
+                history = ImposedHistory("as given", *history)
+            except InputError as error:
+                raise InputError(f"histories, {name!r}: {error}") from None
         if not isinstance(history, ImposedHistory):
             raise InputError(
                 f"histories, {name!r}: found {type(given).__name__}, expected an ImposedHistory or (time, true_strain)"

@@ -44,8 +44,10 @@ def _parameters(plan: Plan) -> str:
         f"  {label:<{width}}  {estimate_text(each)}, {each.status.replace('_', ' ')}"
         for label, (_, each) in zip(labels, named, strict=True)
     ]
-    correlations = [f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in range(len(names)) for j in range(i)]
-    return "\n".join([EXPECTED, *lines, f"  correlations: {', '.join(correlations)}"])
+    known = [at for at, each in enumerate(plan.parameters.values()) if each.se is not None]
+    pairs = [f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in known for j in known if j < i]
+    correlations = [f"  correlations: {', '.join(pairs)}"] if pairs else []
+    return "\n".join([EXPECTED, *lines, *correlations])
 
 
 def _tests(plan: Plan) -> str:
