@@ -1,6 +1,8 @@
 """Planned tests: what is expected of them, against fits of simulated records, and as the command tells it."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -90,14 +92,15 @@ def test_noise_of_the_strain_costs_and_hardly_depends_on_the_seed():
 
 
 def test_noise_of_a_strain_too_coarse_to_be_smoothed_is_propagated_sample_by_sample():
-    """At the first instants a step of the strain makes a stress of about E_u times the step."""
-    history = named_history("relaxation", rate=0.1, strain=0.1, duration=100.0, samples=40)
-    errors = [
-        expected_errors(plan(LAW, {"dwell": history}, noise=0.1, strain_noise=size, effects=ONE))[0]
-        for size in (0.0, 1e-7, 1e-5)
-    ]
-    assert errors[1] == pytest.approx(errors[0], rel=0.01)
-    assert errors[2] > errors[1]
+    """Every strain sample is an error of its own: J^T (s^2 I + D D^T)^-1 J written out, D = d stress / d strain."""
+    history = named_history("ramp", rate=0.01, strain=1.0, samples=40)
+    found = plan(LAW, {"coarse": history}, noise=0.01, strain_noise=1e-5, effects=ONE)
+    assert found.tests[0].smoothing == "raw"
+    time, strain = history.time, history.true_strain
+    slope = 1e-5 * LAW.strain_sensitivity(time, strain, "sa3")
+    tangent = LAW.sensitivity(time, strain, "sa3")[1]
+    covariance = np.linalg.inv(tangent.T @ np.linalg.solve(1e-4 * np.eye(40) + slope @ slope.T, tangent))
+    np.testing.assert_allclose(expected_errors(found)[:3], np.sqrt(np.diag(covariance)), rtol=1e-3)
 
 
 def test_arrays_are_a_history_and_so_is_an_imposed_stress():
@@ -125,6 +128,13 @@ def test_a_companion_relation_beyond_its_rates_is_warned_of():
     assert found.warnings[0].startswith("fast: ")
     assert "warning: fast: " in found.summary()
     assert found.names[1] == "alpha"
+
+
+def test_the_example_of_the_documentation_prints_what_stands_below_it(capsys):
+    text = Path(__file__).parents[2].joinpath("docs", "isolability.md").read_text(encoding="utf-8")
+    example, shown = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
+    exec(example, {})
+    assert " ".join(capsys.readouterr().out.split()).startswith(" ".join(shown.split()))
 
 
 TIME = np.linspace(0.0, 100.0, 50)
