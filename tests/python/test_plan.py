@@ -112,6 +112,11 @@ def test_arrays_are_a_history_and_so_is_an_imposed_stress():
     assert [each.history for each in (*imposed.tests, *given.tests)] == [history.name, "as given"]
 
 
+def test_a_name_that_does_not_print_is_escaped_as_in_records():
+    found = plan(LAW, {"a\x1b[1m": (np.linspace(0.0, 100.0, 50), np.linspace(0.0, 0.5, 50))}, noise=0.1, effects=ONE)
+    assert found.tests[0].id.isprintable()
+
+
 def test_what_the_tests_do_not_determine_is_said():
     """A relaxed specimen at rest shows G alone."""
     found = plan(LAW, {"rest": (np.linspace(0.0, 100.0, 50), np.full(50, 0.5))}, noise=0.1)
@@ -144,6 +149,7 @@ TIME = np.linspace(0.0, 100.0, 50)
     ("histories", "options", "told"),
     [
         ({}, {}, "histories: found none"),
+        ([(TIME, TIME)], {}, "histories: found list, expected at least one planned test by its name"),
         ({"a": 3}, {}, "histories, 'a': found int, expected an ImposedHistory or"),
         ({"a": (TIME, TIME[:3])}, {}, "histories, 'a': true_strain has 3 samples; expected 50"),
         ({"a": (TIME, np.nan * TIME)}, {}, r"histories, 'a': true_strain\[0\] is nan"),

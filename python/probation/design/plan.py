@@ -173,8 +173,7 @@ def plan(
 
     The law's sensitivities along the histories, weighed by the inverse covariance of the noise, give the standard
     errors of its parameters (generalised least squares, all tests together), and the lengths and angles of what effects
-    add to the stress. The parameters of the law are the point at which both are taken: a guess of them is enough, since
-    they hardly change with it.
+    add to the stress. Both are taken at the law's parameters; a guess of them is enough.
 
     Parameters
     ----------
@@ -213,36 +212,40 @@ def plan(
     >>> law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
     >>> ramps = {f"{rate} 1/s": probation.named_history("ramp", rate=rate, strain=1.5) for rate in (0.001, 0.02)}
     >>> probation.plan(law, ramps, noise=0.5).parameters["tau_max"].se.round(3)
-    0.023
+    0.006
     """
     engine_law(law)
-    chosen = known_effects(effects)
-    told = progress or (lambda part: None)
+    chosen, advance = known_effects(effects), progress or (lambda part: None)
+    # What will be recorded: histories, noise, and the strain as it will drive the law.
     tests = imposed(histories, law)
-    stress_noises = _by_test("noise", noise, tests, "MPa")
-    strain_noises = _by_test("strain_noise", strain_noise, tests, "", zero=True)
-    records = [planned_record(name, tests[name], stress_noises[name], strain_noises[name]) for name in tests]
-    campaign = Campaign("plan", tuple(records))
-    rng = np.random.default_rng(seed)
-    excitations = {}
-    for count, record in enumerate(campaign.records):
+    stress_noise = _by_test("noise", noise, tests, "MPa")
+    given_strain_noise = _by_test("strain_noise", strain_noise, tests, "", zero=True)
+    records = [planned_record(name, tests[name], stress_noise[name], given_strain_noise[name]) for name in tests]
+    campaign, rng, excitations = Campaign("plan", tuple(records)), np.random.default_rng(seed), {}
+    for count, record in enumerate(records):
         excitations[record.id] = planned_excitation(record, rng)
-        told(0.3 * (count + 1) / len(records))
+        advance(0.3 * (count + 1) / len(records))
+    # The law on it, and the covariance of the noise of its stress.
     views = views_of(campaign, excitations=excitations, scheme=SCHEME)
+    model = CampaignModel(DnlrLaw(law), views)
     noises = [
         replace(white, carried=propagated(excitations[view.id], law, SCHEME))
-        for view, white in zip(views, white_noise(views, list(stress_noises.values())), strict=True)
+        for view, white in zip(views, white_noise(views, list(stress_noise.values())), strict=True)
     ]
-    model = CampaignModel(DnlrLaw(law), views)
+    # How well its parameters will be known.
     design = Design.of(as_predicted(model, model.start), model.start, noises)
-    told(0.5)
-    found = isolability(model, model.start, noises, chosen, threads=threads or 2)
-    told(1.0)
     covariance, lost = design.covariance()
+    advance(0.5)
+    # Which effects can be detected and discriminated.
+    found = isolability(model, model.start, noises, chosen, threads=threads or 2)
+    advance(1.0)
     return Plan(
         law=law,
         scheme=SCHEME,
-        tests=tuple(_described(each, tests[each.id].name, excitations[each.id]) for each in campaign.records),
+        tests=tuple(
+            _described(record, history.name, excitations[record.id])
+            for record, history in zip(records, tests.values(), strict=True)
+        ),
         **_known(law, covariance, lost, len(design.tangent)),
         names=law.parameter_names,
         correlation=correlation(covariance),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -15,8 +16,6 @@ from probation.records.record import Noise, Record
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from probation._arrays import FloatArray
     from probation.law.modal import Law, Scheme
     from probation.smoothing.excitation import Excitation
@@ -32,9 +31,10 @@ def imposed(histories: Mapping[str, History], law: Law) -> dict[str, ImposedHist
     InputError
         If there is none, for what is no history, and where `creep` raises one.
     """
-    if not histories:
-        raise InputError("histories: found none, expected at least one planned test")
-    found = {}
+    if not isinstance(histories, Mapping) or not histories:
+        found = "none" if isinstance(histories, Mapping) else type(histories).__name__
+        raise InputError(f"histories: found {found}, expected at least one planned test by its name")
+    strains = {}
     for name, given in histories.items():
         history = given
         if isinstance(history, tuple | list) and len(history) == 2:
@@ -50,8 +50,8 @@ def imposed(histories: Mapping[str, History], law: Law) -> dict[str, ImposedHist
             jumps = "auto" if history.jumps is None else history.jumps or None
             strain = creep(law, history.time, history.true_stress, jumps=jumps)
             history = ImposedHistory(history.name, history.time, true_strain=strain, jumps=history.jumps)
-        found[name] = history
-    return found
+        strains[name] = history
+    return strains
 
 
 def planned_record(name: str, history: ImposedHistory, stress_noise: float, strain_noise: float) -> Record:
