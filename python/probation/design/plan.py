@@ -190,7 +190,7 @@ def plan(
     effects : iterable of str, optional
         All that are known if left out.
     seed : int
-        Of the noise on which it is found how a noisy strain will be smoothed.
+        Of the noise on which it is found how strongly a noisy strain will be smoothed.
     threads : int, optional
         At most so many at once (2).
     progress : callable, optional

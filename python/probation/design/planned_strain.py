@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from probation.law.modal import Law, Scheme
     from probation.smoothing.excitation import Excitation
 
+DRAWS = 5
+"""Draws of the strain's noise on which it is seen how strongly a smoother will smooth; the middle one counts."""
+
 History = ImposedHistory | tuple["FloatArray", "FloatArray"]
 
 
@@ -78,8 +81,9 @@ def planned_record(name: str, history: ImposedHistory, stress_noise: float, stra
 def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
     """Strain and rate of a planned test.
 
-    Where the strain will be noisy, how it is going to be smoothed is found on one draw of the noise; the strain is what
-    that smoother makes of the one imposed.
+    Where the strain will be noisy, how it is going to be smoothed is found on draws of the noise: the one with the
+    median of the degrees of freedom counts, since single draws are smoothed far less. The strain is what that smoother
+    makes of the one imposed.
 
     Raises
     ------
@@ -94,12 +98,14 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
             f"record {record.id!r}: found {len(record)} samples, expected at most {LARGEST} where strain_noise is "
             "given; use fewer samples"
         )
-    drawn = excite(replace(record, true_strain=record.true_strain + deviation * rng.standard_normal(len(record))))
-    strain, rate = drawn.strain_operator(), drawn.rate_operator()
+    noise = deviation * rng.standard_normal((DRAWS, len(record)))
+    drawn = [excite(replace(record, true_strain=record.true_strain + each)) for each in noise]
+    usual = sorted(drawn, key=lambda each: each.freedom)[DRAWS // 2]
+    strain, rate = usual.strain_operator(), usual.rate_operator()
     if strain is None or rate is None:
         return excite(record, "raw")
     return replace(
-        drawn, true_strain=strain @ record.true_strain, strain_rate=rate @ record.true_strain, noise_inflation=1.0
+        usual, true_strain=strain @ record.true_strain, strain_rate=rate @ record.true_strain, noise_inflation=1.0
     )
 
 
