@@ -23,11 +23,11 @@ from probation.inference.parameter import UNITS, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import Scheme, engine_law
 from probation.records.campaign import Campaign
+from probation.results.rendering import Plotted, Summarised, rendered
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
@@ -83,7 +83,7 @@ class PlannedTest:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Plan(Summarised, Plotted):
     """What planned tests will say.
 
     Attributes
@@ -121,21 +121,8 @@ class Plan:
     @property
     def verdict(self) -> str:
         """One sentence on the parameters, one on the effects."""
-        from probation.report.plan_summary import plan_verdict  # noqa: PLC0415 - words only when asked for
-
-        return plan_verdict(self)
-
-    def summary(self) -> str:
-        """Verdict first, then the parameters, then every effect, then the tests."""
-        from probation.report.plan_summary import plan_summary  # noqa: PLC0415
-
-        return plan_summary(self)
-
-    def plot(self) -> Figure:
-        """How probably each effect would be named rightly against each other."""
-        from probation.report.isolability_figure import isolability_figure  # noqa: PLC0415 - as above
-
-        return isolability_figure(self.isolability)
+        text: str = rendered(self, "verdict")
+        return text
 
     def to_dict(self) -> dict[str, Any]:
         """The answer as Python objects, `probation.plan/1`."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.design.isolability import Isolability
+    from probation.design.plan import Plan
     from probation.diagnosis.isolability import CampaignIsolability
 
 LEVELS = (0.95, 0.8, 0.6)
@@ -110,3 +111,8 @@ def _legend(axes: Axes) -> None:
 def campaign_isolability_figure(answer: CampaignIsolability) -> Figure:
     """The map of a campaign's answer."""
     return isolability_figure(answer.found)
+
+
+def plan_figure(plan: Plan) -> Figure:
+    """The map of planned tests."""
+    return isolability_figure(plan.isolability)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.isolability_table import HOW_TO_READ, in_words, isolability_table
-from probation.diagnosis.summary import WIDTH
-from probation.identify.result import estimate_text
 from probation.inference.parameter import SYMBOLS
-from probation.report.estimate import percentage
+from probation.report.diagnosis_summary import WIDTH
+from probation.report.fit_summary import estimate_text
+from probation.report.isolability_table import HOW_TO_READ, in_words, isolability_table
 from probation.report.table import Table
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from probation.design.plan import Plan

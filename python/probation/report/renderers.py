@@ -63,6 +63,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "isolability_figure.campaign_isolability_figure",
         "report": "isolability_page.write_isolability_page",
     },
+    "design.plan.Plan": {
+        "verdict": "plan_summary.plan_verdict",
+        "summary": "plan_summary.plan_summary",
+        "plot": "isolability_figure.plan_figure",
+    },
     "comparison.result.Comparison": {
         "summary": "comparison_summary.comparison_summary",
         "plot": "comparison_figure.comparison_figure",
@@ -87,7 +92,7 @@ def renderer(result: type, what: str) -> Callable[..., Any]:
     Parameters
     ----------
     result : type
-    what : {"summary", "plot", "report"}
+    what : {"summary", "plot", "report", "verdict"}
     """
     for each in result.__mro__:
         name = f"{each.__module__}.{each.__qualname__}".removeprefix("probation.")

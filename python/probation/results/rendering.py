@@ -25,7 +25,7 @@ def rendered(result: object, what: str, *arguments: object, **options: object) -
     Parameters
     ----------
     result : object
-    what : {"summary", "plot", "report"}
+    what : {"summary", "plot", "report", "verdict"}
     *arguments, **options
         Passed on to the renderer.
     """
