@@ -9,15 +9,18 @@ import numpy as np
 
 from probation._arrays import one_of
 from probation.answers import json_answer
-from probation.law.answer import law_answer
+from probation.law.answer import law_answer, law_from_answer
 from probation.law.creep import creep
 from probation.law.modal import SCHEMES, Law, Scheme, Start
 from probation.provenance import samples_sha256
+from probation.results.reading import answer_in
 from probation.results.rendering import Plotted, rendered
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.histories import ImposedHistory
+
+SCHEMA = "probation.simulation/1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +69,7 @@ class Simulation(Plotted):
     def to_json(self) -> str:
         """The answer, schema "probation.simulation/1"."""
         return json_answer(
-            "probation.simulation/1",
+            SCHEMA,
             {
                 "history": self.name,
                 "data_sha256": samples_sha256(self.time, self.true_stress if self.stress_imposed else self.true_strain),
@@ -80,6 +83,32 @@ class Simulation(Plotted):
                 "true_stress_MPa": self.true_stress,
             },
         )
+
+    @classmethod
+    def from_json(cls, text: str) -> Simulation:
+        """The simulation that `to_json` wrote.
+
+        Parameters
+        ----------
+        text : str
+
+        Raises
+        ------
+        InputError
+            If the text is not what `to_json` writes.
+        """
+        with answer_in(text, SCHEMA) as answer:
+            return cls(
+                name=answer["history"],
+                law=law_from_answer(answer["law"]),
+                scheme=answer["scheme"],
+                start=answer["start"] or "exponential",
+                time=np.array(answer["time_s"], dtype=float),
+                true_strain=np.array(answer["true_strain"], dtype=float),
+                true_stress=np.array(answer["true_stress_MPa"], dtype=float),
+                stress_imposed=answer["imposed"] == "true_stress_MPa",
+                warnings=tuple(answer["warnings"]),
+            )
 
 
 def simulate(

@@ -23,14 +23,17 @@ from probation.identify.fit import fit
 from probation.pool import run_all
 from probation.records.campaign import Campaign
 from probation.records.record import Record
+from probation.results.reading import answer_in
 from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
     from probation.identify.weighting import Weighting
     from probation.smoothing.methods import Method as ExcitationMethod
+
+SCHEMA = "probation.coverage/1"
 
 TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
 """Table 1's reference [MPa], [s], [MPa]."""
@@ -183,7 +186,30 @@ class Coverage(Summarised, Plotted):
             }
             for each in self.counted
         ]
-        return json_answer("probation.coverage/1", {"verdict": self.verdict, "seed": self.seed, "rows": rows})
+        return json_answer(SCHEMA, {"verdict": self.verdict, "seed": self.seed, "rows": rows})
+
+    @classmethod
+    def from_json(cls, text: str) -> Coverage:
+        """The study that `to_json` wrote.
+
+        Parameters
+        ----------
+        text : str
+
+        Raises
+        ------
+        InputError
+            If the text is not what `to_json` writes.
+        """
+        with answer_in(text, SCHEMA) as answer:
+            return cls(tuple(_counted(row) for row in answer["rows"]), answer["seed"])
+
+
+def _counted(row: Mapping[str, Any]) -> Counted:
+    draws, parameters = row["draws"], row["parameters"]
+    hits = {name: round(each["coverage"] * draws) for name, each in parameters.items()}
+    bias = {name: each["bias"] for name, each in parameters.items()}
+    return Counted(row["case"], row["weighting"], draws, hits, bias)
 
 
 def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tuple[float, float]:

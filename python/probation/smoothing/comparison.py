@@ -10,6 +10,7 @@ import numpy as np
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.records.record import Record
+from probation.results.reading import answer_in
 from probation.results.rendering import Plotted, Summarised
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES
@@ -19,6 +20,7 @@ from probation.wording import percentage
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+SCHEMA = "probation.excitation-comparison/1"
 
 NOISES = (2e-5, 1e-4, 3e-4, 1e-3)
 """Standard deviations of the strain noise [-]."""
@@ -105,7 +107,31 @@ class Comparison(Summarised, Plotted):
                 row |= {"p95": each.p95, "median": each.median, "coverage95": each.coverage}
             rows.append(row)
         content = {"default": DEFAULT, "verdict": self.verdict, "draws": self.draws, "seed": self.seed, "results": rows}
-        return json_answer("probation.excitation-comparison/1", content)
+        return json_answer(SCHEMA, content)
+
+    @classmethod
+    def from_json(cls, text: str) -> Comparison:
+        """The comparison that `to_json` wrote.
+
+        Parameters
+        ----------
+        text : str
+
+        Raises
+        ------
+        InputError
+            If the text is not what `to_json` writes.
+        """
+        with answer_in(text, SCHEMA) as answer:
+            results = {
+                (row["history"], row["strain_noise"], row["method"]): row["not_applicable"]
+                if "not_applicable" in row
+                else Closeness(row["p95"], row["median"], row["coverage95"])
+                for row in answer["results"]
+            }
+            noises = tuple(dict.fromkeys(noise for _, noise, _ in results))
+            methods = tuple(dict.fromkeys(method for _, _, method in results))
+            return cls(results, noises, methods, answer["draws"], answer["seed"])
 
 
 def compare(
