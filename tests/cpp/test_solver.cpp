@@ -86,7 +86,7 @@ ArrayXd literal_be2(const Law& law, const History& history) {
   return total;
 }
 
-/// The q and s recursions of physics.md, in long double.
+/// The q and s recursions of docs/law.md, in long double.
 ArrayXd literal_sa(const Law& law, const History& history, bool third_order) {
   using Real = long double;
   const ArrayXd &t = history.time(), &e = history.true_strain();
@@ -147,7 +147,7 @@ TEST_CASE("be2 restarts at jumps as the paper starts") {
         1e-12);
 }
 
-TEST_CASE("sa2 and sa3 are the recursions of physics.md") {
+TEST_CASE("sa2 and sa3 are the recursions of docs/law.md") {
   const Law law = experiment_1();
   for (const ArrayXd& time : {ArrayXd(even(241, 60.0)), uneven(241, 60.0)}) {
     const History history(time, smooth(time), ArrayXd(), {100});

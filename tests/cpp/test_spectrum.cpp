@@ -19,7 +19,7 @@ TEST_CASE("fifty modes over six decades are the paper's") {
   CHECK(spectrum.relaxation_ratio[30] / spectrum.relaxation_ratio[29] ==
         doctest::Approx(std::pow(10.0, 6.0 / 49)));
   CHECK(spectrum.modal_weight.sum() == doctest::Approx(1.0).epsilon(1e-15));
-  // physics.md: sum of p_j tau_j / tau_max is 0.382 (1/3 in the continuum).
+  // docs/law.md: sum of p_j tau_j / tau_max is 0.382 (1/3 in the continuum).
   CHECK((spectrum.modal_weight * spectrum.relaxation_ratio).sum() == doctest::Approx(0.382).epsilon(1e-3));
 }
 

@@ -61,7 +61,7 @@ def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localise
 
 
 def _diagnosis(probabilities, answer_set=None, verdict=None, records=("a",), where=()):
-    """An answer as the contract has it, from probabilities of tuples of names."""
+    """An answer as docs/formats.md has it, from probabilities of tuples of names."""
     best = max(probabilities, key=lambda names: probabilities[names])
     entries = {(): 0.0, ("unknown",): 0.0} | probabilities
     return {
@@ -187,10 +187,10 @@ def test_a_failed_answer_is_wrong_in_everything():
         lambda answer: answer.update(answer_set=["damage"]),
     ],
 )
-def test_an_answer_that_breaks_the_contract_is_named(spoil):
+def test_an_answer_of_another_form_is_named(spoil):
     answer = _diagnosis({(): 1.0})
     spoil(answer)
-    with pytest.raises(InputError, match=r"split/answers/x\.json.*contract"):
+    with pytest.raises(InputError, match=r"split/answers/x\.json.*the form of"):
         read_answer(answer, "split/answers/x.json")
 
 

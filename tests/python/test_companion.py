@@ -24,7 +24,7 @@ forms = pytest.mark.parametrize("companion", FORMS.values(), ids=FORMS)
 
 
 def test_eq_11_by_hand():
-    """At 0.001 1/s: (0.00464 (-3) + 0.0367) / 0.001 = 22.78 s; at 0.005, physics.md's anchor, 5.205 s."""
+    """At 0.001 1/s: (0.00464 (-3) + 0.0367) / 0.001 = 22.78 s; at 0.005, section 4 of docs/law.md says 5.205 s."""
     assert FORMS["weissenberg"].relaxation_time([0.001, 0.005]) == pytest.approx([22.78, 5.205], rel=1e-4)
     assert FORMS["weissenberg"].weissenberg_number([0.001]) == pytest.approx([0.02278])
 

@@ -54,7 +54,7 @@ def within(found, truth, errors=3.0):
 
 
 def test_table_2_gives_the_printed_slope_and_r_squared_and_another_intercept():
-    """physics.md: 0.0046 log10(rate) + 0.0406, R² 0.976; (11) prints 0.00464, 0.0367."""
+    """docs/law.md: 0.0046 log10(rate) + 0.0406, R² 0.976; (11) prints 0.00464, 0.0367."""
     found = calibrate_companion(TABLE_2, form="weissenberg").candidates["weissenberg"]
     assert found.companion.parameters == pytest.approx([0.0046, 0.0406], abs=5e-5)
     assert found.r_squared == pytest.approx(0.976, abs=5e-4)
@@ -68,7 +68,7 @@ def test_least_squares_of_tau_max_gives_eq_12_as_printed():
 
 
 def test_eq_12_is_too_long_at_the_fast_rates_and_eq_11_too_short_everywhere():
-    """physics.md: +7.2 / +4.4 / +3.9 %. (11): at 0.01 1/s (0.0367 - 0.00928) / 0.01 = 2.742 s against 3.21."""
+    """docs/law.md: +7.2 / +4.4 / +3.9 %. (11): at 0.01 1/s (0.0367 - 0.00928) / 0.01 = 2.742 s against 3.21."""
     percent = paper_relations().percent
     assert percent["(12) as printed"][-3:] == pytest.approx([7.2, 4.4, 3.9], abs=0.05)
     assert np.all(percent["(11) as printed"] < -10.0)
@@ -76,7 +76,7 @@ def test_eq_12_is_too_long_at_the_fast_rates_and_eq_11_too_short_everywhere():
 
 
 def test_tables_3_and_4_were_computed_with_the_printed_intercept():
-    """1.11 / 0.928 and 1.045 / 0.855; physics.md: only 0.0367 reproduces 1.196 and 1.222."""
+    """1.11 / 0.928 and 1.045 / 0.855; docs/law.md: only 0.0367 reproduces 1.196 and 1.222."""
     for ratio, printed in zip(paper_relations().ratios, (1.196, 1.222), strict=True):
         assert ratio.printed == pytest.approx(printed, abs=5e-4)
         assert ratio.as_printed == pytest.approx(printed, abs=0.01)
@@ -202,7 +202,7 @@ def test_ramps_return_the_relation_that_made_them():
 
 
 def test_a_shared_modulus_makes_relaxation_times_far_better_known():
-    """physics.md: E_u·tau_max is known to 0.003 %, tau_max to 0.047 %."""
+    """docs/law.md: E_u·tau_max is known to 0.003 %, tau_max to 0.047 %."""
     shared, free = (calibrate_companion(ramps(), form="weissenberg", modulus=how) for how in ("shared", "free"))
     assert np.all(free.table.se > 5 * shared.table.se)
     assert within(free, TRUTH)

@@ -71,7 +71,7 @@ def test_the_same_signal_is_a_coin_toss():
 
 @pytest.mark.parametrize(("degrees", "root_lambda"), [(90.0, 2.8), (30.0, 6.4), (10.0, 18.9)])
 def test_the_lengths_that_tell_apart_19_times_of_20(degrees, root_lambda):
-    """Gap-method section 5; at a right angle the formula is P(|N(l, 1)| > |N(0, 1)|), integrated here."""
+    """Section 5 of docs/diagnosis-method.md: at a right angle the formula is P(|N(l, 1)| > |N(0, 1)|)."""
     assert probability_of_the_right_one(root_lambda, np.cos(np.radians(degrees))) == pytest.approx(0.95, abs=0.004)
     if degrees == 90.0:
         t = np.linspace(-10.0, 14.0, 20001)

@@ -202,7 +202,7 @@ def test_noise_and_bias_are_told_apart():
 
 
 def test_a_bias_widens_the_standard_errors():
-    """physics.md: a wavy bias of 1 MPa shifts E_u by 6.6 %, far beyond the 0.05 % of sensor noise."""
+    """docs/law.md: a wavy bias of 1 MPa shifts E_u by 6.6 %, far beyond the 0.05 % of sensor noise."""
     record = ramp_record(samples=2001)
     wavy = Record("w", record.time, record.true_strain, record.true_stress + np.sin(record.time / 20.0))
     answer = fit(Campaign("x", (wavy,)))

@@ -73,7 +73,7 @@ def test_a_spectrum_is_equal_by_value():
 
 
 def test_the_papers_spectrum():
-    """physics.md: sum p_j tau_j / tau_max is 0.382 at N = 50; eq. (4): 10^(6/49) from mode to mode."""
+    """docs/law.md: sum p_j tau_j / tau_max is 0.382 at N = 50; eq. (4): 10^(6/49) from mode to mode."""
     spectrum = Spectrum.log_spaced()
     assert spectrum.modal_weight.sum() == pytest.approx(1.0, rel=1e-15)
     assert (spectrum.modal_weight * spectrum.relaxation_ratio).sum() == pytest.approx(0.382, abs=5e-4)

@@ -1,4 +1,4 @@
-"""The paper reproduced: what the twins return beside what the paper prints (physics.md and the tables themselves)."""
+"""The paper reproduced: what the twins return beside what the paper prints (docs/law.md and the tables themselves)."""
 
 import json
 import re
@@ -32,7 +32,7 @@ def paper():
     return reproduce(draws=DRAWS)
 
 
-# What physics.md requires of twin P2
+# What docs/law.md requires of twin P2
 
 
 @pytest.mark.parametrize(("number", "alpha"), [(2, 0.924), (3, 0.855)])
@@ -102,7 +102,7 @@ def test_the_cost_is_flat_towards_short_times_at_a_fixed_product(number):
 
 @pytest.mark.parametrize("number", [2, 3])
 def test_the_onset_is_the_viscous_stress_of_the_starting_rate(number):
-    """As τ_max → 0 it is E_u Σ p_j τ_j ε̇(0), with Σ p_j τ_j = 0.382 τ_max at 50 modes (physics.md)."""
+    """As τ_max → 0 it is E_u Σ p_j τ_j ε̇(0), with Σ p_j τ_j = 0.382 τ_max at 50 modes (docs/law.md)."""
     found = cost_over_time(number)
     law, history = found.law(0), necking_history(number)
     expected = 0.382 * law.unrelaxed_modulus * law.tau_max * history.strain_rate([0.0])[0]

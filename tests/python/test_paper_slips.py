@@ -1,4 +1,4 @@
-"""The paper's slips, against what physics.md and hand calculation say of its printed numbers."""
+"""The paper's slips, against what docs/law.md and hand calculation say of its printed numbers."""
 
 import numpy as np
 import pytest

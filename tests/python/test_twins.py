@@ -1,4 +1,4 @@
-"""Twins of the paper's experiments, against what physics.md says they must return."""
+"""Twins of the paper's experiments, against what section 5 of docs/law.md says they must return."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Literal implementations: one equation of the paper or of physics.md, one line. Slow on purpose."""
+"""Literal implementations: one equation of the paper or of docs/law.md, one line. Slow on purpose."""
 
 import mpmath as mp
 import numpy as np
@@ -58,7 +58,7 @@ def be2(time, strain, E_u, G, tau_max, *, modes=50, decades=6.0, fresh=(), rates
 
 
 def sa_coefficients(z):
-    """k0, k1, k2 of physics.md in 40 digits, rounded."""
+    """k0, k1, k2 of docs/law.md in 40 digits, rounded."""
     with mp.workdps(40):
         z = mp.mpf(float(z))
         k0 = -mp.expm1(-z)
@@ -67,7 +67,7 @@ def sa_coefficients(z):
 
 
 def sa(time, strain, E_u, G, tau_max, *, order=3, modes=50, decades=6.0, fresh=()):
-    """The q and s recursions of physics.md at constant tau_max, modal stresses p_j (E_u q_j + G s_j).
+    """The q and s recursions of docs/law.md at constant tau_max, modal stresses p_j (E_u q_j + G s_j).
 
     q+ = e^-z q + [(de - c) k0 + 2 c k1] / z,  s+ = e^-z s + H k0 + (dH - c_H) k1 + c_H k2.
     """

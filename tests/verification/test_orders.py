@@ -1,4 +1,4 @@
-"""Does each scheme converge at the order that physics.md states: be2 2, sa2 2, sa3 3?
+"""Does each scheme converge at the order that docs/law.md states: be2 2, sa2 2, sa3 3?
 
 Errors are measured at fixed times well away from starts and jumps, against references that share nothing
 with the engine: the memory integral of eq. (6) by Gauss-Legendre quadrature, or scipy's DOP853.

@@ -76,7 +76,7 @@ def test_be2_uses_the_relaxation_time_at_the_end_of_the_step():
 @pytest.mark.parametrize(("scheme", "order"), [("sa2", 2), ("sa3", 3)])
 @pytest.mark.parametrize("modes", [1, 2, 50])
 def test_sa_schemes_are_literally_their_recursions(scheme, order, modes):
-    """In q and s as physics.md writes them, coefficients in 40 digits; a jump, uneven steps."""
+    """In q and s as docs/law.md writes them, coefficients in 40 digits; a jump, uneven steps."""
     time = np.concatenate([np.linspace(0.0, 6.0, 13), 6.0 + paper.uneven(30, 20.0)[1:]])
     strain = np.where(time < 6.0, 0.004 * time, 0.024 + paper.smooth_strain(time - 6.0))
     found = law(modes=modes).stress(time, strain, scheme, jumps=[6.0])

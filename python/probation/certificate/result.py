@@ -80,7 +80,7 @@ class Certificate(Result):
         return f"The law is {VERDICTS[self.verdict]}: {self.reason}."
 
     def to_dict(self) -> dict[str, Any]:
-        """The answer in the form of the contract, `probation.certificate/1`, as Python objects."""
+        """The answer as Python objects, `probation.certificate/1` of docs/formats.md."""
         return {
             "campaign": self.campaign,
             "data_sha256": self.data_sha256,

@@ -1,4 +1,4 @@
-"""Which effects could these tests tell apart at all? Asked before any fit, gap-method section 5."""
+"""Which effects can these tests discriminate? Asked before any fit (docs/diagnosis-method.md, section 5)."""
 
 from __future__ import annotations
 

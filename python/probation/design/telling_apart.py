@@ -1,4 +1,4 @@
-r"""How often the right one of two effects describes the data better, gap-method section 5.
+r"""How often the right one of two effects fits the data better (docs/diagnosis-method.md, section 5).
 
 An effect's whitened, projected signal has the length sqrt(lambda) along the unit vector u_i; the rival's is u_j, at the
 angle psi. With t = u^T z the better of the two has the larger t^2 (a one-sided amplitude: of max(t, 0)^2). The sign of

@@ -1,4 +1,4 @@
-"""Is there a gap? The residual against "nothing but noise", gap-method section 2."""
+"""Is there a gap? The residual against "nothing but noise" (docs/diagnosis-method.md, section 2)."""
 
 from __future__ import annotations
 
@@ -236,7 +236,7 @@ def gap_test(
     size: int = 4000,
     seed: int = 0,
 ) -> GapTest:
-    """Whether the campaign's residual is more than noise, gap-method section 2; see `GapTester`."""
+    """Whether the campaign's residual is more than noise (docs/diagnosis-method.md, section 2); see `GapTester`."""
     return GapTester(whitened, directions, size=size, seed=seed)(level=level)
 
 

@@ -75,7 +75,7 @@ class Step:
 
 
 def find_lines(whitened: Whitened) -> tuple[Line, ...]:
-    """The strongest periodic part of every record, gap-method section 3, by p-value.
+    """The strongest periodic part of every record, by p-value (docs/diagnosis-method.md, section 3).
 
     The periodogram of the whitened residual, slow waves and the record's own refit projected out, against the noise
     model or the power of the neighbouring frequencies, whichever is larger. Frequencies are tried at twice the natural
@@ -113,7 +113,7 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
 
 
 def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[Step, ...]:
-    """The strongest step of every record, gap-method section 3, by p-value: a matched filter.
+    """The strongest step of every record by a matched filter, by p-value (docs/diagnosis-method.md, section 3).
 
     What a step leaves after slow waves, fades and the record's own refit are projected out is compared with what the
     residual leaves; the largest score is held against draws of the largest score under the null.

@@ -73,7 +73,7 @@ class Sequential:
 def parameter_drift(
     whitened: Whitened, names: Sequence[str], covariates: Mapping[str, Sequence[float]] | None = None
 ) -> tuple[Drift, ...]:
-    """Refit one parameter at a time to every record, in linearised form, gap-method section 3.
+    """Refit one parameter at a time to every record, in linearised form (docs/diagnosis-method.md, section 3).
 
     Parameters
     ----------

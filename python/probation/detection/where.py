@@ -1,4 +1,4 @@
-"""Where the gap sits: regions against noise with familywise p-values, gap-method section 3."""
+"""Where the gap sits: regions against noise with familywise p-values (docs/diagnosis-method.md, section 3)."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ class Where:
 
 
 def locate(whitened: Whitened, *, level: float = LEVEL, size: int = 2000, seed: int = 0) -> Where:
-    """Look for the gap region by region, gap-method section 3.
+    """Look for the gap region by region (docs/diagnosis-method.md, section 3).
 
     Partitions: every record in nested intervals of time; all records together by strain, rate and phase. In each region
     the mean, slope and bend of z are tested (a mean where samples are few); familywise p-values come from the draws of

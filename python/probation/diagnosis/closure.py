@@ -1,4 +1,4 @@
-"""How far a gap shrinks, gap-method section 8."""
+"""How far a gap shrinks (docs/diagnosis-method.md, section 8)."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Closure:
     how: str
 
     def to_dict(self) -> dict[str, Any]:
-        """As in the contract."""
+        """As in `shrink` of docs/formats.md."""
         return {
             "before_MPa": self.before_MPa,
             "after_MPa": self.after_MPa,

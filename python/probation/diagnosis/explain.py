@@ -97,7 +97,7 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
 
 
 def regions_of(hypothesis: Hypothesis, base: BaseFit, p_value: float) -> tuple[Located, ...]:
-    """Where the causes' own contribution is certain, gap-method section 3."""
+    """Where the causes' own contribution is certain (docs/diagnosis-method.md, section 3)."""
     found, model = hypothesis.refit, hypothesis.refit.model
     first = model.base_count
     absent = found.parameters.copy()

@@ -1,4 +1,4 @@
-"""The experiment that would best settle what a diagnosis leaves open, gap-method section 9."""
+"""The test that best discriminates what a diagnosis leaves open (docs/diagnosis-method.md, section 9)."""
 
 from __future__ import annotations
 

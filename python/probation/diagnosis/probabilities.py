@@ -71,7 +71,7 @@ class Weighed:
     Attributes
     ----------
     effects : tuple of str
-        As in the contract: empty for none, with "unknown" where there is one.
+        As in docs/formats.md: empty for none, with "unknown" where there is one.
     probability : float
     hypothesis : Hypothesis
         The form and place with the most evidence.

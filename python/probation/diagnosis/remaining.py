@@ -1,4 +1,4 @@
-"""Is there still a gap after an explanation, gap-method section 7."""
+"""Is a gap left after an explanation? (docs/diagnosis-method.md, section 7)."""
 
 from __future__ import annotations
 

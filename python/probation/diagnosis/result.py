@@ -251,7 +251,7 @@ class Diagnosis(Result):
         return self.explanations[0]
 
     def to_dict(self) -> dict[str, Any]:
-        """The answer in the form of the contract, `probation.diagnosis/1`, as Python objects."""
+        """The answer as Python objects, `probation.diagnosis/1` of docs/formats.md."""
         shrink = self.shrink
         return {
             "campaign": self.campaign,

@@ -1,4 +1,4 @@
-"""Which causes: a race of single ones, then combinations forward and backward, gap-method sections 4 and 6."""
+"""Which causes: single ones first, then combinations (docs/diagnosis-method.md, sections 4 and 6)."""
 
 from __future__ import annotations
 

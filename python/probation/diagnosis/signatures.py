@@ -1,4 +1,4 @@
-"""Sharp or drifting features of the residual, in sentences, gap-method section 3."""
+"""Lines, steps and drifting parameters of the residual, in sentences (docs/diagnosis-method.md, section 3)."""
 
 from __future__ import annotations
 

@@ -161,7 +161,7 @@ class Fit(Result):
         return f"Not all parameters are determined by these records: {names}; {quality}."
 
     def to_dict(self) -> dict[str, Any]:
-        """The answer in the form of the contract, `probation.fit/1`, as Python objects."""
+        """The answer as Python objects, `probation.fit/1` of docs/formats.md."""
         second = outside_name(self.law.parameter_names[1])
         identified = {name: p for name, p in self.parameters.items() if p.status != "held"}
         return {

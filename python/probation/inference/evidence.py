@@ -11,7 +11,7 @@ waves over every record, H slow noise along them that whitening has left (`gap.h
 the discrepancy's variance: rho the relative error of a form, lambda_r what the explanation does to record r, v the
 spectrum of smooth curves. rho is integrated out; errors of a form that are alike in all records (`form_columns`) stand
 among the parameters. "Unknown" is the same with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001;
-gap-method sections 4 and 7).
+docs/diagnosis-method.md, sections 4 and 7).
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ class Parameter:
     unit: str
 
     def to_json(self) -> dict[str, object]:
-        """As in the contract: value, se, interval95, status."""
+        """A parameter object of docs/formats.md: value, se, interval95, status, unit."""
         interval = None if self.interval95 is None else [_number(end) for end in self.interval95]
         se = None if self.se is None else _number(self.se)
         return {

@@ -1,4 +1,7 @@
-"""Noise without eating the bias, gap-method section 1: rough leftovers first, lower frequencies only if they agree."""
+"""The noise of a record, estimated so that it does not absorb the discrepancy (docs/diagnosis-method.md, section 1).
+
+High frequencies come first; lower ones are used only where they agree.
+"""
 
 from __future__ import annotations
 

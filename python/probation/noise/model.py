@@ -19,7 +19,7 @@ Growth = Literal["constant", "force", "local"]
 
 @dataclass(frozen=True, eq=False)
 class NoiseModel:
-    """x = profile * ARMA(1,1) + carried * N(0, 1) + drift * N(0, 1), gap-method section 1.
+    """x = profile * ARMA(1,1) + carried * N(0, 1) + drift * N(0, 1); docs/diagnosis-method.md, section 1.
 
     Attributes
     ----------

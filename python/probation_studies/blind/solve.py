@@ -66,7 +66,7 @@ def solve_split(
     folder : path
         As `make_split` left it; only campaigns/ and seals.json are read.
     solve : callable, optional
-        From a campaign's folder to the answer, as the contract has it; a module's own function. None for baselines
+        From a campaign's folder to the answer, as docs/formats.md has it; a module's own function. None for baselines
         only.
     answers : path, optional
         answers/ in `folder` if left out.

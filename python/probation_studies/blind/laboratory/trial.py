@@ -162,7 +162,7 @@ class Cause:
     Attributes
     ----------
     name : str
-        One of the contract's, or the kind of something outside it.
+        A name of the catalogue, or the kind of something outside it.
     scale : float
         A usual amplitude; 0 is absence.
     draw : callable

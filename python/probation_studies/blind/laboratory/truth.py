@@ -38,7 +38,7 @@ class WithheldCause:
     Attributes
     ----------
     effect : str
-        The contract's name, or "unknown".
+        A name of the catalogue, or "unknown".
     kind : str
         The laboratory's own name of it.
     everywhere : bool
@@ -95,7 +95,7 @@ class Truth:
     detectability : float
         Of all causes together.
     base : dict
-        Parameters of the base law, as the contract names them.
+        Parameters of the base law, as docs/formats.md names them.
     noise_level : dict
         Root mean square of the noise of every record [MPa].
     noise : dict

@@ -88,19 +88,19 @@ def read_answer(diagnosis: Mapping[str, object], source: str) -> Answer:
     Parameters
     ----------
     diagnosis : mapping
-        As the contract has it.
+        As docs/formats.md has it.
     source : str
         Its file, for complaints.
 
     Raises
     ------
     InputError
-        If something that the contract demands is missing or is something else.
+        If something that docs/formats.md demands is missing or is something else.
     """
     try:
         return _read(diagnosis)
     except (KeyError, TypeError, ValueError) as failure:
-        raise InputError(f"{source}: found no answer as the contract has it: {failure!r}") from None
+        raise InputError(f"{source}: found no answer in the form of `probation.diagnosis/1`: {failure!r}") from None
 
 
 def _read(diagnosis: Mapping[str, object]) -> Answer:

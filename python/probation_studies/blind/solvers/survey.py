@@ -60,7 +60,7 @@ def survey(folder: Path) -> Survey:
 
 
 def answer(found: Survey, scored: Iterable[Scored]) -> dict[str, object]:
-    """What a baseline has to say, as the contract has it.
+    """What a baseline has to say, as docs/formats.md has it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the laboratory can withhold: the contract's names in the laboratory's own forms, and things outside it."""
+"""What the laboratory can withhold: the catalogue's names in the laboratory's own forms, and things outside it."""
 
 from probation_studies.blind.laboratory.causes import flow, force, network, outside, section, spectrum, strain
 from probation_studies.blind.laboratory.trial import Cause
