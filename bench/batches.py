@@ -69,7 +69,7 @@ def _one_by_one(case: cases.Case, parameters: np.ndarray) -> Callable[[], object
 
 
 def _batch(
-    case: cases.Case, parameters: np.ndarray, scheme: str, threads: int = 0, reused: bool = True
+    case: cases.Case, parameters: np.ndarray, scheme: str, threads: int | None = None, reused: bool = True
 ) -> Callable[[], object]:
     """Into an output that is used again: first touch of a new one costs more than computing it."""
     law = engine.law_of(case)

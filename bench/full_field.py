@@ -35,7 +35,7 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
             start, time, strain, stress, scheme, method=method, threads=1
         )
         for scheme in ("be2", "sa3")
-        for method in ("variable projection", "levenberg-marquardt")
+        for method in ("variable-projection", "levenberg-marquardt")
     }
     timings = take_turns({str(key): call for key, call in calls.items()}, 3)
     for scheme, method in calls:

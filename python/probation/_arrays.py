@@ -123,16 +123,18 @@ def as_whole_number(value: object, name: str) -> int:
 
 
 def as_threads(value: object) -> int:
-    """A number of threads, 0 for all cores.
+    """A number of threads; 0, which the engine takes for all cores, where none is given.
 
     Raises
     ------
     InputError
-        If it is not a whole number of at least 0.
+        If it is neither None nor a whole number of at least 1.
     """
+    if value is None:
+        return 0
     count = as_whole_number(value, "threads")
-    if count < 0:
-        raise InputError(f"threads is {count}; at least 0 is needed, which means all cores")
+    if count < 1:
+        raise InputError(f"threads is {count}; expected at least 1, or None for the usual number")
     return count
 
 

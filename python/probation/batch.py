@@ -50,7 +50,7 @@ def stresses(
     *,
     change: Change | None = None,
     start: Start = "exponential",
-    threads: int = 0,
+    threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
     """True stress of many parameter sets along one history.
@@ -63,8 +63,8 @@ def stresses(
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
     history : History
         From `probation.law.history.make_history`.
-    threads : int
-        0: all cores.
+    threads : int, optional
+        All cores if left out.
     out : ndarray, shape (sets, n_times), optional
         Where to write the stresses; what else it shares memory with is copied first, as everywhere in this module.
 
@@ -97,7 +97,7 @@ def field_stresses(
     *,
     start: Start = "exponential",
     jumps: Jumps | None = "auto",
-    threads: int = 0,
+    threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
     """True stress along many strain histories on one time grid: the pixels of a field.
@@ -147,7 +147,7 @@ def sums_of_squares(
     scheme: Scheme = "be2",
     *,
     start: Start = "exponential",
-    threads: int = 0,
+    threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
     """Sum of squared fit residuals of many parameter sets on many records; no stress is kept.
@@ -187,7 +187,7 @@ def many_normal_equations(
     scheme: Scheme = "be2",
     *,
     start: Start = "exponential",
-    threads: int = 0,
+    threads: int | None = None,
     out: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """`normal_equations` of many parameter sets on many records; neither stresses nor sensitivities are kept.

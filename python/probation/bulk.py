@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from probation import _core
 from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, check_output, kept_apart, one_of
 from probation.errors import InputError
+from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.history import Jumps, looks_for_jumps
 from probation.law.modal import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
 
-Method = Literal["variable projection", "levenberg-marquardt"]
-METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
+Method = Literal["variable-projection", "levenberg-marquardt"]
+METHODS: tuple[Method, ...] = ("variable-projection", "levenberg-marquardt")
 
 SUBSTEPS_LIMIT = 10_000
 """Most steps of the scheme from sample to sample."""
@@ -81,14 +82,14 @@ def identify_many(
     true_stress: ArrayLike,
     scheme: Scheme = "sa3",
     *,
-    method: Method = "variable projection",
+    method: Method = "variable-projection",
     noise: ArrayLike | None = None,
-    held: Collection[str] = (),
+    hold: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     start: Start = "exponential",
     jumps: Jumps | None = "auto",
     substeps: int = 1,
-    threads: int = 0,
+    threads: int | None = None,
     out: BulkIdentification | None = None,
 ) -> BulkIdentification:
     """Identify the law on many records, each by itself.
@@ -99,7 +100,7 @@ def identify_many(
     Parameters
     ----------
     law : Law
-        Gives the spectrum, the companion relation, and the values of the parameters that are held.
+        Gives the spectrum and the companion relation; its parameters are not looked at.
     time : array_like, shape (n_times,) or (records, n_times) [s]
         With `substeps`, at each of them: n_times is (n_samples - 1) * substeps + 1.
     true_strain : array_like, shape (n_times,) or (records, n_times) [-]
@@ -107,15 +108,15 @@ def identify_many(
         These three in float32 or float64, rows contiguous, are read where they are; other types are copied. One row is
         shared by all records.
     scheme : {"be2", "sa2", "sa3"}
-    method : {"variable projection", "levenberg-marquardt"}
+    method : {"variable-projection", "levenberg-marquardt"}
         Both find the same minimum, after the same coarse search over all of tau_max (or alpha).
     noise : array_like, optional
         Standard deviation of the stress [MPa], as NumPy spreads it to (records, n_samples). Only its ratios within a
         record matter: what a record's residuals scatter says how large it is.
-    held : collection of str
-        Names of the law's parameters that keep their values.
+    hold : dict of str to float, optional
+        Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
     bounds : dict of str to (float, float), optional
-        By the law's parameter names; every parameter is positive in any case.
+        By name with unit; every parameter is positive in any case.
     start : {"exponential", "backward_euler"}
         bE2's first step.
     jumps : "auto" or None
@@ -123,8 +124,8 @@ def identify_many(
     substeps : int
         Steps of the scheme from sample to sample. More than one make the error of the scheme smaller, by the square
         of their number with be2 and sa2, where the strain between the samples is known.
-    threads : int
-        0: all cores.
+    threads : int, optional
+        All cores if left out.
     out : BulkIdentification, optional
         Where to write, each attribute in memory of its own; records that share it are copied first.
 
@@ -137,7 +138,7 @@ def identify_many(
     InputError
         For arguments that do not fit together; never for what a record holds.
     """
-    engine = engine_law(law)
+    engine, held = _law_with(law, {} if hold is None else hold)
     arrays = {
         "time": as_rows(time, "time"),
         "true_strain": as_rows(true_strain, "true_strain"),
@@ -170,7 +171,7 @@ def identify_many(
         arrays["true_strain"],
         arrays["true_stress"],
         weights,
-        _options(law, scheme, method, held, bounds or {}, start, jumps, int(substeps)),
+        _options(law, scheme, method, held, {} if bounds is None else bounds, start, jumps, int(substeps)),
         as_threads(threads),
         answer.parameters,
         answer.standard_error,
@@ -179,6 +180,20 @@ def identify_many(
         answer.iterations,
     )
     return answer
+
+
+def _law_with(law: Law, hold: Mapping[str, float]) -> tuple[_core.Law, Collection[str]]:
+    """The engine's law with the values that are held, and their names."""
+    engine = engine_law(law)
+    if not isinstance(hold, Mapping):
+        raise InputError(f"hold is {hold!r}; expected values by name, such as {{'tau_max_s': 5.2}}")
+    held = {
+        name: as_number(value, f"hold of {outside_name(name)}")
+        for name, value in by_inside_name(hold, law.parameter_names, "hold").items()
+    }
+    if held:
+        engine = engine_law(law.with_parameters([held.get(name, getattr(law, name)) for name in law.parameter_names]))
+    return engine, held.keys()
 
 
 def _options(
@@ -192,21 +207,19 @@ def _options(
     substeps: int,
 ) -> _core.IdentifyOptions:
     names = law.parameter_names
-    if isinstance(held, str) or not isinstance(held, Collection):
-        raise InputError(f"held is {held!r}; expected names of parameters, such as ('tau_max',)")
-    for name in held:
-        one_of(name, "held", names)
     if not isinstance(bounds, Mapping):
-        raise InputError(f"bounds is {bounds!r}; expected lower and upper by name, such as {{'tau_max': (1.0, 10.0)}}")
+        raise InputError(
+            f"bounds is {bounds!r}; expected lower and upper by name, such as {{'tau_max_s': (1.0, 10.0)}}"
+        )
     lower, upper = np.zeros(3), np.full(3, np.inf)
-    for name, ends in bounds.items():
-        index = names.index(one_of(name, "bounds", names))
+    for name, ends in by_inside_name(bounds, names, "bounds").items():
+        index = names.index(name)
         if isinstance(ends, str) or not isinstance(ends, Sequence | np.ndarray) or len(ends) != 2:
-            raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
-        lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
+            raise InputError(f"bounds of {outside_name(name)} are {ends!r}; expected a lower and an upper one")
+        lower[index], upper[index] = (as_number(end, f"bounds of {outside_name(name)}") for end in ends)
     return _core.IdentifyOptions(
         *engine_scheme(scheme, start, DIFFERENTIABLE),
-        getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
+        getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace("-", "_")),
         [name in held for name in names],
         lower,
         upper,

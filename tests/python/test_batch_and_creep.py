@@ -15,7 +15,7 @@ LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
 SETS = np.array([[3220.0, 5.2, 2.5], [3000.0, 6.0, 2.0], [3500.0, 4.0, 3.0]])
 
 
-@pytest.mark.parametrize("threads", [1, 2, 0])
+@pytest.mark.parametrize("threads", [1, 2, None])
 def test_a_batch_is_many_single_solves(threads):
     history = make_history(TIME, STRAIN)
     found = batch.stresses(LAW, SETS, history, "sa3", threads=threads)

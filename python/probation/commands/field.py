@@ -69,7 +69,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="chunks that are not there hold no data: for a store whose writer leaves out chunks of nothing but NaN",
     )
     identify.add_argument("--pixels", type=int, default=4096, help="of a task, at most (4096)")
-    identify.add_argument("--threads", type=int, default=0, help="of the engine, with --processes 1 (all processors)")
+    identify.add_argument("--threads", type=int, help="of the engine, with --processes 1 (all processors)")
     identify.add_argument("--afresh", action="store_true", help="remove the maps that are there and begin anew")
     for step in (example, identify):
         add_cluster(step)
@@ -130,7 +130,7 @@ def _identify(options: argparse.Namespace) -> int:
                 options.out,
                 law,
                 options.scheme,
-                method=options.method.replace("variable-projection", "variable projection"),
+                method=options.method,
                 smoothing=not options.raw_strain,
                 substeps=options.substeps,
                 hold=named_numbers(options.hold, "--hold"),

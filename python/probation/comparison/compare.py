@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
-from probation._arrays import one_of
+from probation._arrays import as_threads, one_of
 from probation.comparison.evidence import Tangent
 from probation.comparison.faults import considered
 from probation.comparison.headline import headline
@@ -85,7 +85,7 @@ def compare(
         For records that do not belong together, an unknown effect, or as `probation.fit`.
     """
     one_of(scheme, "scheme", SCHEMES)
-    workers = threads or usual_threads()
+    workers = as_threads(threads) or usual_threads()
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     against = reference.campaign
     together = pair(campaign, against, pairs)

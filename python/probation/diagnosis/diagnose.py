@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation._arrays import one_of
+from probation._arrays import as_threads, one_of
 from probation.design.isolability import isolability
 from probation.detection.gap_test import GapTester
 from probation.detection.place_left_out import place_left_out
@@ -101,7 +101,7 @@ def diagnose(
     """
     one_of(scheme, "scheme", SCHEMES)
     considered = catalogue(effects)
-    workers = threads or usual_threads()
+    workers = as_threads(threads) or usual_threads()
 
     for record in campaign.records:
         require_signal(record)

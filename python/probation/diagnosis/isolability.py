@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from probation._arrays import as_threads
 from probation.answers import json_answer
 from probation.design.isolability import isolability
 from probation.diagnosis.base_fit import base_fit
 from probation.effects.registry import effects as known_effects
+from probation.parallel import usual_threads
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -72,5 +74,11 @@ def campaign_isolability(
         For an unknown effect, or as `probation.fit`.
     """
     base = base_fit(campaign, scheme, hold)
-    found = isolability(base.model, base.parameters, base.whitened.noises, known_effects(effects), threads=threads or 2)
+    found = isolability(
+        base.model,
+        base.parameters,
+        base.whitened.noises,
+        known_effects(effects),
+        threads=as_threads(threads) or usual_threads(),
+    )
     return CampaignIsolability(campaign.name, scheme, found, campaign.data_hash)

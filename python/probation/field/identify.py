@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from probation._arrays import one_of
+from probation._arrays import as_threads, one_of
 from probation._core import __version__
 from probation.answers import plain
 from probation.bulk import METHODS, SUBSTEPS_LIMIT, Method
@@ -67,13 +67,13 @@ def identify_field(
     law: Law | None = None,
     scheme: Literal["be2", "sa2", "sa3"] = "be2",
     *,
-    method: Method = "variable projection",
+    method: Method = "variable-projection",
     hold: Mapping[str, float] | None = None,
     smoothing: bool = True,
     substeps: Substeps = "auto",
     pixels: int = PIXELS,
     processes: int | None = None,
-    threads: int = 0,
+    threads: int | None = None,
     executor: Executor | None = None,
     afresh: bool = False,
     progress: Progress | None = None,
@@ -92,7 +92,7 @@ def identify_field(
     law : Law, optional
         Gives spectrum and companion relation; the paper's spectrum and a constant tau_max if left out.
     scheme : {"be2", "sa2", "sa3"}
-    method : {"variable projection", "levenberg-marquardt"}
+    method : {"variable-projection", "levenberg-marquardt"}
     hold : dict of str to float, optional
         Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
     smoothing : bool
@@ -105,8 +105,8 @@ def identify_field(
         Of a task, at most.
     processes : int, optional
         At a time, each with one thread; all processors if left out. 1 stays in this process.
-    threads : int
-        Of the engine where there is one process; 0: all cores.
+    threads : int, optional
+        Of the engine where there is one process; all cores if left out.
     executor : Executor, optional
         Instead of processes of its own, such as that of a cluster's client; its workers see the same folders.
     afresh : bool
@@ -127,8 +127,9 @@ def identify_field(
     """
     one_of(scheme, "scheme", DIFFERENTIABLE)
     one_of(method, "method", METHODS)
-    if pixels < 1 or threads < 0:
-        raise InputError(f"found pixels = {pixels}, threads = {threads}; expected at least 1 and 0")
+    if pixels < 1:
+        raise InputError(f"found pixels = {pixels}, expected at least 1")
+    as_threads(threads)
     if substeps != "auto" and (type(substeps) is not int or not 1 <= substeps <= SUBSTEPS_LIMIT):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number from 1 to {SUBSTEPS_LIMIT}")
     source = field if isinstance(field, FieldSource) else open_field(field)

@@ -14,6 +14,7 @@ from probation.field.samples import alike, bridged
 from probation.field.smoothing import smoothed_records
 from probation.field.source import SHORTEST
 from probation.field.status import Status
+from probation.inference.parameter import outside_name
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,8 +45,8 @@ class Way:
         Whether the noise of the strain is taken out first.
     substeps : int or "auto"
         Steps of the scheme from sample to sample.
-    threads : int
-        Of the engine; 0: all cores.
+    threads : int or None
+        Of the engine; None: all cores.
     """
 
     law: Law
@@ -54,7 +55,7 @@ class Way:
     held: tuple[str, ...]
     smoothing: bool
     substeps: Substeps
-    threads: int
+    threads: int | None
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def identify_pixels(
             stress[np.ix_(pixels, samples)],
             way.scheme,
             method=way.method,
-            held=way.held,
+            hold={outside_name(name): getattr(way.law, name) for name in way.held},
             substeps=substeps,
             threads=way.threads,
         )

@@ -1,0 +1,100 @@
+"""The public interface against docs/conventions.md, and every document that is cited against the tree."""
+
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+
+import probation
+from probation import batch, bulk
+from probation.field.identify import identify_field
+
+ROOT = Path(__file__).parents[2]
+
+FUNCTIONS = {
+    name: given
+    for name, given in [
+        *((name, getattr(probation, name)) for name in probation.__all__),
+        *((f"Law.{name}", given) for name, given in vars(probation.Law).items() if not name.startswith("_")),
+        *(
+            (f"batch.{name}", given)
+            for name, given in vars(batch).items()
+            if given.__doc__ and not name.startswith("_")
+        ),
+        ("identify_field", identify_field),
+    ]
+    if inspect.isfunction(given)
+}
+DEFAULT_SCHEMES = {
+    "sa3": {"diagnose", "compare", "calibrate_companion", "identify_many"},
+    "be2": {"fit", "certify", "simulate", "identify_field", "Law.stress", "Law.sensitivity", "batch.stresses"},
+}
+
+
+def _arguments():
+    return [
+        (name, argument)
+        for name, function in FUNCTIONS.items()
+        for argument in inspect.signature(function).parameters.values()
+    ]
+
+
+def test_parameters_are_held_by_hold_and_nothing_else():
+    assert {argument.name for _, argument in _arguments()}.isdisjoint({"held", "fix", "fixed"})
+
+
+@pytest.mark.parametrize("left_out", ["hold", "bounds", "effects", "threads", "progress"])
+def test_what_may_be_left_out_is_none_by_default(left_out):
+    found = {name: argument.default for name, argument in _arguments() if argument.name == left_out}
+    assert found
+    assert set(found.values()) == {None}, found
+
+
+def test_the_default_scheme_is_the_one_that_the_conventions_name():
+    found = {name: argument.default for name, argument in _arguments() if argument.name == "scheme"}
+    for scheme, names in DEFAULT_SCHEMES.items():
+        assert {name: found[name] for name in names} == dict.fromkeys(names, scheme)
+
+
+def test_choices_are_words_with_hyphens():
+    assert all(re.fullmatch(r"[a-z0-9-]+", method) for method in bulk.METHODS)
+
+
+def test_a_parameter_is_held_by_the_same_name_everywhere():
+    law = probation.Law(unrelaxed_modulus=1.0, tau_max=1.0, hardening_modulus=1.0)
+    with pytest.raises(probation.InputError, match=r"hold: 'tau_max' is not .*tau_max_s"):
+        probation.identify_many(law, [0.0, 1.0], [0.0, 1.0], [0.0, 1.0], hold={"tau_max": 1.0})
+
+
+def _sources():
+    for folder in ("python", "cpp", "tests", "bench", "docs"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in {".py", ".pyi", ".md", ".cpp", ".hpp", ".h"} and ".dist-info" not in str(path):
+                yield path
+    yield ROOT / "README.md"
+
+
+def test_every_document_that_is_cited_is_in_the_tree():
+    lost = {
+        f"{path.relative_to(ROOT)}: {cited}"
+        for path in _sources()
+        for cited in re.findall(r"(?<![\w/.*])[\w./-]*\w\.md\b", path.read_text(encoding="utf-8"))
+        if not any((folder / cited).exists() for folder in (ROOT, path.parent))
+    }
+    assert lost == set()
+
+
+def test_every_section_that_is_cited_is_there():
+    pages = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
+    cited = [
+        (path, page, number)
+        for path in _sources()
+        for page, numbers in re.findall(
+            r"docs/([\w-]+\.md),?\s+sections? ([\d and,]+)", path.read_text(encoding="utf-8")
+        )
+        for number in re.findall(r"\d+", numbers)
+    ]
+    assert len(cited) > 15
+    for path, page, number in cited:
+        assert re.search(rf"^## {number}\. ", pages[page], re.MULTILINE), f"{path} cites section {number} of {page}"
