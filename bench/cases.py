@@ -15,10 +15,10 @@ RATE, END_STRAIN = 0.005, 2.0
 """Its ramp: [1/s], [-]."""
 
 GRIP_RECORD = (-0.03445, 0.36637, 0.7055, 221.19, 224.7)
-"""P2: a, b, c, d of eq. (A-1) and its duration, experiment 3's twin with a tenfold range of rates."""
+"""P2: a, b, c, d of eq. (A-1) and its duration, experiment 3's synthetic record with a tenfold range of rates."""
 
 GRIP_LAW = (3220.0, 1.045, 1.85)
-"""E_u [MPa], alpha [-], G [MPa] of that twin, with eq. (11) as printed."""
+"""E_u [MPa], alpha [-], G [MPa] of that synthetic record, with eq. (11) as printed."""
 
 COMPANION = (0.00464, 0.0367)
 """Eq. (11) as printed: We = 0.00464 log10(rate) + 0.0367."""

@@ -1,4 +1,4 @@
-"""How near is what the isolability matrix foretells to full refits of the rival, and how long does it take?
+"""How near is what the isolability matrix predicts to full refits of the rival, and how long does it take?
 
 `python -m bench.gap_isolability`: about a minute. Two ramps, noise 1 MPa; forty pairs below 60 degrees drawn at
 random. The effect is there at its usual size, without noise; the rival is fitted with all base parameters and shapes
@@ -68,7 +68,7 @@ def nearest(model, truth, rival):
 
 
 def refits():
-    """Print pairs with the distance foretold and the one found."""
+    """Print pairs with the distance predicted and the one found."""
     model = model_of(("slow", "fast"))
     found = isolability(model, model.start, white_noise(model.views, 1.0), effects())
     known = [
@@ -93,7 +93,7 @@ def refits():
         ratios.append(left / foretold)
         print(f"{each.name:27}{rival.name:27}{found.angle[row, column]:6.1f}{foretold:10.1f}{left:10.1f}", flush=True)
     inside = np.sum((np.array(ratios) > 0.8) & (np.array(ratios) < 1.25))
-    print(f"refitted over foretold: median {np.median(ratios):.2f}, {inside} of {len(ratios)} within 0.8 to 1.25")
+    print(f"refitted over predicted: median {np.median(ratios):.2f}, {inside} of {len(ratios)} within 0.8 to 1.25")
 
 
 def timings():

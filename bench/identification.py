@@ -1,10 +1,10 @@
 """How long does one identification of [E_u, tau_max, G] take?
 
-Experiment 1's twin: the ramp, 3224 MPa, 5.207 s, 2.556 MPa, stress noise 0.04 MPa, from a start far off. scipy's
-least_squares (trust region reflective) with its defaults throughout, lengths scaled by the start; only the forward
-solve and the Jacobian differ. The engine's own searches are timed on many records at once, each with noise of its own,
-on one thread: the history, its jumps and a search over all of tau_max included. All use the paper's first step, so that
-all must find the same.
+Experiment 1's synthetic record: the ramp, 3224 MPa, 5.207 s, 2.556 MPa, stress noise 0.04 MPa, from a start far off.
+scipy's least_squares (trust region reflective) with its defaults throughout, lengths scaled by the start; only the
+forward solve and the Jacobian differ. The engine's own searches are timed on many records at once, each with noise of
+its own, on one thread: the history, its jumps and a search over all of tau_max included. All use the paper's first
+step, so that all must find the same.
 """
 
 from collections.abc import Callable

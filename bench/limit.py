@@ -1,7 +1,7 @@
 """What fraction of the machine's fused multiply-adds does a solve reach?
 
 A solve of 50 modes holds them in 13 vectors of four. bE2 needs 3 multiply-adds a mode and step, SA2 and SA3 need 2;
-with its fast modes slaved, SA3 needs them on 7 of the 13. The limit is measured in the same rounds: as many
+with its fast modes quasi-steady, SA3 needs them on 7 of the 13. The limit is measured in the same rounds: as many
 independent multiply-adds on 256-bit vectors as the solve needs, and nothing else.
 """
 
@@ -39,7 +39,7 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     calls |= {scheme: engine.prepare(case, scheme) for scheme in LABELS}
     timings = take_turns(calls, 5 if quick else 25)
     for key, needed in NEEDED.items():
-        what = "SA3, fast modes slaved" if key == "slaved" else LABELS[key]
+        what = "SA3, quasi-steady fast modes" if key == "slaved" else LABELS[key]
         label = f"limit of {what}: {needed} multiply-adds a step"
         found.rows.append(row("limit", case.name, f"limit_{key}", label, timings[f"limit_{key}"], {}))
     for scheme, name in LABELS.items():

@@ -33,7 +33,7 @@ def _limits(found: Findings) -> list[str]:
     rows = [row for row in found.rows if row.section == "limit" and "limit" in row.ratios]
     if not rows:
         return []
-    head = "| even steps | time | fraction of the FMA limit | with fast modes slaved |"
+    head = "| even steps | time | fraction of the FMA limit | with quasi-steady fast modes |"
     out = [head, "|---|---|---|---|"]
     for row in rows:
         slaved = row.ratios.get("slaved limit")

@@ -23,7 +23,7 @@ LEADING = 0.05
 
 
 def etfe():
-    """Three specimens, one speed: all of them, and each foretold by the others."""
+    """Three specimens, one speed: all of them, and each predicted by the others."""
     whole = Campaign.from_files([DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"], control="displacement-rate")
     for held_out in (None, *(record.id for record in whole.records)):
         records = [replace(each, role="held-out" if each.id == held_out else "identify") for each in whole.records]

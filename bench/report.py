@@ -104,7 +104,7 @@ def _plain(found: Findings, section: str, title: str) -> list[str]:
         if "limit" in row.ratios:
             extra = f"  {1 / row.ratios['limit']:.0%} of the limit"
         if "slaved limit" in row.ratios:
-            extra += f", {1 / row.ratios['slaved limit']:.0%} with fast modes slaved"
+            extra += f", {1 / row.ratios['slaved limit']:.0%} with quasi-steady fast modes"
         if "one thread" in row.ratios:
             extra = f"  {row.ratios['one thread']:.2f} x as fast as one thread into a used output"
         if row.note:

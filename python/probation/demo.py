@@ -1,4 +1,4 @@
-"""The product on the embedded twins of the paper's experiments, without any file.
+"""The product on the embedded synthetic data of the paper's experiments, without any file.
 
 What is shown is the list `STEPS`; a new part is a function here or elsewhere and one line there.
 """
@@ -80,7 +80,7 @@ class Step:
 
 
 def identification() -> Outcome:
-    """Identify each twin and set the parameters beside the truth."""
+    """Identify each synthetic record and set the parameters beside the truth."""
     rows, curves, answers, farthest = [], [], {}, 0.0
     for number in _EXPERIMENTS:
         twin = experiment(number, SEED)
@@ -107,8 +107,9 @@ def identification() -> Outcome:
         verdict=f"The law is identified: every parameter lies within {farthest:.1f} standard errors of the truth.",
         passed=farthest <= _ENOUGH,
         parts=(
-            "Twins of the paper's experiments, made with known parameters and 0.04 MPa of noise, are identified as a "
-            "measured record would be. E_u is held at 3220 MPa on experiments 2 and 3, as in the paper.",
+            "Synthetic data of the paper's experiments, made with known parameters and 0.04 MPa of noise, are "
+            "identified as a measured record would be. E_u is held at 3220 MPa on experiments 2 and 3, as in the "
+            "paper.",
             Table(headings, tuple(rows), "Parameters beside the truth", left=2),
             picture(plots["stress-strain"], "True stress over true strain, measured and identified; residuals below"),
             picture(plots["sensitivities"], "Scaled sensitivities of the stress in experiment 1"),
@@ -142,7 +143,8 @@ def probation_test() -> Outcome:
         verdict=f"Probation test: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "intrinsic_except" and not found.parameters["hardening_modulus"].passes,
         parts=(
-            "The twins carry the paper's own parameters: α and G differ between the kinds of test, E_u does not.",
+            "The synthetic data carry the paper's own parameters: α and G differ between the kinds of test, E_u does "
+            "not.",
             parameter_table(found),
             prediction_table(found),
             picture(figure, "Measured, predicted with nothing adjusted, and identified alone (Figures 4 to 6)"),
@@ -168,8 +170,8 @@ def diagnosis() -> Outcome:
         verdict=f"Diagnosis without the companion relation: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "explained" and found.best.effects == missing,
         parts=(
-            "Experiment 2 is fitted with a constant τ_max and experiment 3 only predicted. The twins' α and G differ a "
-            "little, as in the paper: that is what is left on experiment 3.",
+            "Experiment 2 is fitted with a constant τ_max and experiment 3 only predicted. The synthetic α and "
+            "G differ a little, as in the paper: that is what is left on experiment 3.",
             *tables,
             picture(figure, "Before and after the most probable explanation; where the law departs is marked"),
         ),
@@ -228,7 +230,7 @@ class Demo:
         """Write one self-contained HTML page."""
         sections = tuple(Section(step.title, (found.verdict, *found.parts)) for step, found in self.outcomes)
         Page(
-            "Demonstration on twins of the paper's experiments",
+            "Demonstration on synthetic data of the paper's experiments",
             self.verdict,
             sections,
             mood="good" if self.passed else "bad",
@@ -236,7 +238,7 @@ class Demo:
         ).write(path)
 
     def write(self, folder: str | PathLike[str]) -> tuple[str, ...]:
-        """Write page, plots, JSON, and the twins as campaigns that ``probation fit`` takes.
+        """Write page, plots, JSON, and the synthetic data as campaigns that ``probation fit`` takes.
 
         Parameters
         ----------
@@ -270,7 +272,7 @@ def demonstrate(progress: Callable[[int, int, str], None] | None = None) -> Demo
     Parameters
     ----------
     progress : callable, optional
-        Told ``(done, total, what)``.
+        Called with ``(done, total, what)``.
     """
     outcomes = []
     for at, step in enumerate(STEPS):

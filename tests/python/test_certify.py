@@ -37,7 +37,7 @@ def one_law_everywhere(law=None, companion=True):
 
 
 def paper_campaign(bias=0.0):
-    """The twins, identified on experiment 1; with a wavy bias of 1.5, 2.5 and 3.4 MPa as the paper's, times `bias`."""
+    """Synthetic data identified on experiment 1, with a wavy bias of 1.5, 2.5, 3.4 MPa, times `bias`."""
     campaign = twin_campaign((1,), held_out=(2, 3))
     campaign = replace(campaign, law=replace(campaign.law, fixed={}))
     if not bias:

@@ -24,7 +24,7 @@ JARGON = ("evidence", "posterior", "likelihood", "principal angle", "Laplace", "
 
 
 def could_tell_apart():
-    """Four effects: the first two hard to tell apart, the third clear, the last not seen."""
+    """Four effects: the first two hard to discriminate, the third clear, the last not seen."""
     entries = [("self_heating", 40.0), ("damage", 12.0), ("grip_slip", 90.0), ("force_gain", 0.3)]
     titles = {"self_heating": "self-heating", "grip_slip": "slip in the grips", "force_gain": "gain of the force"}
     chance = np.ones((4, 4))
@@ -80,7 +80,7 @@ def test_the_verdict_comes_first_and_the_rest_in_the_order_of_the_questions():
         "Which effect explains it",
         "How far the gap shrinks",
         "The next test",
-        "What these tests can tell apart",
+        "What these tests can discriminate",
         "What was looked for",
         "Details",
     ]

@@ -51,7 +51,7 @@ def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
     assert nothing_else_is_named(found)
     assert 6.0 < found.shrink.identify.before_MPa < 8.5
     assert found.shrink.identify.after_MPa < 1.5 * NOISE
-    # The twins of 2 and 3 differ by 6 % in alpha and 5 % in G, by 4 to 5 MPa at the end of the test: that is left.
+    # The synthetic records differ by 6 % in alpha and 5 % in G, by 4 to 5 MPa at the end of the test: that is left.
     assert found.shrink.held_out.closure > 0.99
     assert NOISE < found.shrink.held_out.after_MPa < 5.0
 

@@ -68,7 +68,7 @@ def test_a_campaigns_record_is_chosen_by_its_id(tmp_path, capsys):
     said = capsys.readouterr().out
     assert said.startswith(
         "experiment-3: strain rate 0.0017 … 0.017 1/s (×10), without noise"
-    )  # the twin's strain has no noise: taken as it is
+    )  # the synthetic record's strain has no noise: taken as it is
     assert "no jumps" in said
     assert "experiment-2" not in said
     assert main(["excitation", str(tmp_path / "twins"), "--csv", "-"]) == 2

@@ -37,7 +37,7 @@ def wavy():
 
 @pytest.mark.parametrize("slower", [1.0, 4.0])
 def test_the_parameters_of_a1_come_back(slower):
-    """Set P2 as experiment 3, and four times slower as experiment 2; noise 1e-4, 1501 samples would be the twin."""
+    """Set P2 as experiment 3, and four times slower as experiment 2; noise 1e-4, 1501 samples as published."""
     history = P2.slowed(slower)
     time = TIME * slower
     fit = fit_necking(time, history.true_strain(time) + 1e-4 * np.random.default_rng(1).normal(size=len(time)))

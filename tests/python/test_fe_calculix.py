@@ -328,5 +328,5 @@ def test_a_deck_with_too_few_state_variables_stops_at_once(tmp_path):
     """CalculiX passes no words of the routine on: what is said is where it stopped, and its own last words."""
     dumbbell = Dumbbell(elements=(2, 1, 1, 1), nominal_strain=0.1)
     text = neck_deck(LAW, dumbbell, 2e4).replace("\n310\n", "\n200\n")
-    with pytest.raises(InputError, match=r"ccx stopped at 0 s with the status 255 and told no error"):
+    with pytest.raises(InputError, match=r"ccx stopped at 0 s with the status 255 and reported no error"):
         run(CCX, text, tmp_path)

@@ -16,7 +16,7 @@ TIME = np.linspace(0.0, 19.0, TIMES)
 
 
 def strains():
-    """Every pixel its own: row, column and instant can be told apart."""
+    """Every pixel its own: row, column and instant can be distinguished."""
     y, x, t = np.meshgrid(np.arange(ROWS), np.arange(COLUMNS), TIME, indexing="ij")
     return 1e-3 * t * (1.0 + y + 10.0 * x)
 

@@ -1,4 +1,4 @@
-"""Isolability: what these tests could see and tell apart, against closed forms, simulation and refits."""
+"""Isolability: what these tests could see and discriminate, against closed forms, simulation and refits."""
 
 import json
 from dataclasses import replace
@@ -154,7 +154,7 @@ def test_opposite_signs_are_told_apart():
 
 
 def test_of_a_signal_of_either_sign_half_can_be_taken_for_a_one_sided_rival():
-    """The rival looks the same for one sign, the opposite for the other, where it is always told apart."""
+    """The rival looks the same for one sign, the opposite for the other, where it is always discriminated."""
     found = analysed([made_up("either", wave(20)), made_up("up", wave(20), lower=0.0)])
     assert found.probability[0, 1] == pytest.approx(0.5 * (0.5 + 1.0), abs=1e-3)
 

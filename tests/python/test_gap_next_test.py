@@ -1,4 +1,4 @@
-"""The next test: what can be planned, what explanations foretell of it, and whether it finds the right one as often."""
+"""The next test: what can be planned, what explanations predict of it, and whether it finds the right one as often."""
 
 import json
 
@@ -380,13 +380,13 @@ def test_effects_that_look_the_same_everywhere_are_not_helped_and_the_sentence_s
     found = elastic_choice(1e3, (np.ones_like, np.ones_like))
     assert found.probability_before == pytest.approx(0.45)
     assert found.probability_after == pytest.approx(0.45, abs=0.01)
-    assert found.what.startswith("None of the tests considered helps to tell")
+    assert found.what.startswith("None of the tests considered helps to discriminate between")
 
 
 def test_no_effect_can_be_one_of_the_answers():
     found = elastic_choice(0.01, (np.ones_like, lambda fraction: fraction**3))
     assert found.separates == [[], ["a"], ["b"]]
-    assert "it tells no effect, a and b apart; the answer is then right with more than 99 %" in found.what
+    assert "it discriminates between no effect, a and b; the answer is then right with more than 99 %" in found.what
 
 
 def test_a_weak_test_is_not_said_to_tell_apart():

@@ -37,7 +37,7 @@ def errors(answer):
 
 @pytest.mark.parametrize("number", [1, 2, 3])
 def test_each_twin_is_identified_within_three_standard_errors(number):
-    """Experiment 1: 3224, 5.207, 2.556; experiments 2 and 3: alpha 1.11, 1.045, G 1.761, 1.85 (physics: twins)."""
+    """Experiment 1: 3224, 5.207, 2.556; experiments 2 and 3: alpha 1.11, 1.045, G 1.761, 1.85 (docs/law.md)."""
     answer = fit(twin_campaign((number,)))
     truth = experiment(number).truth
     for name, parameter in answer.parameters.items():

@@ -1,4 +1,4 @@
-"""Uncertainty that holds: strain noise, autocorrelated noise, the bias told apart, the profile of the likelihood."""
+"""Uncertainty that holds: strain noise, autocorrelated noise, the bias distinguished, the profile of the likelihood."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The paper reproduced: what the twins return beside what the paper prints (docs/law.md and the tables themselves)."""
+"""The paper reproduced: what the synthetic data return beside what the paper prints (docs/law.md and the tables)."""
 
 import json
 import re
@@ -22,7 +22,7 @@ from probation_studies.paper.hardening_modulus import expected_from_table_2
 from probation_studies.paper.reproduction import Reproduction, reproduce
 from probation_studies.paper.wavy_bias import RISES, ProfiledFit, bias_study, middle
 
-NOISE = 0.04  # MPa, of the twins
+NOISE = 0.04  # MPa, of the synthetic data
 DRAWS, BIASES = 30, 100
 
 
@@ -32,7 +32,7 @@ def paper():
     return reproduce(draws=DRAWS)
 
 
-# What docs/law.md requires of twin P2
+# What docs/law.md requires of synthetic record P2
 
 
 @pytest.mark.parametrize(("number", "alpha"), [(2, 0.924), (3, 0.855)])
@@ -113,7 +113,7 @@ def test_the_onset_is_the_viscous_stress_of_the_starting_rate(number):
 
 
 def test_the_profiled_fit_is_the_fit_of_the_command():
-    """On one biased twin; probation.fit works by Levenberg-Marquardt and adapts its steps."""
+    """On one biased synthetic record; probation.fit works by Levenberg-Marquardt and adapts its steps."""
     test = twin(3, 0)
     biased = test.true_stress + 1.5 * np.sin(2.0 * np.pi * test.true_strain / 0.9)
     record = Record(id="biased", time=test.time, true_strain=test.true_strain, true_stress=biased)

@@ -1,4 +1,4 @@
-"""Table 1 and Figure 2 on twins of experiment 1."""
+"""Table 1 and Figure 2 on synthetic data of experiment 1."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Twins of the paper's experiments, against what section 5 of docs/law.md says they must return."""
+"""Synthetic data of the paper's experiments, against what section 5 of docs/law.md says they must return."""
 
 import numpy as np
 import pytest
@@ -47,7 +47,7 @@ def test_a_necking_history_that_cannot_be_is_refused():
 
 @pytest.mark.parametrize("number", [1, 2, 3])
 def test_the_response_is_that_of_cvode_to_the_noise_free_digit(number):
-    """CVODE shares nothing with the exact scheme that makes the twins."""
+    """CVODE shares nothing with the exact scheme that makes the synthetic data."""
     twin = experiment(number, noise=0.0)
     stress = twin.truth.stress(twin.time, twin.true_strain, "cvode", strain_rate=twin.strain_rate, jumps=None)
     np.testing.assert_allclose(twin.true_stress, stress, atol=2e-6)

@@ -81,7 +81,7 @@ def calibrate_companion(
         all would bias the relation.
     scheme : {"be2", "sa2", "sa3"}
     progress : callable, optional
-        Told ``(done, total, what)``.
+        Called with ``(done, total, what)``.
 
     Returns
     -------
@@ -284,7 +284,7 @@ def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
 def _choice(
     form: str, scores: Mapping[str, Score], left: Mapping[str, float] | None = None
 ) -> tuple[str, str, tuple[str, ...]]:
-    """The form, how it was chosen, and which others are told apart from it; `left`: rms of each form's fit [MPa]."""
+    """The form, how it was chosen, and which others are discriminated from it; `left`: rms of each form's fit [MPa]."""
     lowest = best(scores)
     if form != "auto":
         return form, "request", ()

@@ -26,7 +26,7 @@ def why_constant(table: RateTable | None, scores: Mapping[str, Score]) -> str | 
     """Why one tau_max for all rates is enough, as a clause; None where it depends on the rate.
 
     It is enough where the tau_max of all rates agree to within their standard errors or to within `ALIKE`, or where no
-    relation foretells left-out rates better.
+    relation predicts left-out rates better.
 
     Parameters
     ----------
@@ -46,5 +46,5 @@ def why_constant(table: RateTable | None, scores: Mapping[str, Score]) -> str | 
             return f"that of all rates agrees to {100.0 * float(np.max(np.abs(distance))):.1g} %"
     lowest = best(scores)
     if lowest is not None and "constant" in scores and scores["constant"].rms <= scores[lowest].rms:
-        return "no relation foretells rates left out better"
+        return "no relation predicts rates left out better"
     return None

@@ -1,4 +1,4 @@
-"""Which form foretells a rate that it has not seen: each rate left out in turn."""
+"""Which form predicts a rate that it has not seen: each rate left out in turn."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """How well one form foretells what was left out.
+    """How well one form predicts what was left out.
 
     Attributes
     ----------
     form : str
     log_error : ndarray, shape (n,)
-        Foretold minus identified ln tau_max, each row by the relation of the other rates; NaN where there is none.
+        Predicted minus identified ln tau_max, each row by the relation of the other rates; NaN where there is none.
     weights : ndarray, shape (n,)
         Of its square, alike for all forms.
     """
@@ -49,7 +49,7 @@ class Score:
 
 
 def leave_one_rate_out(table: RateTable, regressions: Mapping[str, Regression]) -> dict[str, Score]:
-    """Foretell each rate from the others, by every form that was regressed.
+    """Predict each rate from the others, by every form that was regressed.
 
     Rows are weighted by their errors, where known: 1 / (standard error² + s²), s the scatter around the best of the
     forms, so that one row with a tiny error does not decide alone.

@@ -1,4 +1,4 @@
-"""Records foretold by the relation of the others: nothing adjusted, and how far alpha would have to move."""
+"""Records predicted by the relation of the others: nothing adjusted, and how far alpha would have to move."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from probation.calibration.forms import Form
     from probation.law.companion import Companion
 
-_ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation foretells nothing
+_ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation predicts nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +93,7 @@ def leave_one_rate_out(
     calibrated: Callable[[Sequence[int]], tuple[float, float]],
     progress: Callable[[str], None],
 ) -> tuple[dict[str, Score], tuple[Foretold, ...]]:
-    """Calibrate on all records but those of one rate, and foretell these; each rate in turn, by every form.
+    """Calibrate on all records but those of one rate, and predict these; each rate in turn, by every form.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def leave_one_rate_out(
     calibrated : callable
         The range of rates of some records [1/s].
     progress : callable
-        Told what is being done.
+        Called with what is being done.
     """
     count = len(problem.records)
     scores, foretold = {}, []

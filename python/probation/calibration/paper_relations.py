@@ -42,7 +42,7 @@ class AlphaRatio:
     printed : float
         From Tables 3 and 4 [-].
     as_printed, as_regressed : float
-        On the twin, with the intercept 0.0367 and with that of Table 2 [-].
+        On the synthetic record, with the intercept 0.0367 and with that of Table 2 [-].
     """
 
     experiment: int
@@ -92,7 +92,8 @@ class PaperRelations:
             f"rounded We of the table give {self.rounded[0]:.5f} and {self.rounded[1]:.4f}.",
             "0.0367 is nevertheless what Tables 3 and 4 were computed with: their α with (11) over their α with "
             "(12) is "
-            f"{ratios}; on the twins of experiments 2 and 3 it is {by_printed} with 0.0367, and {by_regressed} with "
+            f"{ratios}; on the synthetic data of experiments 2 and 3 it is {by_printed} with 0.0367, and "
+            f"{by_regressed} with "
             "the "
             "regression.",
             f"A line of the printed slope through experiment 1 (τ_max = {tau_max:g} s at {rate:g} 1/s) has the "
@@ -109,7 +110,7 @@ class PaperRelations:
 
 @cache
 def paper_relations() -> PaperRelations:
-    """Compute the findings: three regressions of Table 2, six identifications of alpha on the twins."""
+    """Compute the findings: three regressions of Table 2, six identifications of alpha on the synthetic data."""
     weissenberg, exponential = (regress(FORMS[name], TABLE_2) for name in ("weissenberg", "exponential"))
     power = regress(FORMS["power"], TABLE_2)
     rounded = np.polyfit(np.log10(TABLE_2.rates), PRINTED_WEISSENBERG, 1)
@@ -141,7 +142,7 @@ def _printed_r_squared() -> float:
 
 
 def _ratio(number: Literal[2, 3], regressed: Companion) -> AlphaRatio:
-    """Identify alpha on one twin with each relation, E_u held as in the paper."""
+    """Identify alpha on one synthetic record with each relation, E_u held as in the paper."""
     with_11, with_12 = PRINTED_ALPHAS[number]
     printed, own, other = (
         _alpha(number, relation) for relation in (WEISSENBERG_AS_PRINTED, regressed, EXPONENTIAL_AS_PRINTED)

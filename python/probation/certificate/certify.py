@@ -244,7 +244,7 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
         cold, hot = min(warm, key=lambda name: warm[name]), max(warm, key=lambda name: warm[name])
         doubts.append(
             f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "
-            "the temperature rather than the strain-rate history; these records cannot tell the two apart"
+            "the temperature rather than the strain-rate history; these records cannot discriminate the two"
         )
     for name, each in parameters.items():
         if outside_name(name) not in campaign.law.fixed:

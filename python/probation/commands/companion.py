@@ -32,7 +32,7 @@ later predictions carry.
 
 Records at nearly constant rates are fitted one by one with a constant tau_max, and the relation is regressed on what
 they give (by-rate); where a rate is not constant its parameters are identified on all records at once (direct). Among
-the forms the data choose: each rate is left out in turn and foretold from the others.
+the forms the data choose: each rate is left out in turn and predicted from the others.
 """
 
 
@@ -50,7 +50,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--form",
         choices=_FORMS,
         default="auto",
-        help="weissenberg is eq. (11), exponential (12); auto takes the one that foretells rates left out best",
+        help="weissenberg is eq. (11), exponential (12); auto takes the one that predicts rates left out best",
     )
     parser.add_argument(
         "--route",

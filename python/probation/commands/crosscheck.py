@@ -20,7 +20,7 @@ _DESCRIPTION = """\
 Run every scheme (be2 from both starts, sa2, sa3, exact, cvode, and eq. (7) on a ramp) on the same records: largest
 error, observed order, time per solve, CVODE's statistics.
 
-  probation crosscheck                          on the embedded twins of experiments 1 and 3
+  probation crosscheck                          on the embedded synthetic data of experiments 1 and 3
   probation crosscheck hdpe-2020/ --record ramp1 --report crosscheck.html
 
 On a campaign the law's parameters are those of --set, then the campaign's law.fixed; what is left is identified.

@@ -109,7 +109,7 @@ def deliver(summary: str, outputs: Sequence[Output]) -> None:
     Raises
     ------
     Exception
-        The first failure, after all else is delivered; further ones are told as warnings.
+        The first failure, after all else is delivered; further ones are reported as warnings.
     """
     written: list[str] = []
     texts: list[str] = []

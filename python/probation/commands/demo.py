@@ -13,9 +13,9 @@ NAME = "demo"
 FOLDER = "probation-demo"
 
 _DESCRIPTION = """\
-See it work, without any file: the embedded twins of the paper's three experiments through every step.
+See it work, without any file: the embedded synthetic data of the paper's three experiments through every step.
 
-  probation demo                  writes a page, plots and the twins into ./probation-demo
+  probation demo                  writes a page, plots and the synthetic data into ./probation-demo
   probation demo --no-files       only tells
   probation fit probation-demo/experiment-1
 """

@@ -43,7 +43,7 @@ than noise, the answer says
 
   where     in which records, and in which parts of them, the law departs from the measurement,
   which     physical effect or fault of the rig explains that, with a probability for each; also "no effect is needed"
-            and "an effect outside the catalogue". What the data cannot tell apart is listed together,
+            and "an effect outside the catalogue". What the data cannot discriminate is listed together,
   how far   the gap shrinks once the effect is added, on records that were held out too,
 
 and which test would settle what is still open.
@@ -52,7 +52,7 @@ and which test would settle what is still open.
   probation diagnose hdpe-2020/ --held-out grip-0.02 --report diagnosis.html
   probation diagnose hdpe-2020/ --effects self_heating,damage,machine_compliance --json -
   probation diagnose --list-effects                     every effect that is known: physics, parameters, bounds
-  probation diagnose hdpe-2020/ --isolability           what these tests could tell apart, whatever they show
+  probation diagnose hdpe-2020/ --isolability           what these tests could discriminate, whatever they show
   probation diagnose may/ --against march/              what changed since: the rig, the material, or nothing
 
 In a first reading: the headline, the starred explanations, and "gap closed" of the held-out records.
@@ -69,7 +69,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     instead.add_argument(
         "--isolability",
         action="store_true",
-        help="say which effects these tests could tell apart, from strain histories and noise alone",
+        help="say which effects these tests could discriminate, from strain histories and noise alone",
     )
     instead.add_argument(
         "--against",
@@ -154,7 +154,7 @@ def _isolability(
 ) -> int:
     from probation.diagnosis.isolability import campaign_isolability  # noqa: PLC0415 - see the package
 
-    with shown(f"what {campaign.name} could tell apart"):
+    with shown(f"what {campaign.name} could discriminate"):
         answer = campaign_isolability(campaign, options.scheme, effects=names, hold=held, threads=options.threads)
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0

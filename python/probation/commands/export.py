@@ -65,7 +65,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     group.add_argument("--name", metavar="NAME", default="probation", help="of the material (probation)")
     group = parser.add_argument_group("fewer modes")
     group.add_argument("--accuracy", metavar="A", type=float, help="refit; the stress errs by no more: 1e-3, 9 modes")
-    group.add_argument("--modes", metavar="N", type=int, help="refit with at most so many; its error is told")
+    group.add_argument("--modes", metavar="N", type=int, help="refit with at most so many; its error is reported")
     group = parser.add_argument_group("output")
     group.add_argument(
         "-o", "--output", metavar="FILE", type=output_file, help="of one format; standard output if left out"

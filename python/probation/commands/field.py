@@ -73,7 +73,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     identify.add_argument("--afresh", action="store_true", help="remove the maps that are there and begin anew")
     for step in (example, identify):
         add_cluster(step)
-    maps = steps.add_parser("map", help="tell and draw what was identified")
+    maps = steps.add_parser("map", help="summarise and draw what was identified")
     maps.add_argument("maps", metavar="MAPS.zarr", help="as identify wrote it")
     maps.add_argument("--truth", metavar="TRUTH.zarr", help="what is true, as example writes it")
     add_delivery(maps, report=False)

@@ -49,7 +49,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         choices=_WEIGHTINGS,
         default="auto",
         help="what the residuals are weighed for: plain, white noise of the stress; strain-noise, also that of the "
-        "strain as the law carries it to the stress; auto, that where it matters, and autocorrelated stress noise; "
+        "strain as the law propagates it to the stress; auto, that where it matters, and autocorrelated stress noise; "
         "strain-noise-frozen is biased, for comparison",
     )
     parser.add_argument(

@@ -23,7 +23,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="how a file would be read", description=_DESCRIPTION)
     parser.add_argument("file", metavar="FILE", help="CSV, TSV, .xlsx, or what an import profile reads")
-    parser.add_argument("--profile", metavar="NAME", help="import profile; by default told from the content")
+    parser.add_argument("--profile", metavar="NAME", help="import profile; by default recognised from the content")
     parser.add_argument(
         "--column",
         metavar="ROLE=HEADING",

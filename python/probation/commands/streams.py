@@ -1,7 +1,7 @@
 """Standard output and standard error, whatever became of them: closed, full, a pipe whose reader went away.
 
 What goes to standard output was asked for: where it cannot be written, an error says so. What goes to standard error
-(warnings, progress, which files were written) is told where it can be; where it cannot, the work goes on.
+(warnings, progress, which files were written) is reported where it can be; where it cannot, the work goes on.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
 SPECIMENS = "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs"
 
 TOLD = 1e-4
-"""Probability from which on sizes are told."""
+"""Probability from which on sizes are reported."""
 
 Z95 = 1.959963984540054
 
@@ -123,7 +123,7 @@ def _prepared(
     effects: Iterable[str] | None,
     threads: int,
 ) -> ChangeSearch:
-    """The records minus what their references foretell, and the noise of that."""
+    """The records minus what their references predict, and the noise of that."""
     foretold = {name: [reference.branches[other] for other in others] for name, others in together.items()}
     law = MeasuredLaw(reference.law, foretold)
     excitations = {record.id: excite(record) for record in campaign.records}

@@ -69,10 +69,10 @@ def change_noise(
     excitation: Excitation,
     missed: NDArray[np.bool_],
 ) -> NoiseModel:
-    """The noise of a record minus what its references foretell.
+    """The noise of a record minus what its references predict.
 
     The reference is another measurement: its noise is let be independent of the record's, and along the curves by
-    which it was followed it is part of what is foretold.
+    which it was followed it is part of what is predicted.
 
     Parameters
     ----------

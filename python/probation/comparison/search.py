@@ -73,7 +73,7 @@ class Found:
 
 @dataclass(frozen=True, eq=False)
 class ChangeSearch:
-    """Records minus what their references foretell, and the causes that may explain that.
+    """Records minus what their references predict, and the causes that may explain that.
 
     Attributes
     ----------

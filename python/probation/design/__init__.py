@@ -1,1 +1,1 @@
-"""What tests can tell apart, and which test to do next."""
+"""What tests can discriminate, and which test to do next."""

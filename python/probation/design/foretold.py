@@ -1,4 +1,4 @@
-"""What every explanation foretells of a test that is not done yet, and how often that test would find the right one.
+"""What every explanation predicts of a test that is not done yet, and how often that test would find the right one.
 
 Under explanation k, whose parameters the records there are leave uncertain with covariance C_k, the whitened result is
 normal: y ~ N(f_k, I + J_k C_k J_k^T). That is the rival refitted to old and new records together, to first order, and
@@ -117,7 +117,7 @@ def foretold(
     explanations: Sequence[Explanation],
     noises: Sequence[NoiseModel],
 ) -> list[Foretelling]:
-    """What every explanation foretells of a test.
+    """What every explanation predicts of a test.
 
     A cause that touches all records touches the new one too. A fault of single records may or may not be there again
     (`REPEATS_ITSELF`), unless its form can sit nowhere but in one record: a slip does not repeat itself.
@@ -237,7 +237,7 @@ def outcome(ways: Sequence[Foretelling], prior: FloatArray, group: Sequence[int]
 
 
 def _reduced(ways: Sequence[Foretelling]) -> tuple[FloatArray, list[FloatArray]]:
-    """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the foretellings differ."""
+    """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the predictions differ."""
     centre = np.mean([way.mean for way in ways], axis=0)
     columns = np.column_stack([*(way.mean - centre for way in ways), *(way.spread for way in ways)])
     size = np.linalg.norm(columns, axis=0)

@@ -54,8 +54,8 @@ class EffectIsolability:
     detectability : float
         sqrt(lambda): length of the signal in standard deviations, the base parameters refitted.
     seen_from, named_from : float or None
-        Smallest amplitudes that would be seen (sqrt(lambda) = 5), and told from every rival (19 times of 20); None: not
-        within the bounds of the amplitude.
+        Smallest amplitudes that would be seen (sqrt(lambda) = 5), and discriminated from every rival (19 times of 20);
+        None: not within the bounds of the amplitude.
     absorbable : float
         Part of the signal (its square) that refitted base parameters take up.
     biases : tuple of Bias
@@ -85,7 +85,7 @@ class EffectIsolability:
     def status(self) -> Status:
         """What these tests would make of it at its usual size.
 
-        "named": seen and told from all others; "ambiguous": seen, but with rivals. Not seen: "without_signal", it does
+        "named": seen, no rival; "ambiguous": seen, but with rivals. Not seen: "without_signal", it does
         nothing in these records; "absorbed", the base parameters take it up; "too_small", it drowns in the noise.
         """
         if self.detectability < DETECTED:
@@ -119,7 +119,7 @@ class EffectIsolability:
 
 @dataclass(frozen=True, eq=False)
 class Isolability:
-    """What these tests could tell apart.
+    """What these tests could discriminate.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ class Isolability:
 
     @cached_property
     def groups(self) -> tuple[tuple[str, ...], ...]:
-        """Effects that cannot be told apart, as connected sets; those told from all others stand in none."""
+        """Effects that cannot be discriminated, as connected sets; all others stand in none."""
         names = self.names
         friends: dict[str, set[str]] = {name: {name} for name in names}
         for each in self.effects:
@@ -193,7 +193,7 @@ def isolability(
     *,
     threads: int = 2,
 ) -> Isolability:
-    """Which effects these tests could tell apart, seen from the strain histories, the noise and the law alone.
+    """Which effects these tests could discriminate, seen from the strain histories, the noise and the law alone.
 
     Every effect is taken at its usual size (one scale of its prior, first form, a middle one of its starts), with what
     it really adds at that size, not its derivative. The base parameters are refitted (linearly), so that only what
@@ -274,7 +274,7 @@ def _described(
 def _named_from(
     rivalry: Rivalry, usual: EffectSignal, row: int, smallest: tuple[float, FloatArray], ambiguous: bool
 ) -> float | None:
-    """Smallest amplitude that is told from every rival; None beyond the bounds.
+    """Smallest amplitude that is discriminated from every rival; None beyond the bounds.
 
     An effect that is not named at its usual size is taken to look larger as it does there; one that is, to look as it
     does where it is just seen, and to be named at its usual size at the latest.

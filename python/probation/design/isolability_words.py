@@ -52,7 +52,7 @@ def sentence(each: EffectIsolability) -> str:
     if each.status == "too_small":
         return f"{title} would drown in the noise: {seen} where {DETECTED:g} are needed; {_from(each)}."
     if each.status == "named":
-        return f"{title} would be seen ({seen}) and told from every other effect; {_from(each)}."
+        return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(each)}."
     likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(each.rivals.items())[:_NAMED]]
     more = len(each.rivals) - len(likest)
     others = _listed([*likest, f"{more} more"] if more else likest, "or")

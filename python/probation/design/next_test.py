@@ -1,4 +1,4 @@
-"""The experiment to do next: of those a laboratory can do, the one that best tells the remaining explanations apart."""
+"""The test to do next: of those a laboratory can do, the one that best discriminates the remaining explanations."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ROUGH = 3.0
 """Times the noise at which a test should decide, too."""
 
 SEPARATED = 0.9
-"""Probability of telling two explanations apart from which on a test separates them."""
+"""Probability of discriminating two explanations from which on a test separates them."""
 
 DRAWS = 400
 
@@ -82,7 +82,7 @@ class NextTest:
         One sentence.
     separates : list of list of str
         Effects of the explanations that it tells from another one; if it does so of none surely, of the two that it
-        tells apart best.
+        discriminates best.
     probability_before, probability_after : float
         Of the most probable explanation being the right one, given that one of them is.
     test : PlannedTest
@@ -119,7 +119,7 @@ def next_test(
 ) -> NextTest | None:
     """The realisable test after which the right explanation is most probably the most probable one, for its effort.
 
-    Every test of `PLANNERS` is foretold by every explanation, with what the records there are leave open of its
+    Every test of `PLANNERS` is predicted by every explanation, with what the records there are leave open of its
     parameters: a rival may refit all of them, base and effects, to old and new records together (linearised). The noise
     is that of the records there are. A fault of single records comes back in half of the cases.
 
@@ -186,7 +186,7 @@ def next_test(
 
 
 def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
-    """Answers that are surely told from another, and True; if there are none, the two told apart best, and False."""
+    """Explanations that are surely discriminated, and True; or else the two discriminated best, and False."""
     both = np.minimum(pairwise, pairwise.T)
     np.fill_diagonal(both, -1.0)
     surely = np.flatnonzero((both >= SEPARATED).any(axis=1)).tolist()
@@ -198,8 +198,9 @@ def _sentence(chosen: RankedTest, names: Sequence[str], surely: bool, before: fl
     told = f"{', '.join(names[:-1])} and {names[-1]}"
     what, after = chosen.test.what, chosen.probability_after
     if after < before + HELPS:
-        return f"None of the tests considered helps to tell {told} apart; least in vain: {what[0].lower()}{what[1:]}."
-    does = f"it tells {told} apart" if surely else f"it helps most between {told}"
+        best = f"{what[0].lower()}{what[1:]}"
+        return f"None of the tests considered helps to discriminate between {told}; the best of them: {best}."
+    does = f"it discriminates between {told}" if surely else f"it helps most between {told}"
     return f"{what}: {does}; the answer is then right with {_percent(after)}, now with {_percent(before)}."
 
 

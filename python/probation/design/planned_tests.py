@@ -162,7 +162,7 @@ class Laboratory:
         return PlannedTest(name, summary, time, strain, jumps, preparation, gauge_length=gauge_length)
 
     def stress(self, test: PlannedTest) -> FloatArray:
-        """What the base law foretells of a test, shape (n_samples,) [MPa]."""
+        """What the base law predicts of a test, shape (n_samples,) [MPa]."""
         view = planned_view(test.name, test.time, test.true_strain, test.jumps, self.model.views)
         return self.model.law.stress(view, self.parameters)
 
@@ -248,7 +248,7 @@ def unloading(lab: Laboratory) -> list[PlannedTest]:
 
 
 def dead_weight(lab: Laboratory) -> list[PlannedTest]:
-    """Creep under a constant force, along the strain that the base law foretells; the engine's law only."""
+    """Creep under a constant force, along the strain that the base law predicts; the engine's law only."""
     if not isinstance(lab.model.law, DnlrLaw):
         return []
     law = lab.model.law.law_at(lab.parameters)
@@ -304,7 +304,7 @@ PLANNERS: tuple[Planner, ...] = (
 
 
 def planned_tests(lab: Laboratory) -> list[PlannedTest]:
-    """All tests of `PLANNERS` that take no longer than two days and that the base law can foretell."""
+    """All tests of `PLANNERS` that take no longer than two days and that the base law can predict."""
     found = []
     for planner in PLANNERS:
         try:

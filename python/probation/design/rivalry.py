@@ -78,7 +78,7 @@ class Rivalry:
         return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), factor)
 
     def length_to_name(self, row: int, truth: FloatArray, most: float) -> float | None:
-        """sqrt(lambda) from which on an effect that looks like `truth` is told from every other.
+        """sqrt(lambda) from which on an effect that looks like `truth` is discriminated from every other.
 
         None if it would have to be more than `most` times as large.
         """

@@ -22,7 +22,7 @@ DETECTED = 5.0
 """sqrt(lambda) from which on an effect counts as seen: where nine of ten such gaps are to be detected."""
 
 TOLD_APART = 0.95
-"""Probability of naming the right one of two from which on they count as told apart."""
+"""Probability of naming the right one of two from which on they count as discriminated."""
 
 
 def probability_of_the_right_one(

@@ -53,7 +53,7 @@ class Ripple:
     power : float
         In units of the noise's.
     tried : float
-        Periods that could be told apart among those that were tried.
+        Periods that could be discriminated among those that were tried.
     """
 
     record: str | None

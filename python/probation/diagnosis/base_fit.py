@@ -54,7 +54,7 @@ FIRST, STIFFER, FAR = 20, 1.3, 3.0
 """Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
 PARTS = 8
-"""Parts of a record along which the loudness of its noise is followed where strains are chosen ..."""
+"""Parts of a record in which the local noise variance is estimated where strains are chosen ..."""
 
 QUIETEST = 0.01
 """... and the least of it, over the mean."""

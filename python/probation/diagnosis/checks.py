@@ -65,7 +65,7 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
 
 
 def left_out_squares(found: Refit, whitened: Whitened) -> FloatArray:
-    """|z_r|^2 of every record as the others foretell it, shape (n_records,)."""
+    """|z_r|^2 of every record as the others predict it, shape (n_records,)."""
     coordinates = found.coordinates
     prior = np.diag(coordinates.precision)
     normal = found.jacobian.T @ found.jacobian + prior

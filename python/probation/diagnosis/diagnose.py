@@ -86,7 +86,7 @@ def diagnose(
     threads : int, optional
         By default as many as there are processors, at most 4.
     design : bool
-        Whether to say, too, what these tests could tell apart at all, and which test to do next.
+        Whether to say, too, what these tests could discriminate at all, and which test to do next.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -262,7 +262,9 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
     if not is_stretched(base):
         found.append("no record is stretched: no next test is looked for, since only tension tests are planned")
     if len(base.whitened.records) == 1:
-        found.append("one record only: nothing can be left out, and a cause that acts alike in it cannot be told apart")
+        found.append(
+            "one record only: nothing can be left out, and a cause that acts alike in it cannot be discriminated"
+        )
     for noise in base.whitened.noises:
         if noise.spikes:
             found.append(f"{noise.name}: {_spikes_text(len(noise.spikes))}")

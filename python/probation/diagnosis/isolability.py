@@ -1,4 +1,4 @@
-"""What the tests of a campaign could tell apart, whatever they show; `probation diagnose --isolability`."""
+"""What the tests of a campaign could discriminate, whatever they show; `probation diagnose --isolability`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CampaignIsolability(Result):
-    """What the tests of a campaign could tell apart.
+    """What the tests of a campaign could discriminate.
 
     `plot` draws how probably each effect would be named rightly against each other.
 
@@ -54,7 +54,7 @@ def campaign_isolability(
     effects: Iterable[str] | None = None,
     threads: int | None = None,
 ) -> CampaignIsolability:
-    """Which effects the identify records of a campaign could tell apart.
+    """Which effects the identify records of a campaign could discriminate.
 
     Of the records' stresses only the noise and the base parameters are taken.
 

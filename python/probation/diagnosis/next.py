@@ -20,7 +20,7 @@ MOST = 4
 """Explanations that a test is planned for, the most probable ones."""
 
 FORMS = 2
-"""Forms and places of an explanation that are foretold, the best ones ..."""
+"""Forms and places of an explanation that are predicted, the best ones ..."""
 
 FORMS_WITHIN = 4.0
 """... if their log evidence is within this of the best one's."""
@@ -40,7 +40,7 @@ def next_test_of(
     threads: int,
     seed: int,
 ) -> NextTest | None:
-    """What to do next; None where one explanation, or none that could be foretold, is left.
+    """What to do next; None where one explanation, or none that could be predicted, is left.
 
     Parameters
     ----------

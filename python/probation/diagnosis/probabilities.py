@@ -37,17 +37,17 @@ LEFT_OVER = 0.9
 """Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
 
 ABOUT_AS_PROBABLE = 12.0
-"""Log evidence within which forms of one effect are told apart by how well they fit as they are."""
+"""Log evidence within which forms of one effect are discriminated by how well they fit as they are."""
 
 UNSEEN = 0.2
 """Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom costs little
 and gains nothing. So what was probable beforehand of two effects stays so, shared out to those that were not tried."""
 
 NOTED = 0.05
-"""Probability from which on a single effect is told with others that may act beside it, unseen."""
+"""Probability from which on a single effect is reported with others that may act jointly, unseen."""
 
 TINY = 1e-12
-"""Smaller p-values are told as this."""
+"""Smaller p-values are reported as this."""
 
 COVERED = 0.95
 """Probability that an answer set holds."""

@@ -19,7 +19,7 @@ TOLERATED = 0.05
 """Relative error of an effect's form, record by record, that evidence takes for the effect's own."""
 
 TOLD = 0.25
-"""Part of what evidence lets pass beyond which a gap is told to be left: it is real, whatever its cause."""
+"""Part of what evidence lets pass beyond which a gap is reported as left: it is real, whatever its cause."""
 
 MOST_LEFT = 1.5
 """Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it explains too

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
 
 LEVEL = 1e-3
-"""p-value, over all records, below which a feature is told."""
+"""p-value, over all records, below which a feature is reported."""
 
 SCATTER_LEVEL = 0.01
 """p-value, against the scatter between records, below which a parameter is said to change with something."""

@@ -50,7 +50,7 @@ def _rates_beside_figure_1(axes: Axes, necking: Necking) -> None:
     twins = (("experiment 1", experiment_1(), "muted"), ("experiments 2, 3", experiment_3(), "second"))
     for name, twin, shade in twins:
         relative = twin.strain_rate / twin.strain_rate[0]
-        axes.plot(*thinned(twin.true_strain, relative), color=colour(shade), ls="--", label=f"twin of Figure 1, {name}")
+        axes.plot(*thinned(twin.true_strain, relative), color=colour(shade), ls="--", label=f"Figure 1, {name}")
     relative = necking.centre_rate / necking.centre_rate[0]
     axes.plot(necking.centre_strain, relative, color=colour("model"), label="centre of the bar")
     axes.set(xlabel="true strain [–]", ylabel="strain rate / that at the start [–]", yscale="log")

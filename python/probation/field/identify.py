@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from probation.pool import Progress
 
 PIXELS = 4096
-"""Pixels of a task, unless told otherwise: seconds of work, megabytes of samples."""
+"""Pixels of a task, unless given: seconds of work, megabytes of samples."""
 
 
 class BlockLostError(RuntimeError):

@@ -1,4 +1,4 @@
-"""`FieldMaps`: what was identified, pixel by pixel, read and told."""
+"""`FieldMaps`: what was identified, pixel by pixel, read and reported."""
 
 from __future__ import annotations
 

@@ -85,4 +85,4 @@ NECKING_SETS: dict[str, NeckingHistory] = {
     "P2": NeckingHistory(a=-0.03445, b=0.36637, c=0.7055, d=221.19, duration=224.7),
     "P3": NeckingHistory(a=-0.04781, b=0.158, c=0.5632, d=65.37, duration=262.3),
 }
-"""Parameters of (A-1) for experiment 3, true strain 1.8 at the end; with P2 the twins return the paper's numbers."""
+"""Parameters of (A-1), experiment 3, to true strain 1.8; with P2 the synthetic data return the paper's numbers."""

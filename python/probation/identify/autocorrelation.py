@@ -1,4 +1,4 @@
-"""AR(1) noise: found in a fit residual by restricted maximum likelihood, and told from a model's bias."""
+"""AR(1) noise: found in a fit residual by restricted maximum likelihood, and distinguished from a model's bias."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def fitted_noise(
     Parameters
     ----------
     noise : NoiseModel
-        White, with or without carried strain noise.
+        White, with or without propagated strain noise.
     residual : ndarray, shape (n_times,) [MPa]
     jacobian : ndarray, shape (n_times, free)
         What the fit has taken out of the residual.

@@ -248,7 +248,7 @@ def study(
     state : path-like, optional
         A file that keeps what was counted, a line per draw; what it has is not done again.
     progress : callable, optional
-        Told ``(done, total, what)``.
+        Called with ``(done, total, what)``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""From the law that was found to what is told of it: errors, intervals, warnings."""
+"""From the law that was found to what is reported of it: errors, intervals, warnings."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def fit(
         to shift no parameter by more than a tenth of its standard error, up to 16 (more on short records).
     weighting : {"auto", "plain", "strain-noise", "strain-noise-frozen"}
         How the fit residuals are weighed. "plain": white noise of the stress alone. "strain-noise": the noise of the
-        strain, too, as the law carries it to the stress, re-evaluated as the parameters move; "strain-noise-frozen"
+        strain, too, as the law propagates it to the stress, re-evaluated as the parameters move; "strain-noise-frozen"
         leaves it at the plain estimate, which is biased and here to be shown so. "auto": "strain-noise" where that
         noise is more than 0.3 of the rest of any parameter's standard error, else "plain". All but "plain" see stress
         noise that is autocorrelated, AR(1), too. Of a record of more than 3000 samples the strain noise goes into the

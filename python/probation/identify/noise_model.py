@@ -1,4 +1,4 @@
-"""What the noise of one record's fit residual looks like: white, AR(1), and strain noise carried to the stress."""
+"""What the noise of one record's fit residual looks like: white, AR(1), and strain noise propagated to the stress."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class NoiseModel:
         return cls(scale, 0.0, step / np.median(step))
 
     def with_carried(self, carried: FloatArray | None) -> NoiseModel:
-        """The same with other carried strain noise, shape (n_times, n_directions) [MPa]."""
+        """The same with other propagated strain noise, shape (n_times, n_directions) [MPa]."""
         return replace(self, carried=carried)
 
     def scaled(self, factor: float) -> NoiseModel:

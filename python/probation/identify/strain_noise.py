@@ -1,4 +1,4 @@
-"""Noise of the measured strain, carried by smoother, differentiator and law to the stress."""
+"""Noise of the measured strain, propagated by smoother, differentiator and law to the stress."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def resampled(problem: RecordProblem, law: Law, gain: FloatArray, method: Excita
 
 
 def strain_noise_warnings(problems: Sequence[RecordProblem], law: Law) -> list[str]:
-    """Where strain noise, carried to the stress by the hardening, is not small beside what else is in the residual."""
+    """Where strain noise, propagated to the stress by the hardening, is not small beside the rest of the residual."""
     return [
         f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at the "
         f"largest strain; the standard errors, that of {SYMBOLS['hardening_modulus']} above all, do not include it"

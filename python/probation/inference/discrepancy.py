@@ -44,7 +44,7 @@ class Discrepancy:
     places : tuple of slice
         Its waves among all.
     drift : ndarray, shape (d, d)
-        Covariance of the slow noise along the waves that whitening has left; see `gap.harmless_drift`.
+        Covariance of the slow noise along the waves that whitening has left; see `noise.harmless_drift`.
     common : ndarray, shape (N, m)
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
     specimens : ndarray, shape (N, m)

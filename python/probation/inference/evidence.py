@@ -7,7 +7,7 @@ nearly all of it. So what an explanation leaves is let be noise plus a smooth di
     y ~ N(J d, I + B (D + H) B^T),
 
 y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
-waves over every record, H slow noise along them that whitening has left (`gap.harmless_drift`), D = rho^2 lambda_r v
+waves over every record, H slow noise along them that whitening has left (`noise.harmless_drift`), D = rho^2 lambda_r v
 the discrepancy's variance: rho the relative error of a form, lambda_r what the explanation does to record r, v the
 spectrum of smooth curves. rho is integrated out; errors of a form that are alike in all records (`form_columns`) stand
 among the parameters. "Unknown" is the same with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001;

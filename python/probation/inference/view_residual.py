@@ -1,4 +1,4 @@
-"""What the statistics are told of a record, from its view and a model's residual there."""
+"""What the statistics know of a record, from its view and a model's residual there."""
 
 from __future__ import annotations
 

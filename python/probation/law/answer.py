@@ -41,7 +41,7 @@ def law_answer(law: Law) -> dict[str, Any]:
 
 
 def law_from_answer(answer: object) -> Law:
-    """The law that `law_answer` told of; further keys are left alone.
+    """The law that `law_answer` describes; further keys are left alone.
 
     Raises
     ------

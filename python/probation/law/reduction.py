@@ -128,7 +128,7 @@ def _reduced(original: Spectrum, accuracy: float, most: int) -> Reduction:
     for _ in range(min(most, len(ratio) - 1)):
         try:
             times, weights = kernel.refitted(times)
-        except RuntimeError:  # nnls gives up on times that all but coincide: no more modes can be told apart
+        except RuntimeError:  # nnls gives up on times that all but coincide: no more modes can be discriminated
             break
         fewer = Spectrum(times, weights * (weight.sum() / weights.sum()))
         found = Reduction(fewer, original, *kernel.errors(fewer))

@@ -23,15 +23,15 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 LEAST = 1.0
-"""Relative variance at the first half period that is assumed in any case: less cannot be told from none."""
+"""Relative variance at the first half period that is assumed in any case: less cannot be distinguished from none."""
 
 SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
 USUAL = 5.0
 """Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
 
 LEAST_ALIKE, PART_ALIKE, MOST_ALIKE = 0.25, 0.2, 2.0
-"""Of a drift as much goes along with an effect: a slow wandering that is more like one is told as that effect, but a
-form is known to some per cent only, and what it leaves of an effect's direction drifts as everything does."""
+"""Of a drift as much goes along with an effect: a slow wandering that is more like one is reported as that effect, but
+a form is known to some per cent only, and what it leaves of an effect's direction drifts as everything does."""
 
 BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
 """The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""

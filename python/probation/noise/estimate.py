@@ -31,7 +31,7 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 stretches are projected out;
     Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a stretch is
     gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
-    agree with that ARMA(1,1) in every record, or else in those records where the others foretell them: then noise
+    agree with that ARMA(1,1) in every record, or else in those records where the others predict them: then noise
     and only noise is there, and it is fitted with them.
     (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet stretches and
     replicates override (2) and (3). (5) A record whose noise would be many times that of all others, though its

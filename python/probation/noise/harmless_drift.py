@@ -1,12 +1,12 @@
-"""Slow noise that is like no effect: what of a drift is like one is told as that effect, and little is left along it.
+"""Nuisance drift: slow noise that resembles no effect. What resembles one is reported as that effect.
 
-A drift d of covariance D goes along with an effect of (whitened) unit direction u by as much as u^T d. Nobody calls a
-wandering noise what does what a drifting load cell does; so u^T d is known to be small, within `ALIKE` of the noise
-along u, for the signals of all effects. What is known of d then is D conditioned on that,
+The part of a drift d of covariance D along an effect of (whitened) unit direction u is u^T d. A drift with the form of
+a warming load cell is an effect, not noise. So u^T d is known to be small, within `ALIKE` of the noise along u, for the
+signals of all effects. What is known of d then is D conditioned on that,
 
     H = D - D U (U^T D U + ALIKE^2 I)^-1 U^T D,
 
-which lets be all slow noise that no effect makes, and lets no single effect be mistaken for noise.
+which keeps all slow noise that no effect makes, and does not take a single effect for noise.
 """
 
 from __future__ import annotations

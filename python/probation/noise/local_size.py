@@ -22,7 +22,7 @@ BURST = 15
 """Samples of the shortest burst that is looked for: so many median sizes say what a step or a spike cannot."""
 
 LOUD, SURE = 1.9, 3.5
-"""A burst is so many times as loud as the record, and so many deviations above what the record's windows scatter by."""
+"""A burst has so many times the noise of the record, and is so many deviations above the scatter of its windows."""
 
 
 def local_size(noise: FloatArray) -> FloatArray | None:
@@ -40,7 +40,7 @@ def local_size(noise: FloatArray) -> FloatArray | None:
 
 
 def _bursts(rough: FloatArray) -> FloatArray | None:
-    """By medians over short windows: half of a window has to be loud."""
+    """By medians over short windows: half of a window has to be in the burst."""
     typical = float(np.median(rough))
     if len(rough) < 4 * BURST or typical == 0.0:
         return None

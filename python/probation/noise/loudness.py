@@ -1,4 +1,4 @@
-"""How loud the noise is where a signal is: a short signal may lie in a burst that the noise model has missed."""
+"""Local noise variance where a signal is: a short signal may lie in a burst that the noise model has missed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MEMORY = 35.0 / 18.0
 
 
 def samples_within(directions: FloatArray) -> FloatArray:
-    """So many independent readings tell the loudness of each of the unit signals (N, m); shape (m,)."""
+    """Number of independent samples under each of the unit signals (N, m), for its noise variance; shape (m,)."""
     return np.asarray(1.0 / (MEMORY * np.maximum(np.sum(directions**4, axis=0), 1e-300)), dtype=np.float64)
 
 

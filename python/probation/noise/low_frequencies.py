@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from probation.noise.evidence import NoiseEvidence
 
 AGREES = 1e-3
-"""Probability below which the power at lower frequencies is no longer believed to be what the rough ones foretell."""
+"""Probability below which the power at lower frequencies is no longer believed to be what the rough ones predict."""
 
 CERTAIN = 3.0
 """Standard errors by which a level must differ to be taken down."""
@@ -26,7 +26,7 @@ LOWEST = 12
 """Coefficients next to the bias's own, where it would show first."""
 
 FORETELLS = 0.4
-"""Largest standard error of the logarithm of what the rough leftovers foretell that is let excuse a difference."""
+"""Largest standard error of the logarithm of what the rough leftovers predict that is let excuse a difference."""
 
 LOW_BAND = 60
 """Coefficients of a record at the low end of what was fitted, whose level overrules the fit's where it is higher."""
@@ -107,7 +107,7 @@ def _fits(whole: Periodogram, own: Periodogram, arma: Arma, slack: float) -> flo
 
 
 def _foretold(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
-    """Whether a record's lower frequencies hold what the rough leftovers foretell, within what these can tell."""
+    """Whether a record's lower frequencies hold what the rough leftovers predict, within what these can tell."""
     slack = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), FORETELLS)))
     return _fits(whole, own, found.models[at], slack) >= AGREES
 
@@ -115,7 +115,7 @@ def _foretold(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> 
 def _alike(wholes: list[Periodogram], rough: list[Periodogram], bottom: float) -> set[int]:
     """Records whose lower frequencies are what all the other records' are, beside their own rough leftovers.
 
-    A noise is the same in every record; a bias is another in each. The record that the others foretell worst is left
+    A noise is the same in every record; a bias is another in each. The record that the others predict worst is left
     out, again and again; where too many go, the bias is in all of them, and nothing is known of the lower frequencies.
     """
     left = set(range(len(wholes)))

@@ -49,8 +49,8 @@ class NoiseModel:
     drift : ndarray, shape (n, k) [MPa], optional
         Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
     harmless_drift : ndarray, shape (n, k) [MPa], optional
-        Slow noise on top that is like no effect: what is like one is told as that effect. Only tests of waves that
-        belong to no effect have it.
+        Slow noise on top that resembles no effect: what resembles one is reported as that effect. Only tests of waves
+        that belong to no effect have it.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What the statistics of a gap are told about one record: arrays, and nothing of any law."""
+"""What the statistics of a gap know of one record: arrays, and nothing of any law."""
 
 from __future__ import annotations
 

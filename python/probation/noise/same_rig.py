@@ -1,7 +1,7 @@
 """One rig makes one noise: a record that says otherwise at low frequencies only says that its gap is rough.
 
 Teeth on all of one record are as rough as noise, and a model that grows to hold them makes them vanish. Neighbouring
-samples tell the two apart: they scatter by the rig's noise wherever no tooth breaks.
+samples distinguish the two: they scatter by the rig's noise wherever no tooth breaks.
 """
 
 from __future__ import annotations

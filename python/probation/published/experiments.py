@@ -1,4 +1,4 @@
-"""Twins of the paper's three experiments, whose raw data was never published."""
+"""Synthetic data of the paper's three experiments, whose raw data was never published."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Twin:
     strain_noise: float = 0.0
 
     def record(self, role: Literal["identify", "held-out"] = "identify") -> Record:
-        """The twin as a laboratory would have recorded it: time, strain and stress, no rate."""
+        """The synthetic record as a laboratory would have recorded it: time, strain and stress, no rate."""
         return Record(
             id=self.name,
             time=self.time,
@@ -151,7 +151,7 @@ def experiment_3(
 
 
 def experiment(number: Literal[1, 2, 3], seed: int = 0, noise: float = STRESS_NOISE) -> Twin:
-    """The twin of that experiment, in its plainest variant."""
+    """The synthetic record of that experiment, in its plainest variant."""
     if number == 1:
         return experiment_1(seed, noise)
     return _grip_driven(number, seed, noise, "P2", 0.0)
@@ -171,7 +171,7 @@ def twin_campaign(
     held_out: Sequence[Literal[1, 2, 3]] = (),
     name: str | None = None,
 ) -> Campaign:
-    """The twins as a campaign in memory.
+    """The synthetic data as a campaign in memory.
 
     Experiment 1 alone asks for a constant tau_max; with 2 or 3 in it the law has the companion relation (11) as
     printed and E_u is held at 3220 MPa, as in the paper's identifications 2.

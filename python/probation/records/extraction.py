@@ -233,7 +233,7 @@ def _check_strain(
 
 def _unit_warnings(columns: dict[str, Column], options: ReadOptions) -> list[str]:
     return [
-        f"{role} is read in {unit!r} as told, although the file says {columns[role].unit!r}"
+        f"{role} is read in {unit!r} as given, although the file says {columns[role].unit!r}"
         for role, unit in options.units.items()
         if columns[role].unit not in (None, unit)
     ]

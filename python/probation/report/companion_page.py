@@ -64,7 +64,7 @@ def _choice(found: Calibration) -> Section:
     if scores is None:
         return Section("Which form?", ("Too few rates to leave one out: the data do not choose a form.",))
     parts: list[str | Table] = [
-        "Each rate in turn is left out, the relation calibrated on the others, and τ_max foretold at the rate left "
+        "Each rate in turn is left out, the relation calibrated on the others, and τ_max predicted at the rate left "
         "out. "
         "The lowest rms is chosen; references are there to compare with, and never chosen.",
         scores,
@@ -105,7 +105,7 @@ def _paper(paper: PaperRelations) -> Section:
             Table(("", "as printed", "regressed from Table 2"), beside),
             Table(("rate [1/s]", "τ_max [s]", *(f"{name} [%]" for name in names)), tuple(rows), "Errors on Table 2"),
             Table(
-                ("α with (11) over α with (12)", "Tables 3, 4", "twin, 0.0367", "twin, regressed"),
+                ("α with (11) over α with (12)", "Tables 3, 4", "synthetic, 0.0367", "synthetic, regressed"),
                 ratios,
                 "Which intercept were Tables 3 and 4 computed with?",
             ),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def comparison_figure(found: Comparison) -> Figure:
-    """Every record minus what its references foretell, twice the noise, and what the best explanation says."""
+    """Every record minus what its references predict, twice the noise, and what the best explanation says."""
     require_curves(found.curves, f"comparison of {found.campaign} against {found.reference}")
     short = short_ids(found.curves)
     with house_style():

@@ -36,7 +36,7 @@ def write_diagnosis_page(found: Diagnosis, path: Path) -> None:
 
 
 def diagnosis_page(found: Diagnosis) -> Page:
-    """The page: the verdict, where, before and after, which, how far, the next test, what could be told, details."""
+    """The page: the verdict, where, before and after, which, how far, the next test, isolability, details."""
     sections = [_short(found), _where(found), _records(found), _which(found)]
     if mended_by(found) and found.verdict != "no_gap":
         sections.append(_shrink(found))
@@ -53,7 +53,7 @@ def diagnosis_page(found: Diagnosis) -> Page:
 
 
 def _short(found: Diagnosis) -> Section:
-    where = "In no part of any record can a gap be told from noise"
+    where = "In no part of any record can a gap be distinguished from noise"
     if found.located:
         worst = found.located[0]
         where = (
@@ -62,7 +62,7 @@ def _short(found: Diagnosis) -> Section:
         )
     best = leading(found)
     which = listed([f"{explanation_name(each, found)} ({percent(each.probability)})" for each in best])
-    apart = "; the data cannot tell these apart" if len(best) > 1 else ""
+    apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     if found.verdict != "no_gap":
         rows.append(("How far", _capital(_how_far(found))))
@@ -88,9 +88,9 @@ def _how_far(found: Diagnosis) -> str:
         f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
     )
     if shrink.held_out is None:
-        return f"{text}. No record was held out, so that nothing here was foretold."
+        return f"{text}. No record was held out, so that nothing here was predicted."
     return (
-        f"{text}. Records that were held out are foretold to {shrink.held_out.after_MPa:.3g} MPa rms instead of "
+        f"{text}. Records that were held out are predicted to {shrink.held_out.after_MPa:.3g} MPa rms instead of "
         f"{shrink.held_out.before_MPa:.3g} MPa (gap closed: {closed(shrink.held_out)})."
     )
 
@@ -149,7 +149,7 @@ def _which(found: Diagnosis) -> Section:
         "them as one answer with several names."
     )
     checks = (
-        "Besides its probability an explanation has to pass checks: does it foretell records that it was not fitted "
+        "Besides its probability an explanation has to pass checks: does it predict records that it was not fitted "
         "to, does it need the same strength in every record, and does it leave more than noise and its form's error?"
     )
     caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
@@ -192,7 +192,7 @@ def _next_test(found: Diagnosis) -> Section:
 def _isolability(found: Diagnosis) -> Section:
     assert found.isolability is not None
     return Section(
-        "What these tests can tell apart",
+        "What these tests can discriminate",
         (
             f"Whatever the records show: {in_words(found.isolability.headline, found.isolability)}",
             HOW_TO_READ_THE_MAP,

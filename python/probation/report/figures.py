@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FORMATS = (".png", ".svg", ".pdf")
 
-_DRAWN = 2000  # more points than that cannot be told apart in a figure
+_DRAWN = 2000  # more points than that cannot be distinguished in a figure
 
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
 

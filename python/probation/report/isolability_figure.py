@@ -1,4 +1,4 @@
-"""Which effects these tests could tell apart: a map of effects against their rivals."""
+"""Which effects these tests could discriminate: a map of effects against their rivals."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _cell(axes: Axes, column: float, row: float, alpha: float, chance: float) ->
 
 def _legend(axes: Axes) -> None:
     entries = [
-        ("told apart", "second", 0.0),
+        ("discriminated", "second", 0.0),
         ("80 to 95 % right", "second", _ALPHAS[0]),
         ("60 to 80 %", "second", _ALPHAS[1]),
         ("little better than a coin", "second", _ALPHAS[2]),

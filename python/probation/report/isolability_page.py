@@ -1,4 +1,4 @@
-"""What a campaign's tests could tell apart, as a page."""
+"""What a campaign's tests could discriminate, as a page."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 HOW_TO_READ_THE_MAP = (
     "Suppose that the effect of a row is really there, at its usual size: an orange cell says that these tests might "
     "take it for the effect of that column, and its number is the chance [%] that the right one of the two is named. "
-    "No colour means told apart; a grey row means that these tests would not see the effect at all."
+    "No colour means discriminated; a grey row means that these tests would not see the effect at all."
 )
 
 
@@ -25,7 +25,7 @@ def write_isolability_page(answer: CampaignIsolability, path: Path) -> None:
     """Write the page."""
     found = answer.found
     Page(
-        title=f"What the tests of {answer.campaign} could tell apart",
+        title=f"What the tests of {answer.campaign} could discriminate",
         verdict=in_words(found.headline, found),
         lead="Asked of the strain histories, the noise and the base law alone; what the records show plays no part.",
         sections=(

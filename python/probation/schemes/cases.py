@@ -1,4 +1,4 @@
-"""What the schemes are compared on: the embedded twins, or the records of a campaign."""
+"""What the schemes are compared on: the embedded synthetic data, or the records of a campaign."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Case:
 
 
 def twin_case(number: Literal[1, 3]) -> Case:
-    """The twin of experiment 1 (a ramp, constant tau_max) or 3 (necking, companion relation (11))."""
+    """The synthetic record of experiment 1 (a ramp, constant tau_max) or 3 (necking, companion relation (11))."""
     twin = experiment(number)
     if number == 1:
         rate = float(twin.true_strain[-1] / twin.time[-1])

@@ -33,17 +33,17 @@ def crosscheck(
     Parameters
     ----------
     records : sequence of Record, optional
-        If left out, the embedded twins of experiments 1 and 3, each with the law it was made with.
+        If left out, the embedded synthetic data of experiments 1 and 3, each with the law it was made with.
     law : Law, optional
         To be given with `records`.
     progress : callable, optional
-        Told ``(done, total, what)``.
+        Called with ``(done, total, what)``.
 
     Returns
     -------
     CrossCheck
-        For a record, errors are against the exact scheme on the samples as they stand; for the smooth twin of
-        experiment 3, against the exact scheme on a much finer grid.
+        For a record, errors are against the exact scheme on the samples as they stand; for the smooth synthetic record
+        of experiment 3, against the exact scheme on a much finer grid.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def crosscheck(
         raise InputError("records and law: found one without the other, expected both or neither")
     if records is None or law is None:
         cases = [twin_case(1), twin_case(3)]
-        used = "that of each embedded twin"
+        used = "that of each embedded synthetic record"
     else:
         cases = [record_case(record, law, with_steps=at == 0) for at, record in enumerate(records)]
         parameters = zip(law.parameter_names, law.parameters, strict=True)

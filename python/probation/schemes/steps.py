@@ -58,7 +58,7 @@ def study_steps(
     history : SmoothHistory
     name : str
     advance : callable
-        Told what is done next.
+        Called with what is done next.
     """
     counts = [_COARSEST * 2**halving for halving in range(_HALVINGS)]
     reference = _reference(law, history, counts[-1])

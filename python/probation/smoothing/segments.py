@@ -1,4 +1,4 @@
-"""Commanded jumps of the strain rate, found in noisy samples: where the machine was told otherwise."""
+"""Commanded jumps of the strain rate, found in noisy samples: where the command to the machine changes."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ NAME = "paper"
 PAGE = "probation-paper.html"
 
 _DESCRIPTION = """\
-Make the paper's tables and figures again from the embedded twins of its experiments, its numbers beside ours: each is
-reproduced, or differs for a reason that is told. Needs no file; writes one self-contained page.
+Make the paper's tables and figures again from the embedded synthetic data of its experiments, its numbers beside ours:
+each is reproduced, or differs for a stated reason. Needs no file; writes one self-contained page.
 
   probation paper                                   all of it, into ./probation-paper.html
   probation paper --only table-3 --only figure-5    these alone
@@ -29,7 +29,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="the paper's tables and figures again", description=_DESCRIPTION)
     parser.add_argument("--list", action="store_true", help="list the tables and figures by name, and do nothing else")
     parser.add_argument("--only", metavar="NAME", action="append", default=[], help="this one; may be repeated")
-    parser.add_argument("--seed", metavar="N", type=_whole(0), default=0, help="of the twins' noise and all draws (0)")
+    parser.add_argument("--seed", metavar="N", type=_whole(0), default=0, help="of all draws and synthetic noise")
     parser.add_argument(
         "--draws", metavar="N", type=_whole(1), default=100, help="how many draws of noise or bias (100)"
     )

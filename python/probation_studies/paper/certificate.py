@@ -26,7 +26,7 @@ LARGEST_BIAS = {"experiment-1": 1.5, "experiment-2": 2.5, "experiment-3": 3.4}
 
 
 def exhibit(settings: Settings) -> Exhibit:
-    """Certify the law on the twins: identified on experiment 1, the others predicted with nothing adjusted."""
+    """Certify the law on the synthetic data: identified on experiment 1, the others predicted with nothing adjusted."""
     plain, biased = certified(settings.seed, False), certified(settings.seed, True)
     worst = {name: each.max_MPa for name, each in plain.predictions.items()}
     hardening = biased.parameters["hardening_modulus"]
@@ -50,7 +50,7 @@ def exhibit(settings: Settings) -> Exhibit:
             plain.headline,
             parameter_table(plain),
             prediction_table(plain),
-            Drawing("certificate", certificate_figure(plain), "The twins measured, predicted and identified alone"),
+            Drawing("certificate", certificate_figure(plain), "Synthetic: measured, predicted, identified alone"),
             f"With a wavy bias of at most {', '.join(f'{size:g}' for size in LARGEST_BIAS.values())} MPa: "
             + biased.headline,
             parameter_table(biased),
@@ -71,7 +71,7 @@ def exhibit(settings: Settings) -> Exhibit:
 
 @lru_cache(maxsize=8)
 def certified(seed: int, biased: bool) -> Certificate:
-    """The certificate on the twins of all three experiments.
+    """The certificate on the synthetic data of all three experiments.
 
     Parameters
     ----------

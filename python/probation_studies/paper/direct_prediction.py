@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """A twin and what the law says of it.
+    """A synthetic record and what the law says of it.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ class Settings:
     Attributes
     ----------
     seed : int
-        Of the twins' noise and of every draw.
+        Of the synthetic noise and of every draw.
     draws : int
         How many draws of noise, or of a bias, make a distribution.
     """
@@ -50,8 +50,8 @@ class Comparison:
     spread : float or None
         Standard error, or scatter over draws, of ours.
     verdict : {"reproduced", "recovered", "differs"}
-        "recovered": the twin was made with this number, so that finding it again shows that the method works, not that
-        the paper is right.
+        "recovered": the synthetic record was made with this number: finding it again shows that the method works, not
+        that the paper is right.
     because : str
         Why it differs; empty where it does not, or where nobody knows.
     """
@@ -110,7 +110,7 @@ def compare(
     tolerance : float [-]
         Relative.
     put_in : bool
-        Whether the twin was made with that number.
+        Whether the synthetic record was made with that number.
     because : str
         Why it differs, if it does.
     """

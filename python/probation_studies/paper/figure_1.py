@@ -30,10 +30,11 @@ def exhibit(settings: Settings) -> Exhibit:
         title="Figure 1: strain rate over strain",
         says="Experiment 1 keeps its strain rate; between grips the local rate evolves by a factor of 5 to 10, up to "
         "1.7e-2 1/s in experiment 3.",
-        explanation="The curves of the paper were not published as numbers. The twins follow (A-1), the form that the "
-        "paper itself fits to its strain, with parameters that give the printed peak rate, the factor and the final "
-        "strain of 1.8. Many do; of the three sets below P2 is used throughout, for it gives the slopes of Figure S1. "
-        "Nothing else hangs on the choice: α and G with (12) and the errors of Figure 4a are the same with all three.",
+        explanation="The curves of the paper were not published as numbers. The synthetic data follow (A-1), the form "
+        "that the paper itself fits to its strain, with parameters that give the printed peak rate, the factor and "
+        "the final strain of 1.8. Many do; of the three sets below P2 is used throughout, for it gives the slopes of "
+        "Figure S1. Nothing else hangs on the choice: α and G with (12) and the errors of Figure 4a are the same with "
+        "all three.",
         comparisons=(
             compare("rate of experiment 1", STRAIN_RATE, twins[0].strain_rate.mean(), unit="1/s", put_in=True),
             compare("peak rate of experiment 3", PEAK_RATE, twins[2].strain_rate.max(), unit="1/s", put_in=True),
@@ -47,7 +48,7 @@ def exhibit(settings: Settings) -> Exhibit:
             ),
         ),
         parts=(
-            Drawing("figure-1", figure, "Figure 1 from the twins: strain rate over true strain, in closed form."),
+            Drawing("figure-1", figure, "Figure 1, synthetic data: strain rate over true strain, in closed form."),
             _sets(settings.seed),
         ),
         answer={"rate_ratio": {f"experiment-{number}": ratio for number, ratio in ratios.items()}},

@@ -15,7 +15,7 @@ _WHY_PLACE = (
 
 
 def exhibit(settings: Settings) -> Exhibit:
-    """The vibration twin, identified on the straight line."""
+    """The synthetic record with vibration, identified on the straight line."""
     found = figure_2(settings.seed)
     left = low_frequency(found.model - found.record.true_stress)
     at = int(np.abs(left).argmax())
@@ -24,8 +24,8 @@ def exhibit(settings: Settings) -> Exhibit:
         title="Figure 2: what the residual of experiment 1 is made of",
         says="The residual's high frequencies correspond exactly to the noise seen on the strain; its long wave is "
         f"bias, at most about {WAVE:g} MPa at a strain of {WAVE_AT:g}.",
-        explanation="The twin vibrates as the specimen of Figure 2 did, and a wavy bias of the printed size is in its "
-        "stress. The high-frequency part of the residual is correlated with the strain error (r = "
+        explanation="The synthetic record vibrates as the specimen of Figure 2 did, and a wavy bias of the printed "
+        "size is in its stress. The high-frequency part of the residual is correlated with the strain error (r = "
         f"{found.correlation:+.2f}), and the law makes {100 * found.explained:.0f} % of its variance from that error. "
         "It is the law's answer to a strain that it was not told of, and not noise of the stress: driven by the strain "
         f"as measured, it leaves little of it (r = {found.followed:+.2f}).",
@@ -37,8 +37,8 @@ def exhibit(settings: Settings) -> Exhibit:
             Drawing(
                 "figure-2",
                 found.plot(),
-                "Figure 2 from the vibrating twin: stress; on the right axis the residual, four times magnified, and "
-                "the strain error, shifted to +40.",
+                "Figure 2 from the vibrating synthetic record: stress; on the right axis the residual, four times "
+                "magnified, and the strain error, shifted to +40.",
             ),
         ),
         answer={

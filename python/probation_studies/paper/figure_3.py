@@ -31,8 +31,8 @@ _WHY_MODULUS = (
 )
 _WHY_ONSET = (
     "with τ_max → 0 the onset is E_u·τ_max·Σp_jτ_j/τ_max times the strain rate at the very start of the test, which "
-    "the paper does not print; 2 MPa is what a test would give that started more slowly than the twin, at the rate "
-    "named below"
+    "the paper does not print; 2 MPa is what a test would give that started more slowly than the synthetic record, at "
+    "the rate named below"
 )
 
 
@@ -74,7 +74,7 @@ def exhibit(settings: Settings) -> Exhibit:
                 f"{each.rms[printed]:.3f} ({each.unrelaxed_modulus[printed] / 1000:.0f} GPa)",
                 f"{each.rms[flat]:.3f} ({each.unrelaxed_modulus[flat] / 1000:.0f} GPa)",
                 f"{with_companion:.3f}",
-                f"{_start_for(number, each, CONSTANT_TIME_ONSET):.2g} (twin: {_start_rate(number):.2g})",
+                f"{_start_for(number, each, CONSTANT_TIME_ONSET):.2g} (synthetic record: {_start_rate(number):.2g})",
             )
         )
     low, high = (min(each.rms[each.best] for each in searched.values()), max(onsets.values()))
@@ -83,10 +83,11 @@ def exhibit(settings: Settings) -> Exhibit:
         title="Figure 3: without the companion relation",
         says="With a constant τ_max the law cannot follow the tests between grips: a sudden jump, a very low yield "
         "stress (around 2 MPa) and an E_u of around 60 GPa.",
-        explanation=f"So it is with the twins: the rms is {low:.1f} MPa or more, over a hundred times the noise, where "
-        "the companion relation brings it down to the noise. A slow start and a fast middle ask for a small viscous "
-        "stress first and a large one later; with a constant τ_max → 0 the viscous stress is proportional to the "
-        "strain rate, which is the nearest that the law can come, whatever E_u. The cost is flat there, as the second "
+        explanation=f"So it is with the synthetic data: the rms is {low:.1f} MPa or more, over a hundred times the "
+        "noise, where the companion relation brings it down to the noise. A slow start and a fast middle ask for a "
+        "small viscous stress first and a large one later; with a constant τ_max → 0 the viscous stress is "
+        "proportional to the strain rate, which is the nearest that the law can come, whatever E_u. The cost is flat "
+        "there, as the second "
         f"plot shows: every E_u above {FLAT_FROM / 1000:.0f} GPa fits within 0.5 % of the least rms. What holds is "
         f"that E_u exceeds {FLAT_FROM / 1000:.0f} GPa and that the onset, the stress at the end of the initial jump "
         f"({END_OF_JUMP:g} τ_max after the start), is {high:.1f} MPa at most, against the 30 MPa at which the tests "
@@ -96,7 +97,7 @@ def exhibit(settings: Settings) -> Exhibit:
             Drawing(
                 "figure-3",
                 stress_strain_with_residuals(curves),
-                "Figure 3 from the twins: the best fit of the law with a constant τ_max.",
+                "Figure 3 from the synthetic data: the best fit of the law with a constant τ_max.",
             ),
             Drawing(
                 "figure-3-cost",

@@ -24,7 +24,7 @@ def figure_4a(settings: Settings) -> Exhibit:
         "(11)",
         "hardening",
         found,
-        f"So it is with the twins: the error grows to the end of the test (ε = {found[2].where:.2f} and "
+        f"So it is with the synthetic data: the error grows to the end of the test (ε = {found[2].where:.2f} and "
         f"{found[3].where:.2f}), because the regressed G lies below the identified one (Figure S1). The prediction is "
         "low from yield on, by what α = 1.11 and 1.045 add to the viscous stress.",
     )
@@ -47,7 +47,7 @@ def figure_4b(settings: Settings) -> Exhibit:
 
 
 def _above(number: Grip) -> float:
-    """How far (12) lies above α·(11), which the twin was made with, at the peak rate [%]."""
+    """How far (12) lies above α·(11), which the synthetic record was made with, at the peak rate [%]."""
     test = twin(number, 0)
     peak = [test.strain_rate.max()]
     made_with = (test.truth.alpha or 1.0) * WEISSENBERG_AS_PRINTED.relaxation_time(peak)[0]
@@ -81,7 +81,7 @@ def _exhibit(letter: str, equation: str, regime: str, found: dict[Grip, Predicti
             Drawing(
                 f"figure-{letter}",
                 stress_strain_with_residuals(curves),
-                f"Figure {letter} from the twins: direct prediction with {equation}, E_u = 3220 MPa, α = 1, "
+                f"Figure {letter} from the synthetic data: direct prediction with {equation}, E_u = 3220 MPa, α = 1, "
                 "G = 1.56 and 1.64 MPa.",
             ),
         ),

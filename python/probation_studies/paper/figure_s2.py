@@ -72,9 +72,9 @@ def exhibit(settings: Settings) -> Exhibit:
         explanation=f"(11) as printed lies {low.min():.0f} to {low.max():.0f} % below Table 2 at every rate, outside "
         f"the fictitious error bars of 10 % of the figure; its regression, with the intercept {intercept:.4f}, does "
         f"not. (12) errs by {fast} % at the three fastest rates, which R² does not see beside 420 s. Tables 3 and 4 "
-        "tell that the printed intercept is no misprint: the ratio of their α is that of the twins with it, and is not "
-        "with the regression's. `probation companion` chooses among forms by cross-validation and carries their "
-        "covariance.",
+        "tell that the printed intercept is no misprint: the ratio of their α is that of the synthetic data with it, "
+        "and is not with the regression's. `probation companion` chooses among forms by cross-validation and carries "
+        "their covariance.",
         comparisons=tuple(comparisons),
         parts=(
             Drawing(
@@ -84,7 +84,7 @@ def exhibit(settings: Settings) -> Exhibit:
                 "of 10 % as in the paper, and the relations.",
             ),
             Table(
-                ("α by (11) over α by (12)", "paper", "twin, (11) as printed", "twin, (11) regressed on Table 2"),
+                ("α by (11) over α by (12)", "paper", "synthetic, (11)", "(11) regressed on Table 2"),
                 tuple(rows),
                 "Which intercept Tables 3 and 4 were computed with",
             ),

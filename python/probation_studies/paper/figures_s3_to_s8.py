@@ -56,7 +56,7 @@ def exhibit(settings: Settings) -> Exhibit:
         title="Figures S3 to S8: fitting the command",
         says="(A-1) is fitted to the strain, a few sines to what it leaves, the same to the differentiated strain; the "
         "residuals are of the order of 0.001, and the integrated rate gives the strain back.",
-        explanation="The record is experiment 2 of the twins with what (A-1) does not have, two slow waves "
+        explanation="The record is experiment 2 of the synthetic data with what (A-1) does not have, two slow waves "
         f"({', '.join(f'{size:g}' for _, size in WAVES)}), and noise of {NOISE:g}. (A-1) alone leaves {first:.2g} "
         f"(rms), (A-1) and {counts[0]} sines {left:.2g}, the noise; the number of sines is the criterion's, not ours. "
         f"The rate fitted on its own as in the paper ({found.differentiator}, then (A-1) and {counts[1]} sines) errs "

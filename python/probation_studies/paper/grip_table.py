@@ -33,27 +33,31 @@ def grip_table(experiment: Grip, settings: Settings) -> Exhibit:
     share = 100.0 * float(np.mean(np.abs(moved) >= abs(shift)))
     costs = middle(study.cost_2)
     why_free = (
-        "E_u and α are correlated and only their product is well known; a bias moves them along it, and the twin has "
+        "E_u and α are correlated and only their product is well known; a bias moves them along it, and the synthetic "
+        "record has "
         f"none. With one of the paper's size that acts from the start E_u moves by {low:+.0f} to {high:+.0f} %, the "
         f"paper's {shift:+g} % " + ("among them" if low <= shift <= high else "not among them")
     )
     why_cost = (
-        "the paper's cost is its bias, ours the noise of the twin and, with (12), the misfit of a relation that the "
-        f"twin was not made with. With a bias of the paper's size the cost of identification 2 is {costs[0]:.0f} to "
-        f"{costs[1]:.0f} MPa² for {SAMPLES} samples; the paper does not print how many it has"
+        "the paper's cost is its bias, ours the noise of the synthetic record and, with (12), the misfit of a "
+        f"relation that the synthetic record was not made with. With a bias of the paper's size the cost of "
+        f"identification 2 is {costs[0]:.0f} to {costs[1]:.0f} MPa² for {SAMPLES} samples; the paper does not print "
+        f"how many it has"
     )
     return Exhibit(
         title=f"Table {printed.number}: identifications on experiment {experiment} ({printed.grip_speed:g} mm/s)",
         says="α and G identified with the companion relations (11) and (12), E_u known; and E_u, α and G together.",
-        explanation="The twin was made with identification 2 and (11): finding it again is a check of the method. "
-        "Identification 3 was not put in: α and G with (12) come out as the paper has them, which shows that the paper "
-        "used (11) with the intercept that it prints. With no bias in it, the twin's identification 4 returns E_u; "
+        explanation="The synthetic record was made with identification 2 and (11): finding it again is a check of the "
+        "method. Identification 3 was not put in: α and G with (12) come out as the paper has them, which shows that "
+        "the paper used (11) with the intercept that it prints. With no bias in it, the synthetic record's "
+        "identification 4 returns E_u; "
         f"with a wavy one of the paper's size ({printed.largest_residual:g} MPa at most after identification 2) E_u "
         f"moves by the paper's {shift:+g} % or more, either way, in {share:.0f} % of {settings.draws} draws. What the "
         "paper reads as an effect of correlation is a bias that shows along the correlated direction; the product "
         "E_u·α hardly moves, in the paper as here. E_u acts below a strain of 0.1, and it matters when the bias sets "
         "in (last table): the later, the less E_u moves. An E_u off by a third speaks of a bias from the first "
-        f"instants on, as an offset of force or strain is. The largest residual of the twin is {largest:.2f} MPa, with "
+        f"instants on, as an offset of force or strain is. The largest residual of the synthetic record is "
+        f"{largest:.2f} MPa, with "
         "(12).",
         comparisons=_comparisons(experiment, found, why_free, why_cost),
         parts=(

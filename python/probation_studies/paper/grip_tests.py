@@ -1,4 +1,4 @@
-"""The twins of experiments 2 and 3, and the paper's three identifications on them."""
+"""The synthetic data of experiments 2 and 3, and the paper's three identifications on them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ OPTIONS: dict[int, LawSettings] = {
 
 @lru_cache(maxsize=16)
 def twin(number: Literal[1, 2, 3], seed: int, necking: NeckingSet = "P2") -> Twin:
-    """The twin of that experiment; experiments 2 and 3 with that set of (A-1)."""
+    """The synthetic record of that experiment; experiments 2 and 3 with that set of (A-1)."""
     if number == 1:
         return experiment_1(seed)
     return experiment_2(seed, necking=necking) if number == 2 else experiment_3(seed, necking=necking)
@@ -50,13 +50,13 @@ def twin(number: Literal[1, 2, 3], seed: int, necking: NeckingSet = "P2") -> Twi
 
 @lru_cache(maxsize=32)
 def identify(test: Twin, option: int) -> Fit:
-    """One of `OPTIONS` identified on a twin."""
+    """One of `OPTIONS` identified on a synthetic record."""
     return fit(Campaign(name=test.name, records=(test.record(),), law=OPTIONS[option]))
 
 
 @lru_cache(maxsize=8)
 def identified(number: Grip, seed: int) -> dict[int, Fit]:
-    """Each of `OPTIONS` identified on the twin of experiment 2 or 3."""
+    """Each of `OPTIONS` identified on the synthetic record of experiment 2 or 3."""
     return {option: identify(twin(number, seed), option) for option in OPTIONS}
 
 

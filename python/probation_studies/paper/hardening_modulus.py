@@ -45,10 +45,10 @@ def exhibit(settings: Settings) -> Exhibit:
         f"2, and {grips[2]:g} and {grips[3]:g} MPa between grips; the largest is {100 * spread:.0f} % above the "
         f"smallest of the three experiments, against an error of {100 * TOLERANCE:.0f} %. Nor does a dependence on the "
         f"current rate save it: G of Table 2, which falls to {slow.hardening_modulus:g} MPa at {slow.strain_rate:g} "
-        f"1/s, averaged over the rates of the twins would be {expected[2]:.2f} and {expected[3]:.2f} MPa; found are "
-        f"{short[2]:.0f} and {short[3]:.0f} %. (The average interpolates Table 2 in log rate, weighs by the change of "
-        "ε_HT, and holds its ends.) α passes better: 1.11 and 1.045 with (11). A parameter that must be identified "
-        "anew on each kind of test is not intrinsic, whatever the reason; the paper itself names a delayed, "
+        f"1/s, averaged over the rates of the synthetic data would be {expected[2]:.2f} and {expected[3]:.2f} MPa; "
+        f"found are {short[2]:.0f} and {short[3]:.0f} %. (The average interpolates Table 2 in log rate, weighs by the "
+        "change of ε_HT, and holds its ends.) α passes better: 1.11 and 1.045 with (11). A parameter that must be "
+        "identified anew on each kind of test is not intrinsic, whatever the reason; the paper itself names a delayed, "
         "load-dependent build-up of the network.",
         parts=(
             Table(

@@ -27,7 +27,7 @@ MAGNIFIED = 5.0
 EARLY = 0.1
 """True strain up to which E_u acts on the stress: from there on it flows."""
 
-_WHY = "the paper's residual is bias, of which the twin has none; the right-hand plot has one of the paper's size"
+_WHY = "the paper's residual is bias; the synthetic record has none, the right-hand plot has one of the paper's size"
 
 
 def identified_figure(figure_number: int, experiment: Grip, settings: Settings) -> Exhibit:
@@ -51,9 +51,11 @@ def identified_figure(figure_number: int, experiment: Grip, settings: Settings) 
         title=f"Figure {figure_number}: the identified law on experiment {experiment}",
         says="The three identifications give the same curve; the residuals, magnified five times, are pure bias, at "
         f"most {printed.largest_residual:g} MPa.",
-        explanation="The three curves of the twin cannot be told apart either. What identifications 2 and 4 leave is "
+        explanation="The three curves of the synthetic record cannot be distinguished either. What identifications 2 "
+        "and 4 leave is "
         f"the noise; identification 3, with (12), leaves up to {largest[3]:.2f} MPa: so near do (11) and (12) come to "
-        "each other once α is free. Beside it the same twin with a drawn bias of the paper's size, the one that moves "
+        "each other once α is free. Beside it the same synthetic record with a drawn bias of the paper's size, the "
+        "one that moves "
         f"E_u by the median amount: identification 4 finds E_u = {study.unrelaxed_modulus_4[study.example]:.0f} MPa; "
         f"the rms of the residual goes from {early[2]:.2f} to {early[4]:.2f} MPa up to a strain of {EARLY:g}, where "
         f"E_u acts, and from {late[2]:.2f} to {late[4]:.2f} MPa beyond. The paper, too, sees the gain of "
@@ -67,8 +69,8 @@ def identified_figure(figure_number: int, experiment: Grip, settings: Settings) 
             Drawing(
                 f"figure-{figure_number}",
                 figure,
-                f"Figure {figure_number} from the twin (left) and from the twin with a drawn bias (right): true "
-                "stress, and model minus data magnified five times.",
+                f"Figure {figure_number} from the synthetic record (left) and from the synthetic record with a drawn "
+                "bias (right): true stress, and model minus data magnified five times.",
             ),
         ),
         answer={"largest_residual_MPa": {str(option): value for option, value in largest.items()}},
@@ -86,7 +88,7 @@ def _figure(
         left, right = figure.subplots(1, 2, sharey=True)
         _draw(left, strain, *exact)
         _draw(right, strain, *biased)
-        left.set(title=f"twin of experiment {experiment}", ylabel="true stress; residual × 5 [MPa]")
+        left.set(title=f"synthetic record of experiment {experiment}", ylabel="true stress; residual × 5 [MPa]")
         right.set(title="with a wavy bias of the paper's size")
         handles, labels = left.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=4)

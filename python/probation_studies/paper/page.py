@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 _LEAD = (
     "André, Becker, Noûs, Farge and Delconte, “Certifying the intrinsic character of a constitutive law for "
-    "semi-crystalline polymers: a probation test”. Its raw data was never published: what is shown is made from twins "
-    "of its three experiments, synthetic records whose truth is known."
+    "semi-crystalline polymers: a probation test”. Its raw data was never published: what is shown is made from "
+    "synthetic data of its three experiments, whose truth is known."
 )
 _READING = (
     f"A number is reproduced if ours is within {100 * TOLERANCE:.0f} % of the paper's, the error that the paper gives "
-    "its own parameters; recovered, if the twin was made with it, so that finding it again checks the method and not "
-    "the paper; else it differs, and below the table stands why."
+    "its own parameters; recovered, if the synthetic record was made with it, so that finding it again checks the "
+    "method and not the paper; else it differs, and below the table stands why."
 )
 
 

@@ -61,7 +61,7 @@ class Reproduction:
             return "No number of the paper is compared here."
         sentence = f"Of {len(self.comparisons)} numbers of the paper {reproduced} {_are(reproduced)} reproduced"
         if recovered:
-            sentence += f" and {recovered}, which the twins were made with, {_are(recovered)} recovered"
+            sentence += f" and {recovered}, which the synthetic data were made with, {_are(recovered)} recovered"
         if differ:
             left = len(self.unexplained)
             sentence += f"; {differ} {'differs' if differ == 1 else 'differ'}, "
@@ -145,7 +145,7 @@ class Reproduction:
 
     @property
     def data_sha256(self) -> str:
-        """Of the three twins."""
+        """Of the three synthetic records."""
         twins = [twin(number, self.settings.seed) for number in (1, 2, 3)]
         return samples_sha256(
             *(samples for each in twins for samples in (each.time, each.true_strain, each.true_stress))
@@ -159,18 +159,18 @@ def reproduce(
     draws: int = 100,
     progress: Callable[[int, int, str], None] | None = None,
 ) -> Reproduction:
-    """Make the paper's tables and figures again from the embedded twins.
+    """Make the paper's tables and figures again from the embedded synthetic data.
 
     Parameters
     ----------
     only : sequence of str
         Names of `exhibits.EXHIBITS`; all if empty.
     seed : int
-        Of the twins' noise and of every draw.
+        Of the synthetic noise and of every draw.
     draws : int
         How many draws make a distribution.
     progress : callable, optional
-        Told ``(done, total, name)``.
+        Called with ``(done, total, name)``.
 
     Returns
     -------

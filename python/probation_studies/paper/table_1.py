@@ -1,4 +1,4 @@
-"""Table 1 on twins of experiment 1: four ways to identify, over many draws of the noise, beside the paper's numbers."""
+"""Table 1 on synthetic data of experiment 1: four ways to identify, over many draws, beside the paper's numbers."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ OPTIONS = (
 
 @dataclass(frozen=True)
 class Condition:
-    """A kind of twin of experiment 1."""
+    """A kind of synthetic record of experiment 1."""
 
     name: str
     strain_noise: float = 0.0
@@ -194,7 +194,7 @@ class Table1:
         return np.asarray(100.0 * (row.values.mean(axis=0) / reference - 1.0), dtype=np.float64)
 
     def explanation(self) -> tuple[str, ...]:
-        """What the twins say about the paper's numbers, from the numbers themselves."""
+        """What the synthetic data say about the paper's numbers, from the numbers themselves."""
         noise = [row for row in self.rows if row.key == "1" and "bias" not in row.condition]
         waved = [row for row in self.rows if "bias" in row.condition]
         worst = max(noise, key=lambda row: abs(row.bias[0]) + 2.0 * row.scatter[0])
@@ -252,7 +252,7 @@ def table_1(
     simplex: bool = True,
     progress: Callable[[int, int, str], None] | None = None,
 ) -> Table1:
-    """Identify on `draws` twins of every condition by every option, by Levenberg-Marquardt; by simplex on one of them.
+    """Identify on `draws` records of every condition by every option; by simplex on one of them only.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ def table_1(
     simplex : bool
         Whether the simplex runs too: it takes longer than a hundred draws.
     progress : callable, optional
-        Told ``(done, total, what)``.
+        Called with ``(done, total, what)``.
     """
     rows = []
     for at, condition in enumerate(CONDITIONS):
@@ -353,7 +353,7 @@ def _late_start() -> tuple[float, float, float]:
 
 @dataclass(frozen=True, eq=False)
 class Figure2:
-    """Figure 2's demonstration on the vibration twin.
+    """Figure 2's demonstration on the synthetic record with vibration.
 
     Attributes
     ----------
@@ -393,7 +393,7 @@ def figure_2(seed: int = 0, *, wave: float = WAVE) -> Figure2:
     Parameters
     ----------
     seed : int
-        Of the twin.
+        Of the synthetic record.
     wave : float
         A wavy bias of that size is in the data [MPa], at most at a strain of `WAVE_AT`.
     """

@@ -31,7 +31,7 @@ def exhibit(settings: Settings) -> Exhibit:
         title="Table 1: four ways to identify on experiment 1",
         says="The options differ by 2 to 3 % at most: the closed form (7) by −3.5 % in E_u and +3.6 % in τ_max from "
         "bE2 on the measured strain, filtered input and SA3 by 0.3 %.",
-        explanation=f"Over {draws} draws of each kind of twin. {' '.join(found.explanation())}",
+        explanation=f"Over {draws} draws of each kind of synthetic record. {' '.join(found.explanation())}",
         comparisons=tuple(
             comparison
             for number, printed in TABLE_1.items()

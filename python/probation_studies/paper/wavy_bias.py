@@ -1,8 +1,8 @@
 """What a wavy bias of the paper's size does to the identifications of Tables 3 and 4.
 
-The twins are exact but for their noise; the paper's residuals are a wavy bias, 2.5 and 3.4 MPa at most. Here biases of
-that size are drawn and identifications 2 and 4 repeated. Nothing is fitted to the paper: of the bias only its largest
-residual after identification 2 is given, its shape is drawn.
+The synthetic data are exact but for their noise; the paper's residuals are a wavy bias, 2.5 and 3.4 MPa at most. Here
+biases of that size are drawn and identifications 2 and 4 repeated. Nothing is fitted to the paper: of the bias only
+its largest residual after identification 2 is given, its shape is drawn.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class BiasStudy:
     example : int
         The draw whose E_u moves by the median amount, either way.
     example_stress : ndarray, shape (n_times,) [MPa]
-        The twin with that bias.
+        The synthetic record with that bias.
     example_residuals : dict of int to ndarray, shape (n_times,) [MPa]
         What identifications 2 and 4 leave of it.
     """
@@ -80,7 +80,7 @@ class BiasStudy:
 
 
 class ProfiledFit:
-    """Identifications over a grid of α, on which the unit responses of one twin are kept.
+    """Identifications over a grid of α, on which the unit responses of one synthetic record are kept.
 
     The law is linear in E_u and G: at each α they follow from linear least squares, and the least cost from the
     parabola through the three best α.
@@ -120,7 +120,7 @@ class ProfiledFit:
 
 @lru_cache(maxsize=4)
 def profiled_fit(number: Grip, seed: int = 0) -> ProfiledFit:
-    """Of the twin of experiment 2 or 3."""
+    """Of the synthetic record of experiment 2 or 3."""
     return ProfiledFit(twin(number, seed))
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def draw_specimen(specimen: Specimen, path: str | PathLike[str]) -> None:
-    """Draw strain rate over strain beside the twins of the paper's Figure 1, and the gap beside Bridgman's.
+    """Draw strain rate over strain beside the synthetic data of the paper's Figure 1, and the gap beside Bridgman's.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def _rates(axes: Axes, specimen: Specimen) -> None:
         shade = series_colour(at)
         axes.plot(each.true_strain, each.strain_rate, color=shade, label=each.name)
         axes.plot(*thinned(twin.true_strain, twin.strain_rate), color=shade, ls="--", lw=0.9)
-    axes.plot([], [], color="0.4", ls="--", lw=0.9, label="twins of Figure 1")
+    axes.plot([], [], color="0.4", ls="--", lw=0.9, label="Figure 1")
     axes.set(xlabel="true strain [–]", ylabel="strain rate [1/s]", yscale="log")
     axes.legend()
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from probation.exporting.request import Request
 
 INTERVALS = 1000
-"""LS-DYNA divides curves anew into LCINT even intervals, 100 unless told; the first yield points would be lost."""
+"""LS-DYNA divides curves anew into LCINT even intervals, 100 unless stated; the first yield points would be lost."""
 
 _MATERIAL, _TABLE, _FIRST_CURVE = 1, 1000, 1001
 _SHORT, _LONG = 10, 20

@@ -1,6 +1,6 @@
 """MGIS: material properties of the generic behaviour, as JSON.
 
-The library declares how many there are: a list that is longer than 11 needs it compiled with the definitions told.
+The library declares how many there are: a list that is longer than 11 needs it compiled with the definitions stated.
 """
 
 from __future__ import annotations

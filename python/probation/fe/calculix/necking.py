@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class NeckingRun:
-    """What the run recorded; arrays of shape (increments,) unless told.
+    """What the run recorded; arrays of shape (increments,) unless stated.
 
     Attributes
     ----------

@@ -63,7 +63,7 @@ def _rates(axes: Axes, necking: NeckingRun) -> None:
     twins = (("experiment 3", experiment_3()), ("experiment 1", experiment_1()), ("experiment 2", experiment_2()))
     for at, (name, twin) in enumerate(twins, start=1):
         curve = thinned(twin.true_strain, twin.strain_rate)
-        axes.plot(*curve, "--", color=series_colour(at), label=f"twin of Figure 1, {name}")
+        axes.plot(*curve, "--", color=series_colour(at), label=f"Figure 1, {name}")
     axes.set(
         title="Strain rate of the centre",
         xlabel="true strain of the centre [–]",

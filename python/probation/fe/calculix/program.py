@@ -103,7 +103,7 @@ def _what_happened(ccx: Path, folder: Path, status: int, text: str) -> str:
     if not can_load_routines(ccx):
         return f"{ccx} ended without a word on the material routine: it was built without external behaviours; {HOW}"
     errors = re.findall(r"\*ERROR[^\n]*(?:\n +[^\n*]+)*", text)
-    last = " ".join(errors[-1].split()) if errors else f"and told no error; the last it said: {_last_words(text)}"
+    last = " ".join(errors[-1].split()) if errors else f"and reported no error; the last it said: {_last_words(text)}"
     reached = _reached(folder / "job.sta")
     return f"ccx stopped at {reached:g} s with the status {status}{':' if errors else ''} {last} ({folder / 'job.log'})"
 

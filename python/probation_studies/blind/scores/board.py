@@ -76,7 +76,7 @@ def _group(cases: Sequence[Case]) -> dict[str, object]:
 
 
 def _unknown(cases: Sequence[Case]) -> dict[str, object]:
-    """Whether what is outside the catalogue is told from what is in it."""
+    """Whether what is outside the catalogue is discriminated from what is in it."""
     within = [case.answer.unknown for case in cases if case.stratum in ("none", "single", "pair")]
     outside = [case for case in cases if case.stratum == "outside"]
     clear = [case for case in outside if case.clear]

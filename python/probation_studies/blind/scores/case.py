@@ -52,7 +52,7 @@ class Case:
 
     @property
     def admitted(self) -> tuple[Names, ...]:
-        """What counts as right in an answer set: the truth; for a mimic also what it cannot be told from."""
+        """What counts as right in an answer set: the truth; for a mimic also what it cannot be discriminated from."""
         mimicked = str(self.truth.get("mimics") or "")
         return (self.explanation, (mimicked,)) if mimicked else (self.explanation,)
 

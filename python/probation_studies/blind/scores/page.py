@@ -32,8 +32,8 @@ def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -
     missed = any(each["met"] is False for each in cast("list[Mapping[str, object]]", content["aims"]))
     Page(
         title=f"Sealed benchmark, split {content['split']}",
-        verdict=f"{aims_sentence(content)}: right on {_rate(resolvable['top1'])} of the causes that can be told from "
-        f"the data; false alarms on {_rate(answers['false_alarms'])} of the nulls.",
+        verdict=f"{aims_sentence(content)}: right on {_rate(resolvable['top1'])} of the causes that can be "
+        f"discriminated from the data; false alarms on {_rate(answers['false_alarms'])} of the nulls.",
         mood="bad" if missed else "good",
         lead=f"{content['campaigns']} campaigns whose cause was withheld, seeds {_list(content['seeds'])}; answered by "
         f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed, "

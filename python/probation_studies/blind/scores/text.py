@@ -15,7 +15,7 @@ def aims_sentence(content: Mapping[str, object]) -> str:
     """How many aims are met."""
     verdicts = [str(each["verdict"]) for each in cast("list[Mapping[str, object]]", content["aims"])]
     met, missed, few = (sum(verdict.startswith(each) for verdict in verdicts) for each in _COUNTS)
-    return f"{met} of {len(verdicts)} aims met, {missed} missed, {few} not told by so few campaigns"
+    return f"{met} of {len(verdicts)} aims met, {missed} missed, {few} not decided by so few campaigns"
 
 
 def aims_table(content: Mapping[str, object]) -> Table:
