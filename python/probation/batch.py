@@ -113,7 +113,7 @@ def field_stresses(
     scheme, start, threads
         As in `stresses`.
     jumps : "auto" or None
-        Whether each pixel is searched for jumps of its strain rate.
+        Whether each pixel is searched for rate discontinuities.
     out : ndarray, shape (pixels, n_times), optional
 
     Returns

@@ -120,7 +120,7 @@ def identify_many(
     start : {"exponential", "backward_euler"}
         bE2's first step.
     jumps : "auto" or None
-        Whether each record is searched for jumps of its strain rate, as `Law.stress` does; at samples only.
+        Whether each record is searched for rate discontinuities, as `Law.stress` does; at samples only.
     substeps : int
         Steps of the scheme from sample to sample. More than one make the error of the scheme smaller, by the square
         of their number with be2 and sa2, where the strain between the samples is known.

@@ -115,7 +115,7 @@ def records(
     """The campaign measured with one kind of noise, and with a bias of the data where one is given [MPa]."""
     errors = [SIGMA * noise(kind, rng, count) for _ in campaign(count)]
     if kind == "drift":
-        errors = [error + d for error, d in zip(errors, _harmless_drift(rng, count), strict=True)]
+        errors = [error + d for error, d in zip(errors, _nuisance_drift(rng, count), strict=True)]
     found = []
     for index, (test, error) in enumerate(zip(campaign(count), errors, strict=True)):
         data = test.stress + error * (np.exp(test.strain) if kind == "force" else 1.0)
@@ -131,7 +131,7 @@ def records(
     return found
 
 
-def _harmless_drift(rng: np.random.Generator, count: int) -> list[np.ndarray]:
+def _nuisance_drift(rng: np.random.Generator, count: int) -> list[np.ndarray]:
     """1/f drift whose projection on the worst effect is 0.95 standard errors, the base parameters refitted."""
     tests = campaign(count)
     drift = np.concatenate([pink(rng, count) for _ in tests])

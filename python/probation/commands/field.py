@@ -61,7 +61,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_hold(identify)
     identify.add_argument(
-        "--raw-strain", action="store_true", help="leave the strain's noise in: where there is none, or its rate jumps"
+        "--raw-strain", action="store_true", help="leave the strain's noise in: for no noise, or a discontinuous rate"
     )
     identify.add_argument(
         "--sparse",

@@ -64,7 +64,7 @@ def planned_view(
         Its id.
     time, true_strain : ndarray, shape (n_samples,) [s], [-]
     jumps : sequence of int
-        Samples at which the rate jumps.
+        Samples at which the rate is discontinuous.
     others : sequence of RecordView
         The records there are.
     """

@@ -57,7 +57,7 @@ class PlannedTest:
     time : ndarray, shape (n_samples,) [s]
     true_strain : ndarray, shape (n_samples,) [-]
     jumps : tuple of int
-        Samples at which the rate jumps.
+        Samples at which the rate is discontinuous.
     preparation : float
         Effort besides the test itself, as time [s].
     repeats : str, optional

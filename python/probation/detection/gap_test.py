@@ -10,7 +10,7 @@ import numpy as np
 
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
 from probation.noise.beside import whitened_beside
-from probation.noise.loudness import loudness, samples_within
+from probation.noise.local_noise import local_noise_sd, samples_within
 from probation.noise.smooth_basis import WAVES, smooth_basis
 from probation.noise.span import orthonormal, span_of, without
 
@@ -150,8 +150,8 @@ class GapTester:
         products = self._reduced.draws(self._features, rng, size)
         if self._effects:
             within = samples_within(self._directions)
-            loud = rng.chisquare(within, (size, len(within))) / within
-            products[:, self._effect_slice] /= np.sqrt(np.maximum(loud, 1.0))
+            local_variance = rng.chisquare(within, (size, len(within))) / within
+            products[:, self._effect_slice] /= np.sqrt(np.maximum(local_variance, 1.0))
         # How many independent directions the effects amount to, read off the draws' own tail.
         self._effective = 1.0
         if self._effects:
@@ -174,7 +174,7 @@ class GapTester:
         z = whitened.residual if residual is None else residual
         seen = self._reduced.of(z)
         smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
-        directed_scores = directed.T @ seen / loudness(self._directions, z, whitened.slices)
+        directed_scores = directed.T @ seen / local_noise_sd(self._directions, z, whitened.slices)
         products = np.concatenate([smooth.T @ self._beside_drift(seen), directed_scores])[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
@@ -203,8 +203,8 @@ class GapTester:
         for frame, noise in zip(self._reduced.frames, self.whitened.noises, strict=True):
             part = slice(first, first + frame.shape[1])
             first = part.stop
-            if noise.harmless_drift is not None:
-                found[part] = whitened_beside(frame.T @ noise.whiten(noise.harmless_drift), values[part])
+            if noise.nuisance_drift is not None:
+                found[part] = whitened_beside(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
         return found
 
     def _p_values(self, products: FloatArray) -> dict[str, FloatArray]:

@@ -1,4 +1,5 @@
-"""Ripples: a gap that is periodic in the strain. Serrated flow, a neck that sticks and slips, a wavy scale.
+"""The strain-periodic component: a gap that is periodic in the strain. Serrated flow, a neck that sticks and slips, a
+wavy scale.
 
 A wavy scale has one frequency. Teeth have as many as there are samples to show them: a noise model that grows to hold
 the first few still knows nothing of their comb.
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 CERTAIN = 1e-4
-"""p-value below which a ripple is let explain something (`ripple_waves`)."""
+"""p-value below which a strain-periodic component may explain something (`ripple_waves`)."""
 
 HARMONICS = (1, 4, 16)
 """The first so many are added up: a wave has one, teeth have many."""
@@ -36,12 +37,12 @@ GRID = 16
 """Cells per period of the shortest wave whose power is taken: it loses 1 % in them."""
 
 SHORTEST, RESOLVED = 8, 2.5
-"""Samples per period, on the average, of the shortest ripple that is looked for, and of its highest harmonic."""
+"""Samples per period, on the average, of the shortest period that is searched, and of its highest harmonic."""
 
 
 @dataclass(frozen=True)
 class Ripple:
-    """The strongest ripple of a record, or of all together.
+    """The strongest strain-periodic component of a record, or of all together.
 
     Attributes
     ----------
@@ -111,7 +112,7 @@ def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
 
 
 def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
-    """Whitened waves of the most certain ripple, and what the choice of its period costs.
+    """Whitened waves of the most certain strain period, and what the choice of its period costs.
 
     Its period and the harmonics of that, of one phase in all records where it is in all, as they are and growing with
     the strain; they fall as those of a saw tooth.
@@ -123,7 +124,7 @@ def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     Returns
     -------
     columns : ndarray, shape (N, m)
-        The energies of all sum to 1; none if no ripple is certain.
+        The energies of all sum to 1; none if no period is certain.
     log_share : float
         See `Ripple.log_share`; 0 if none is certain.
     """
@@ -191,7 +192,7 @@ class _Spectrum:
 
 
 def _height(size: FloatArray) -> float:
-    """Of the fourth largest peak, those within half a shortest ripple of a larger one not counted."""
+    """Of the fourth largest peak, those within half a shortest period of a larger one not counted."""
     size = size.copy()
     for _ in range(TEETH - 1):
         top = int(np.argmax(size))

@@ -141,7 +141,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         fine, norm = _steps(whitened, index, white, near)
         at = int(np.argmax(np.abs(fine.T @ left)))
         along = float(fine[:, at] @ left)
-        score = along / _loudness(left, int(near[at]))
+        score = along / _local_noise_sd(left, int(near[at]))
         freedom = _freedom(np.delete(left, slice(max(int(near[at]) - AROUND[1], 0), int(near[at]) + AROUND[1])))
         spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
         values, vectors = np.linalg.eigh(steps.T @ steps)
@@ -159,7 +159,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
     return tuple(sorted(found, key=lambda step: step.p_value))
 
 
-def _loudness(left: FloatArray, place: int) -> float:
+def _local_noise_sd(left: FloatArray, place: int) -> float:
     """Size of the noise around an instant, the step itself left out, over the usual one; not below 1.
 
     The noise model may have missed a burst; a step is looked for with short windows, and would find it.

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 SHARP_SHARE = 0.075
-"""Part of the level that is spent on each: lines, steps, ripples, and bumps that recur."""
+"""Part of the level that is spent on each: lines, steps, strain periods, and bumps that recur."""
 
 
 def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
-    """The test's p-value with lines of one frequency, steps at one instant, and ripples and bumps of the strain.
+    """The test's p-value with lines of one frequency, steps at one instant, and periods and bumps of the strain.
 
     A test along smooth curves and known effects sees a wave of any frequency, or a slip at any instant, only as far as
     they resemble the few that were put into it.

@@ -195,11 +195,11 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
                 predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
             )
             rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
-            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / _loudness(smooth)))
+            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / _local_noise_variance(smooth)))
     return chosen | raw if favours_raw > 0.0 else chosen
 
 
-def _loudness(residual: FloatArray) -> FloatArray:
+def _local_noise_variance(residual: FloatArray) -> FloatArray:
     """Variance of the rough part of a residual along its record, shape (n,): a force's noise grows with the stretch."""
     rough = np.pad(np.diff(residual, 2), 1, mode="edge") ** 2
     power = uniform_filter1d(rough, max(len(rough) // PARTS, 1), mode="nearest")

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 RECONSIDERED = 16
-"""Hypotheses that are judged again once the noise is known beside the best one."""
+"""Hypotheses that are judged again once the noise is estimated jointly with the best one."""
 
 SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
 
@@ -183,7 +183,7 @@ def _explained(
     seed: int,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
-    """Of a gap: the base fit with the noise beside the best explanation, hypotheses, weighed and checked; verdict."""
+    """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
     base, found = _searched(base, considered, threads, lambda part: progress(0.35 + 0.45 * part))
     weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
     left, judged = _judged(weighed, answer_set(weighed), base, seed)
@@ -251,8 +251,8 @@ def _law_text(campaign: Campaign) -> str:
 
 def _spikes_text(count: int) -> str:
     if count == 1:
-        return "1 reading stands out as a spike and was kept out"
-    return f"{count} readings stand out as spikes and were kept out"
+        return "1 reading is an outlier and was left out"
+    return f"{count} readings are outliers and were left out"
 
 
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:

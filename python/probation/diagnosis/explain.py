@@ -78,8 +78,8 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
     solver = np.linalg.pinv(found.jacobian)
     covariance = solver @ solver.T
     for noise, part in zip(whitened.noises, whitened.slices, strict=True):
-        if noise.harmless_drift is not None:
-            moved = solver[:, part] @ noise.whiten(noise.harmless_drift)
+        if noise.nuisance_drift is not None:
+            moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
             covariance += moved @ moved.T
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * found.coordinates.slopes(found.parameters)
     result = []

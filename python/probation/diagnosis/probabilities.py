@@ -34,7 +34,7 @@ AGAIN = 0.03
 """Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
 
 LEFT_OVER = 0.9
-"""Part of an explanation's probability that goes to an unknown effect beside it where a gap is left after it."""
+"""Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it."""
 
 ABOUT_AS_PROBABLE = 12.0
 """Log evidence within which forms of one effect are discriminated by how well they fit as they are."""
@@ -150,7 +150,7 @@ def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
 
 
 def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """The same effects with one outside the catalogue beside them."""
+    """The same effects jointly with one outside the catalogue."""
     return tuple(sorted({*effects, UNKNOWN}))
 
 

@@ -66,7 +66,7 @@ WORTH = 10.0
 
 MOST_EFFECTS = 3
 EXPLAINED = 3.0
-"""Log evidence by which an unknown effect beside an explanation must lead for the search to go on."""
+"""Log evidence by which an explanation with an unknown effect must lead for the search to go on."""
 
 
 @dataclass
@@ -235,7 +235,7 @@ class Search:
         other_starts: Sequence[FloatArray] = (),
         steps: int = MOST_STEPS,
     ) -> list[Refit]:
-        """Refits of candidates beside the causes that are there, from where these are and from other starts."""
+        """Refits of candidates jointly with the causes that are there, from where these are and from other starts."""
         jobs = [
             (
                 before.model.with_causes([*before.model.causes, candidate.cause]),

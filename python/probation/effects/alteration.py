@@ -1,4 +1,4 @@
-"""What an effect changes in a law, said so that any law with these notions can follow."""
+"""What an effect changes in a law, said so that any law with these capabilities can follow."""
 
 from __future__ import annotations
 

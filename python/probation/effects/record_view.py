@@ -44,7 +44,7 @@ class RecordView:
     strain_rate : ndarray, shape (n,) [1/s], or None
         None: the scheme's own difference of the strain.
     jumps : tuple of int
-        Instants at which the rate jumps.
+        Instants at which the rate is discontinuous.
     direction : ndarray, shape (n - 1,)
         Commanded direction of each step, +1, -1 or 0.
     data : ndarray, shape (n_samples,) [MPa]

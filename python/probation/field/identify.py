@@ -97,7 +97,7 @@ def identify_field(
         Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
     smoothing : bool
         Whether the strain's noise is taken out first, with a spline that each record chooses; leave it on unless the
-        strain is free of noise or its rate jumps.
+        strain is free of noise or its rate is discontinuous.
     substeps : int or "auto"
         Steps of the scheme from sample to sample; "auto": in each block as many as it needs for its own error to move
         no parameter by more than a tenth of its standard error, up to 16.

@@ -28,7 +28,7 @@ class ImposedHistory:
     strain_rate : ndarray, shape (n_times,) [1/s], or None
         Where it is known rather than differentiated.
     jumps : tuple of float, or None [s]
-        Instants at which the rate jumps; None: to be found in the samples.
+        Instants at which the rate is discontinuous; None: to be found in the samples.
     """
 
     name: str

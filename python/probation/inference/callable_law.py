@@ -47,7 +47,7 @@ class CallableLaw:
     Raises
     ------
     InputError
-        If numbers are missing, a start lies outside its bounds, or a notion is unknown.
+        If numbers are missing, a start lies outside its bounds, or a capability is unknown.
 
     Examples
     --------

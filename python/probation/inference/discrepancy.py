@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.ripples import ripple_waves
-from probation.noise.harmless_drift import harmless_drift
+from probation.noise.nuisance_drift import nuisance_drift
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import span_of
 
@@ -44,7 +44,7 @@ class Discrepancy:
     places : tuple of slice
         Its waves among all.
     drift : ndarray, shape (d, d)
-        Covariance of the slow noise along the waves that whitening has left; see `noise.harmless_drift`.
+        Covariance of the slow noise along the waves that whitening has left; see `noise.nuisance_drift`.
     common : ndarray, shape (N, m)
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
     specimens : ndarray, shape (N, m)
@@ -86,7 +86,7 @@ class Discrepancy:
             spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
-        drift = harmless_drift(whitened, columns, signals)
+        drift = nuisance_drift(whitened, columns, signals)
         ripples, log_ripple_share = ripple_waves(whitened)
         return cls(
             columns=tuple(columns),

@@ -7,7 +7,7 @@ nearly all of it. So what an explanation leaves is let be noise plus a smooth di
     y ~ N(J d, I + B (D + H) B^T),
 
 y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
-waves over every record, H slow noise along them that whitening has left (`noise.harmless_drift`), D = rho^2 lambda_r v
+waves over every record, H slow noise along them that whitening has left (`noise.nuisance_drift`), D = rho^2 lambda_r v
 the discrepancy's variance: rho the relative error of a form, lambda_r what the explanation does to record r, v the
 spectrum of smooth curves. rho is integrated out; errors of a form that are alike in all records (`form_columns`) stand
 among the parameters. "Unknown" is the same with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001;
@@ -47,7 +47,7 @@ class Evidence:
     form_error : float
         Posterior mean of the relative error of its form.
     log_evidence_unknown : float
-        With an effect outside the catalogue beside it.
+        Jointly with an effect outside the catalogue.
     covariance : ndarray, shape (p, p)
         Of the search coordinates, the form's error included; parameters at a bound have none.
     log_evidence_exact : float
@@ -80,7 +80,7 @@ def evidence(
     forms : ndarray, shape (N, m), optional
         Ways in which the forms may be wrong, of one standard deviation each; see `form_columns`.
     unknown : bool
-        Whether an unknown effect beside it is looked for, too; else its evidence is -inf.
+        Whether it is also judged jointly with an unknown effect; else its evidence is -inf.
     """
     if forms is not None:
         # What the parameters follow is theirs. Left in, it would let the prior draw a large effect back to nothing

@@ -40,7 +40,7 @@ class Linearised:
 
     @classmethod
     def of(cls, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> Linearised:
-        """At a refit's optimum; `forms` (N, m) are columns of standard normal amplitudes beside the parameters."""
+        """At a refit's optimum; `forms` (N, m) are columns of further, standard normal amplitudes."""
         model, coordinates = found.model, found.coordinates
         x = coordinates.of(found.parameters)
         jacobian, residual = found.jacobian, found.residual

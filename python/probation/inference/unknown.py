@@ -36,7 +36,7 @@ RECORDS = 2
 def log_evidence_of_unknown(
     told: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
 ) -> float:
-    """Log evidence of an explanation with an unknown effect beside it.
+    """Log evidence of an explanation jointly with an unknown effect.
 
     Parameters
     ----------

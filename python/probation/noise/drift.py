@@ -96,7 +96,7 @@ def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
     return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
 
 
-def with_drift(noise: NoiseModel, size: float, harmless: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
+def with_drift(noise: NoiseModel, size: float, nuisance: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
     """The noise with a drift of that relative variance at the first half period on top.
 
     Parameters
@@ -104,7 +104,7 @@ def with_drift(noise: NoiseModel, size: float, harmless: float = 0.0, time: Floa
     noise : NoiseModel
     size : float
         In all directions.
-    harmless : float
+    nuisance : float
         More of it, that is like no effect.
     time : ndarray, shape (n,) [s], optional
         What drifts does so in time: many samples within a short while drift together. Even steps if left out.
@@ -112,5 +112,5 @@ def with_drift(noise: NoiseModel, size: float, harmless: float = 0.0, time: Floa
     columns = waves(len(noise), min(MODELLED, len(noise) // HIGHEST), time)
     order = np.maximum(np.arange(columns.shape[1]), 1)
     slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
-    more = np.sqrt(harmless) * slow if harmless > 0.0 else None
-    return replace(noise, drift=np.sqrt(size) * slow, harmless_drift=more)
+    more = np.sqrt(nuisance) * slow if nuisance > 0.0 else None
+    return replace(noise, drift=np.sqrt(size) * slow, nuisance_drift=more)

@@ -28,12 +28,12 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     """The noise of every record, by what is rougher than any law's error.
 
     (1) Spikes are set aside; the growth of the noise along the record is found: constant, with e^eps (a constant force
-    noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 stretches are projected out;
+    noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 segments are projected out;
     Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a stretch is
     gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
     agree with that ARMA(1,1) in every record, or else in those records where the others predict them: then noise
     and only noise is there, and it is fitted with them.
-    (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet stretches and
+    (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet segments and
     replicates override (2) and (3). (5) A record whose noise would be many times that of all others, though its
     neighbouring samples scatter as theirs, is given theirs.
 

@@ -1,4 +1,4 @@
-"""What a record offers of its noise: spikes set aside, growth, and the spectra that no law's error reaches."""
+"""What a record offers of its noise: outliers set aside, growth, and the spectra that no law's error reaches."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
 
 
 def _rough(stretches: list[FloatArray], profiles: list[FloatArray], degree: int, robust: bool) -> Periodogram | None:
-    """Cosine coefficients of the stretches, polynomials projected out; stretches with a transient left out."""
+    """Cosine coefficients of the segments, polynomials projected out; segments with a transient left out."""
     rows: list[tuple[FloatArray, FloatArray, FloatArray]] = []
     for values, profile in zip(stretches, profiles, strict=True):
         each = _whole(values, legendre(len(values), degree), degree + 1, profile)

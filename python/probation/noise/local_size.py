@@ -19,7 +19,7 @@ WINDOW = 31
 """Samples over which it is followed."""
 
 BURST = 15
-"""Samples of the shortest burst that is looked for: so many median sizes say what a step or a spike cannot."""
+"""Samples of the shortest burst that is looked for: so many median sizes say what a step or an outlier cannot."""
 
 LOUD, SURE = 1.9, 3.5
 """A burst has so many times the noise of the record, and is so many deviations above the scatter of its windows."""

@@ -48,7 +48,7 @@ class NoiseModel:
         Where the estimate is from, in words.
     drift : ndarray, shape (n, k) [MPa], optional
         Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
-    harmless_drift : ndarray, shape (n, k) [MPa], optional
+    nuisance_drift : ndarray, shape (n, k) [MPa], optional
         Slow noise on top that resembles no effect: what resembles one is reported as that effect. Only tests of waves
         that belong to no effect have it.
     """
@@ -66,7 +66,7 @@ class NoiseModel:
     spikes: tuple[int, ...]
     source: str
     drift: FloatArray | None = None
-    harmless_drift: FloatArray | None = None
+    nuisance_drift: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.profile)
@@ -110,7 +110,7 @@ class NoiseModel:
             white=self.white * factor,
             carried=self.carried * factor,
             drift=None if self.drift is None else self.drift * factor,
-            harmless_drift=None if self.harmless_drift is None else self.harmless_drift * factor,
+            nuisance_drift=None if self.nuisance_drift is None else self.nuisance_drift * factor,
         )
 
     @property

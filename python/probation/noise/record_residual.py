@@ -28,7 +28,7 @@ class RecordResidual:
     tangent : ndarray, shape (n, p) [MPa per parameter]
         Derivatives of the model along the base parameters that all records share.
     jumps : tuple of int
-        Indices at which the strain rate jumps.
+        Indices at which the strain rate is discontinuous.
     measured : ndarray, shape (n,) [MPa], optional
         The data, whose own grid shows the quantisation.
     given_noise : float, optional

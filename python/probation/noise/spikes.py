@@ -12,26 +12,26 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 STANDS_OUT = 8.0
-"""A spike is this many robust standard deviations away from what its neighbours say."""
+"""An outlier is this many robust standard deviations away from what its neighbours say."""
 
 LONGEST = 2
-"""Samples that a spike may last."""
+"""Samples that an outlier may last."""
 
 MOST = 0.005
-"""More than this fraction of a record are no spikes but the record's noise."""
+"""More than this fraction of a record are no outliers but the record's noise."""
 
 
 def find_spikes(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, ...]:
     """Indices of isolated readings, far from both of their sides, which agree with each other.
 
     A sample is compared with the median of the three before and the three after a window of `LONGEST` around it; the
-    start and the jumps of the strain rate, where a model may err sharply, are left alone.
+    start and the rate discontinuities, where a model may err sharply, are left alone.
 
     Parameters
     ----------
     residual : ndarray, shape (n,) [MPa]
     jumps : sequence of int
-        Indices at which the strain rate jumps.
+        Indices at which the strain rate is discontinuous.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def find_spikes(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, .
 
 
 def without_spikes(values: FloatArray, spikes: Sequence[int]) -> FloatArray:
-    """`values` with the spikes replaced by the straight line between their neighbours."""
+    """`values` with the outliers replaced by the straight line between their neighbours."""
     if not len(spikes):
         return values
     keep = np.ones(len(values), dtype=bool)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 BLOCKS, DEGREE = 12, 5
-"""The finest smooth basis: polynomials of this degree on so many stretches of a record."""
+"""The finest smooth basis: polynomials of this degree on so many segments of a record."""
 
 BLOCK = 40
 """Least samples of a stretch."""
@@ -26,7 +26,7 @@ def in_stretches(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
 
 
 def leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:
-    """What polynomials on stretches leave, every sample; short stretches give zeros."""
+    """What polynomials on segments leave, every sample; short segments give zeros."""
     parts = []
     for part in _stretches(values, jumps):
         basis = legendre(len(part), min(DEGREE, max(len(part) - 2, 0))) if len(part) else np.zeros((0, 1))

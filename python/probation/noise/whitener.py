@@ -34,7 +34,7 @@ class Whitener:
         return tuple(slice(first, last) for first, last in pairwise(borders))
 
     def residual(self, residual: FloatArray) -> FloatArray:
-        """L r of a stacked residual (N,), its spikes set aside."""
+        """L r of a stacked residual (N,), its outliers set aside."""
         parts = zip(self.noises, self.slices, strict=True)
         return np.concatenate([noise.whiten(without_spikes(residual[part], noise.spikes)) for noise, part in parts])
 

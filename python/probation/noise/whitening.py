@@ -66,7 +66,7 @@ class Whitened:
         return len(self.residual)
 
     def clean(self, index: int) -> FloatArray:
-        """A record's residual without its spikes, shape (n_r,) [MPa]."""
+        """A record's residual without its outliers, shape (n_r,) [MPa]."""
         return without_spikes(self.records[index].residual, self.noises[index].spikes)
 
     def whiten(self, blocks: Sequence[FloatArray]) -> FloatArray:

@@ -62,7 +62,7 @@ class StrainPath:
     ramp_rate : float or None [1/s]
         Where it is a ramp from zero: eq. (7) holds.
     smooth : bool
-        No jump of the rate is to be looked for.
+        No rate discontinuity is to be looked for.
     """
 
     time: FloatArray

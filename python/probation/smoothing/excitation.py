@@ -49,7 +49,7 @@ class Excitation:
     strain_rate : ndarray, shape (n_times,) [1/s], or None
         None: the scheme's own difference of the strain.
     jumps : tuple of int
-        Indices at which the rate jumps.
+        Indices at which the rate is discontinuous.
     direction : ndarray, shape (n_times - 1,)
         Commanded direction of each step, +1, -1 or 0.
     differentiator : str

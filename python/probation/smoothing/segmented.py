@@ -41,7 +41,7 @@ def smooth_segments(
     time : ndarray, shape (n_times,) [s]
     true_strain : ndarray, shape (n_times,) [-]
     jumps : sequence of int
-        Indices at which the rate jumps; increasing, without the ends.
+        Indices at which the rate is discontinuous; increasing, without the ends.
     noise : float
         Standard deviation of the strain noise [-].
     """

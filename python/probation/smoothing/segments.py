@@ -1,4 +1,4 @@
-"""Commanded jumps of the strain rate, found in noisy samples: where the command to the machine changes."""
+"""Commanded discontinuities of the strain rate, found in noisy samples: where the command to the machine changes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class _Slopes:
 
 
 def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[int]:
-    """Indices at which the strain rate jumps.
+    """Indices at which the strain rate is discontinuous.
 
     Clean samples are searched step by step (`History.find_rate_jumps`). Noisy ones are searched with straight lines
     through a window on each side: their slopes must differ by `LEAST_CHANGE` of the steeper one and by `SIGNIFICANCE`

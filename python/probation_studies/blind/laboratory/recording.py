@@ -61,7 +61,7 @@ def record_all(
     undisturbed: Undisturbed,
 ) -> Recorded:
     """Run every test on the fine grid and record it."""
-    drifts, drift_left = _harmless_drifts(bank, noises)
+    drifts, drift_left = _nuisance_drifts(bank, noises)
     strains, stresses, added_rms, left = [], [], [], []
     clean, residual = {}, {}
     for k, each in enumerate(noises):
@@ -107,7 +107,7 @@ def run_undisturbed(bench: Bench, noise: Noise, bank: Bank) -> Undisturbed:
     return Undisturbed(list(stress), list(strain), float(np.linalg.norm(bank.column(added))))
 
 
-def _harmless_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[FloatArray], float]:
+def _nuisance_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[FloatArray], float]:
     """The drifts without what would look like an effect, and the largest projection on an effect that is left.
 
     The direction that is most alike is taken down to what is allowed, and again until all are.

@@ -1,4 +1,4 @@
-"""Local noise variance where a signal is: a short signal may lie in a burst that the noise model has missed."""
+"""The local noise level where a signal is: a short signal may lie in a burst that the noise model has missed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def samples_within(directions: FloatArray) -> FloatArray:
     return np.asarray(1.0 / (MEMORY * np.maximum(np.sum(directions**4, axis=0), 1e-300)), dtype=np.float64)
 
 
-def loudness(directions: FloatArray, residual: FloatArray, slices: Sequence[slice]) -> FloatArray:
+def local_noise_sd(directions: FloatArray, residual: FloatArray, slices: Sequence[slice]) -> FloatArray:
     """Standard deviation of the rough part of a whitened residual, weighted by each signal's square; not below 1.
 
     Second differences see neither the signals nor the slow noise; each signal is taken off by its own score first.

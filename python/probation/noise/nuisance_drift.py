@@ -29,7 +29,7 @@ KNOWN = 0.1
 """Variance of a drift along a signal, given those along other signals, below which it is known already."""
 
 
-def harmless_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: FloatArray | None = None) -> FloatArray:
+def nuisance_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: FloatArray | None = None) -> FloatArray:
     """Covariance of the rest of the drift along smooth waves, shape (d, d).
 
     Parameters
@@ -44,8 +44,8 @@ def harmless_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: Flo
     blocks = []
     for own, noise in zip(waves, whitened.noises, strict=True):
         rest = np.zeros((own.shape[1], 0))
-        if noise.harmless_drift is not None:
-            rest = own.T @ noise.whiten(noise.harmless_drift)
+        if noise.nuisance_drift is not None:
+            rest = own.T @ noise.whiten(noise.nuisance_drift)
         blocks.append(rest @ rest.T)
     drift = np.asarray(block_diag(*blocks), dtype=np.float64)
     if signals is None or not drift.any():
