@@ -79,7 +79,7 @@ def refits():
     ]
     np.random.default_rng(0).shuffle(known)
     ratios = []
-    print(f"{'there':27}{'rival':27}{'angle':>6}{'foretold':>10}{'refitted':>10}")
+    print(f"{'there':27}{'rival':27}{'angle':>6}{'predicted':>10}{'refitted':>10}")
     for row, column in known[:PAIRS]:
         each, rival = found.effects[row], effect(found.names[column])
         acting = cause(each.name, each.form, each.records)
@@ -89,9 +89,9 @@ def refits():
             nearest(model, there.residual(there.parameters(model.start, (sign * amplitude, *shapes))), rival)
             for sign in ((1.0,) if each.one_sided else (1.0, -1.0))
         )
-        foretold = each.detectability * np.sin(np.radians(found.angle[row, column]))
-        ratios.append(left / foretold)
-        print(f"{each.name:27}{rival.name:27}{found.angle[row, column]:6.1f}{foretold:10.1f}{left:10.1f}", flush=True)
+        predicted = each.detectability * np.sin(np.radians(found.angle[row, column]))
+        ratios.append(left / predicted)
+        print(f"{each.name:27}{rival.name:27}{found.angle[row, column]:6.1f}{predicted:10.1f}{left:10.1f}", flush=True)
     inside = np.sum((np.array(ratios) > 0.8) & (np.array(ratios) < 1.25))
     print(f"refitted over predicted: median {np.median(ratios):.2f}, {inside} of {len(ratios)} within 0.8 to 1.25")
 

@@ -10,10 +10,10 @@ from scipy.special import ndtr
 
 import probation
 from probation.answers import json_answer
+from probation.design.discrimination import best_match, probability_of_the_right_one
 from probation.design.effect_signals import signal, usual_size
 from probation.design.isolability import isolability
 from probation.design.planned_record import white_noise
-from probation.design.telling_apart import best_match, probability_of_the_right_one
 from probation.effects.cause import cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
@@ -267,7 +267,7 @@ def test_a_ramp_at_the_reference_rate_gives_rate_dependence_nothing_to_do():
     assert "does nothing in these records" in found.effects[0].sentence
 
 
-def test_refits_of_simulated_data_are_right_as_often_as_foretold():
+def test_refits_of_simulated_data_are_right_as_often_as_predicted():
     """Force offset against a room that warms within each record, on two ramps: 300 draws, both refitted."""
     model = two_ramps()
     sigma, draws = 2.0, 300

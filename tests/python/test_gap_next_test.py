@@ -9,10 +9,10 @@ from scipy.special import ndtr
 
 import probation
 from probation.answers import json_answer
-from probation.design.foretold import Explanation, Foretelling, foretold, outcome
 from probation.design.next_test import next_test
 from probation.design.planned_record import planned_noise, planned_view, white_noise
 from probation.design.planned_tests import LONGEST, Laboratory, planned_tests
+from probation.design.predicted import Explanation, Prediction, outcome, predictions
 from probation.effects.cause import cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
@@ -171,7 +171,7 @@ def test_force_noise_grows_in_a_planned_test_as_it_does_in_the_records():
 def way(owner, mean, spread=0.0, weight=1.0):
     """Four samples; everything happens along the first."""
     mean, spread = np.array([mean, 0.0, 0.0, 0.0]), np.array([[spread], [0.0], [0.0], [0.0]])
-    return Foretelling(owner, weight, mean, spread)
+    return Prediction(owner, weight, mean, spread)
 
 
 def right(ways, prior, group=None):
@@ -219,7 +219,7 @@ def test_a_fault_of_one_record_may_come_back_and_a_slip_may_not():
         explained.append(
             Explanation.of(extended, extended.parameters(model.start, values), 1.0, (acting.effect.name,), noises)
         )
-    ways = foretold(test, model, model.start, explained, noises)
+    ways = predictions(test, model, model.start, explained, noises)
     assert [(each.owner, each.weight) for each in ways] == [(0, 0.5), (0, 0.5), (1, 1.0), (2, 1.0)]
     base = model.predict(model.start)["fast"] / 0.5
     offset = 2.0 / 0.5 * np.exp(test.true_strain)
@@ -236,7 +236,7 @@ def test_twice_the_gauge_length_halves_what_the_frame_adds():
     extended = model.with_causes([cause("machine_compliance", "true_strain")])
     none = Explanation.of(model, model.start, 1.0, (), noises)
     frame = Explanation.of(extended, extended.parameters(model.start, (1e-8,)), 1.0, ("machine_compliance",), noises)
-    at = {each: foretold(each, model, model.start, [none, frame], noises) for each in (test, usual)}
+    at = {each: predictions(each, model, model.start, [none, frame], noises) for each in (test, usual)}
     long, short = (at[each][1].mean - at[each][0].mean for each in (test, usual))
     np.testing.assert_allclose(long, 0.5 * short, atol=1e-3 * np.max(np.abs(short)))
 
@@ -309,7 +309,7 @@ def test_drift_of_the_force_and_hardening_are_told_apart_without_a_specimen(drif
 
 
 @pytest.mark.parametrize("name", ["faster_ramp", "zero_load_hold"])
-def test_simulated_tests_find_the_right_one_as_often_as_foretold(drift_or_hardening, name):
+def test_simulated_tests_find_the_right_one_as_often_as_predicted(drift_or_hardening, name):
     """A truth drawn from what the records leave open, the test simulated at three times the noise for an uncertain
     outcome, both refitted by scipy to old and new records; the smaller cost, with its Occam factor, wins.
     """
@@ -319,7 +319,7 @@ def test_simulated_tests_find_the_right_one_as_often_as_foretold(drift_or_harden
     known = [Explanation.of(*each, noises) for each in explanations]
     test = next(t for t in planned_tests(Laboratory.of(model, model.start)) if t.name == name)
     rough = 3.0
-    ways = [each.through(rough) for each in foretold(test, model, model.start, known, noises)]
+    ways = [each.through(rough) for each in predictions(test, model, model.start, known, noises)]
     prior = np.array([each.probability for each in known])
     expected = outcome(ways, prior, [0, 1], draws=4000, seed=0).probability
     new = planned_view("next", test.time, test.true_strain, test.jumps, model.views)

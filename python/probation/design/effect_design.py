@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.design.discrimination import DETECTED
 from probation.design.effect_signals import signal
-from probation.design.telling_apart import DETECTED
 from probation.errors import InputError
 from probation.inference.information import inverse_information
 from probation.inference.view_residual import residual_of

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation.design.discrimination import DETECTED, DISCRIMINATED
 from probation.design.effect_design import Design
 from probation.design.effect_signals import effect_signals
 from probation.design.isolability_words import headline, sentence
 from probation.design.planned_record import as_predicted
 from probation.design.rivalry import Rivalry
-from probation.design.telling_apart import DETECTED, TOLD_APART
 from probation.errors import InputError
 from probation.parallel import in_parallel
 
@@ -252,7 +252,7 @@ def _described(
     rivals = {}
     if size >= DETECTED:
         order = np.argsort(probability, kind="stable")
-        rivals = {rivalry.names[at]: float(probability[at]) for at in order if probability[at] < TOLD_APART}
+        rivals = {rivalry.names[at]: float(probability[at]) for at in order if probability[at] < DISCRIMINATED}
     names = [parameter.name for parameter in cause.form.parameters]
     return EffectIsolability(
         name=cause.effect.name,

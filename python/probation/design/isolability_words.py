@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.design.telling_apart import DETECTED
+from probation.design.discrimination import DETECTED
 from probation.wording import percentage
 
 if TYPE_CHECKING:

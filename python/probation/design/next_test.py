@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.foretold import Explanation, foretold, outcome
 from probation.design.planned_tests import Laboratory, planned_tests
+from probation.design.predicted import Explanation, outcome, predictions
 from probation.errors import ConvergenceError, InputError
 from probation.parallel import in_parallel
 
@@ -162,7 +162,7 @@ def next_test(
 
     def work(test: PlannedTest) -> tuple[RankedTest, FloatArray] | None:
         try:
-            ways = foretold(test, model, base, known, noises)
+            ways = predictions(test, model, base, known, noises)
         except ConvergenceError:
             return None
         found = outcome(ways, prior, group, draws=DRAWS, seed=seed)

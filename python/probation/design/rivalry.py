@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.telling_apart import DETECTED, TOLD_APART, best_match, probability_of_the_right_one
+from probation.design.discrimination import DETECTED, DISCRIMINATED, best_match, probability_of_the_right_one
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,7 +87,7 @@ class Rivalry:
             return None
 
         def named(factor: float) -> bool:
-            return bool(np.all(self._weighed(row, products, length, factor)[1] >= TOLD_APART))
+            return bool(np.all(self._weighed(row, products, length, factor)[1] >= DISCRIMINATED))
 
         low, high = DETECTED / length, max(most, DETECTED / length)
         if not named(high):

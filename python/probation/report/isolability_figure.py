@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.patches import Rectangle
 
-from probation.design.telling_apart import DETECTED
+from probation.design.discrimination import DETECTED
 from probation.report.diagnosis_words import count_text
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour

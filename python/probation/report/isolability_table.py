@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from probation.design.telling_apart import DETECTED
+from probation.design.discrimination import DETECTED
 from probation.report.diagnosis_words import count_text
 from probation.report.table import Table
 from probation.wording import listed, percent

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 DETECTED = 5.0
 """sqrt(lambda) from which on an effect counts as seen: where nine of ten such gaps are to be detected."""
 
-TOLD_APART = 0.95
+DISCRIMINATED = 0.95
 """Probability of naming the right one of two from which on they count as discriminated."""
 
 

@@ -85,7 +85,7 @@ class Explanation:
 
 
 @dataclass(frozen=True, eq=False)
-class Foretelling:
+class Prediction:
     """One way in which a planned test may come out.
 
     Attributes
@@ -105,18 +105,18 @@ class Foretelling:
     mean: FloatArray
     spread: FloatArray
 
-    def through(self, noise: float) -> Foretelling:
+    def through(self, noise: float) -> Prediction:
         """The same seen through `noise` times the noise."""
         return replace(self, mean=self.mean / noise, spread=self.spread / noise)
 
 
-def foretold(
+def predictions(
     test: PlannedTest,
     model: CampaignModel,
     base: FloatArray,
     explanations: Sequence[Explanation],
     noises: Sequence[NoiseModel],
-) -> list[Foretelling]:
+) -> list[Prediction]:
     """What every explanation predicts of a test.
 
     A cause that touches all records touches the new one too. A fault of single records may or may not be there again
@@ -142,7 +142,7 @@ def foretold(
         ways = [((), 1.0)] if not confined else [((), 1.0 - REPEATS_ITSELF), (tuple(confined), REPEATS_ITSELF)]
         for back, weight in ways:
             stress, slopes = _on(view, each, back, test)
-            found.append(Foretelling(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))
+            found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))
     return found
 
 
@@ -197,12 +197,12 @@ class Outcome:
     pairwise: FloatArray
 
 
-def outcome(ways: Sequence[Foretelling], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int) -> Outcome:
+def outcome(ways: Sequence[Prediction], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int) -> Outcome:
     """Simulate the test under every explanation and weigh all by what comes out.
 
     Parameters
     ----------
-    ways : sequence of Foretelling
+    ways : sequence of Prediction
     prior : ndarray, shape (n_explanations,)
         Probabilities before the test, summing to 1.
     group : sequence of int
@@ -236,7 +236,7 @@ def outcome(ways: Sequence[Foretelling], prior: FloatArray, group: Sequence[int]
     return Outcome(min(probability, 1.0), max(information, 0.0) / np.log(2.0), wins)
 
 
-def _reduced(ways: Sequence[Foretelling]) -> tuple[FloatArray, list[FloatArray]]:
+def _reduced(ways: Sequence[Prediction]) -> tuple[FloatArray, list[FloatArray]]:
     """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the predictions differ."""
     centre = np.mean([way.mean for way in ways], axis=0)
     columns = np.column_stack([*(way.mean - centre for way in ways), *(way.spread for way in ways)])
