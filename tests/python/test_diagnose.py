@@ -158,10 +158,10 @@ def test_one_record_is_diagnosed_with_a_warning():
     assert "part" in found.shrink.identify.how
 
 
-def test_a_spike_is_kept_out_and_makes_no_gap():
+def test_an_outlier_is_left_out_and_makes_no_gap():
     found = diagnosed(few_records(spiked))
     assert found.verdict == "no_gap"
-    assert any("middle" in warning and "spike" in warning for warning in found.warnings)
+    assert any("middle" in warning and "outlier" in warning for warning in found.warnings)
     assert found.rms_MPa == pytest.approx(NOISE, rel=0.07)
     assert found.shrink.identify.closure is None
 
