@@ -11,6 +11,7 @@ from probation import batch, bulk
 from probation.field.identify import identify_field
 
 ROOT = Path(__file__).parents[2]
+PACKAGES = (ROOT / "python" / "probation",)
 
 FUNCTIONS = {
     name: given
@@ -98,3 +99,13 @@ def test_every_section_that_is_cited_is_there():
     assert len(cited) > 15
     for path, page, number in cited:
         assert re.search(rf"^## {number}\. ", pages[page], re.MULTILINE), f"{path} cites section {number} of {page}"
+
+
+def test_the_glossary_is_in_order_and_names_files_that_are_there():
+    text = (ROOT / "docs/glossary.md").read_text(encoding="utf-8")
+    for theme in text.split("\n## ")[1:]:
+        terms = [line.split("|")[1].strip().lower() for line in theme.split("\n") if line.startswith("| ")][1:]
+        assert terms == sorted(terms)
+    files = set(re.findall(r"`([\w/]+(?:\.py|\.hpp|/))`", text))
+    assert len(files) > 20
+    assert [each for each in sorted(files) if not any((root / each).exists() for root in (ROOT, *PACKAGES))] == []
