@@ -7,6 +7,7 @@ import os
 import select
 import subprocess
 import sys
+import tempfile
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -47,9 +48,9 @@ class Outcome:
 
 
 class Worker:
-    """One process that runs one case after the other."""
+    """One process that runs one case after the other, in folders below `scratch`."""
 
-    def __init__(self) -> None:
+    def __init__(self, scratch: str) -> None:
         tests = str(Path(__file__).parents[1])
         environment = {
             **os.environ,
@@ -59,6 +60,7 @@ class Worker:
             "PYTHONWARNINGS": "default",
             "PROBATION_DEBUG": "0",
             "COLUMNS": "100",
+            "TMPDIR": scratch,
         }
         self._process = subprocess.Popen(
             [sys.executable, "-m", "fuzz.worker"],
@@ -114,6 +116,7 @@ class Workers:
         self._own = threading.local()
         self._started: list[Worker] = []
         self._threads = ThreadPoolExecutor(self.count)
+        self._scratch = tempfile.TemporaryDirectory(prefix="fuzz-")  # a worker that is stopped leaves its folder behind
 
     def __enter__(self) -> Workers:
         return self
@@ -122,6 +125,7 @@ class Workers:
         self._threads.shutdown(cancel_futures=True)
         for worker in self._started:
             worker.close()
+        self._scratch.cleanup()
 
     def run(self, case: Case, limit: float | None = None) -> Outcome:
         """The outcome of a case, in the worker of this thread.
@@ -141,7 +145,7 @@ class Workers:
     def _attempt(self, case: Case, limit: float | None) -> Outcome:
         worker = getattr(self._own, "worker", None)
         if worker is None or not worker.alive:
-            worker = self._own.worker = Worker()
+            worker = self._own.worker = Worker(self._scratch.name)
             self._started.append(worker)
         outcome = worker.run(case, limit)
         if outcome is None:
