@@ -1,0 +1,32 @@
+"""Campaigns of an independent virtual laboratory, whose truth is known: see the README of their folder."""
+
+import pytest
+from tests.campaigns.measured import DATA
+
+from probation import Campaign, diagnose
+
+OUTSIDE = DATA / "outside"
+pytestmark = pytest.mark.skipif(not OUTSIDE.is_dir(), reason="the campaigns are not beside the checkout")
+
+
+def diagnosed(name):
+    return diagnose(Campaign.load(OUTSIDE / name), design=False)
+
+
+@pytest.mark.parametrize("name", ["null-noisy-strain", "null-noisy-strain-jump"])
+def test_noise_of_the_strain_is_no_gap(name):
+    """Nothing is wrong but a strain noise of 5e-4, through a smoother and a law of 2000 MPa."""
+    found = diagnosed(name)
+    assert found.verdict == "no_gap"
+    assert found.best.effects == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "truth"),
+    [("damage-full-search-loses-it", "damage"), ("relaxation-full-search-loses-it", "rate_dependent_relaxation")],
+)
+def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_noise(name, truth):
+    found = diagnosed(name)
+    assert found.verdict == "explained"
+    assert found.best.effects == (truth,)
+    assert found.shrink.identify.after_MPa < 1.1 * found.noise_MPa
