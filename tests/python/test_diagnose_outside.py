@@ -1,8 +1,8 @@
 """Campaigns of an independent virtual laboratory, whose truth is known: see the README of their folder."""
 
 import pytest
-from tests.campaigns.measured import DATA
 
+from campaigns.measured import DATA
 from probation import Campaign, diagnose
 
 OUTSIDE = DATA / "outside"
