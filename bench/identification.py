@@ -88,7 +88,7 @@ def _by_differences(case: cases.Case, measured: Array, stress: Callable[..., Arr
 
 def _engine(case: cases.Case, measured: Array) -> Callable[[], Array]:
     law = probation.Law(unrelaxed_modulus=START[0], tau_max=START[1], hardening_modulus=START[2])
-    options = {"scheme": "be2", "start": "backward_euler", "jumps": None}
+    options = {"scheme": probation.BE2(start="backward_euler"), "jumps": None}
 
     def residual(x: Array) -> Array:
         return law.with_parameters(x).stress(case.time, case.true_strain, **options) - measured
@@ -107,5 +107,5 @@ def _in_bulk(case: cases.Case, measured: Array, method: bulk.Method) -> Callable
     records[0] = measured
     strains = np.tile(case.true_strain, (RECORDS, 1))
     return lambda: bulk.identify_many(
-        law, case.time, strains, records, "be2", method=method, start="backward_euler", threads=1
+        law, case.time, strains, records, probation.BE2(start="backward_euler"), method=method, threads=1
     )

@@ -7,7 +7,7 @@ import numpy as np
 import probation
 from bench.cases import COMPANION, Case
 from bench.spectrum import Array
-from probation import _core
+from probation import BE2, CVODE, SA2, SA3, Exact, _core
 from probation.law.change import engine_change
 
 
@@ -26,10 +26,13 @@ def law_of(case: Case) -> probation.Law:
     )
 
 
+SCHEMES = {each.name: each for each in (BE2, SA2, SA3, Exact, CVODE)}
+
+
 def solver_of(case: Case, scheme: str, **options: object) -> _core.Solver:
-    if case.alpha is not None:
-        options["strain_rate"] = case.strain_rate
-    return law_of(case).solver(case.time, case.true_strain, scheme, **options)
+    """The solver of a scheme with its `options`."""
+    rate = None if case.alpha is None else case.strain_rate
+    return law_of(case).solver(case.time, case.true_strain, SCHEMES[scheme](**options), strain_rate=rate)
 
 
 def prepare(case: Case, scheme: str, change: probation.Change | None = None, **options: object) -> Callable[[], Array]:

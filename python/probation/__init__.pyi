@@ -28,6 +28,7 @@ from .law.kinematics import haward_thackray_strain
 from .law.modal import Law, Spectrum
 from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
+from .law.schemes import BE2, CVODE, SA2, SA3, Exact
 from .records.campaign import Campaign
 from .records.preview import preview
 from .records.record import Noise, Record
@@ -37,6 +38,10 @@ from .simulation import Simulation, simulate
 from .smoothing.excitation import Excitation, excite
 
 __all__ = [
+    "BE2",
+    "CVODE",
+    "SA2",
+    "SA3",
     "BulkIdentification",
     "CalibratedCompanion",
     "Calibration",
@@ -49,6 +54,7 @@ __all__ = [
     "CrossCheck",
     "Diagnosis",
     "Direction",
+    "Exact",
     "Excitation",
     "Exponential",
     "Export",

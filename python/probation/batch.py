@@ -12,7 +12,8 @@ from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_thr
 from probation.errors import InputError
 from probation.law.change import Change, engine_change
 from probation.law.history import Jumps, looks_for_jumps
-from probation.law.modal import Law, Scheme, Start, engine_law, make_solver, solver_options
+from probation.law.modal import Law, engine_law
+from probation.law.schemes import Scheme, SchemeName, as_scheme, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,10 +47,9 @@ def stresses(
     law: Law,
     parameters: ArrayLike,
     history: _core.History,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
     change: Change | None = None,
-    start: Start = "exponential",
     threads: int = 0,
     out: FloatArray | None = None,
 ) -> FloatArray:
@@ -83,7 +83,7 @@ def stresses(
     found = as_output(out, (len(sets), len(history)))
     sets = kept_apart(sets, out)
     _core.batch_stress(
-        engine_law(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, history, engine_change(change), as_scheme(scheme).engine, as_threads(threads), found
     )
     return found
 
@@ -93,9 +93,8 @@ def field_stresses(
     time: ArrayLike,
     true_strain: ArrayLike,
     parameters: ArrayLike | None = None,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     jumps: Jumps | None = "auto",
     threads: int = 0,
     out: FloatArray | None = None,
@@ -110,7 +109,7 @@ def field_stresses(
         float32 or float64 with contiguous rows is read where it is.
     parameters : array_like, shape (pixels, 3), optional
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each pixel; the law's own if left out.
-    scheme, start, threads
+    scheme, threads
         As in `stresses`.
     jumps : "auto" or None
         Whether each pixel is searched for jumps of its strain rate.
@@ -135,7 +134,7 @@ def field_stresses(
     sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
     found = as_output(out, strains.shape)
     times, strains, sets = kept_apart(times, out), kept_apart(strains, out), kept_apart(sets, out)
-    options = solver_options(scheme, start)
+    options = as_scheme(scheme).engine
     _core.field_stress(engine, sets, times, strains, looks_for_jumps(jumps), options, as_threads(threads), found)
     return found
 
@@ -144,9 +143,8 @@ def sums_of_squares(
     law: Law,
     parameters: ArrayLike,
     records: Sequence[Observed],
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     threads: int = 0,
     out: FloatArray | None = None,
 ) -> FloatArray:
@@ -154,7 +152,7 @@ def sums_of_squares(
 
     Parameters
     ----------
-    law, parameters, scheme, start, threads
+    law, parameters, scheme, threads
         As in `stresses`.
     records : sequence of Observed
     out : ndarray, shape (sets, records), optional
@@ -175,7 +173,7 @@ def sums_of_squares(
     sets = kept_apart(sets, out)
     engine_records = [record._engine() for record in records]
     _core.batch_sum_of_squares(
-        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, engine_records, as_scheme(scheme).engine, as_threads(threads), found
     )
     return found
 
@@ -184,9 +182,8 @@ def many_normal_equations(
     law: Law,
     parameters: ArrayLike,
     records: Sequence[Observed],
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     threads: int = 0,
     out: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -194,7 +191,7 @@ def many_normal_equations(
 
     Parameters
     ----------
-    law, parameters, records, scheme, start, threads
+    law, parameters, records, scheme, threads
         As in `sums_of_squares`.
     out : ndarray, shape (sets, records, 13), optional
         What the answer is a view of: J^T J by rows, J^T r, r^T r.
@@ -218,13 +215,13 @@ def many_normal_equations(
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
     _core.batch_normal_equations(
-        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), rows
+        engine_law(law), sets, engine_records, as_scheme(scheme).engine, as_threads(threads), rows
     )
     return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
 
 def normal_equations(
-    law: Law, record: Observed, scheme: Scheme = "be2", *, start: Start = "exponential"
+    law: Law, record: Observed, scheme: Scheme | SchemeName = "be2"
 ) -> tuple[FloatArray, FloatArray, float]:
     """J^T J, J^T r and r^T r of the fit residual (model - data) along the law's parameters.
 
@@ -234,7 +231,7 @@ def normal_equations(
     gradient : ndarray, shape (3,)
     sum_of_squares : float [MPa^2]
     """
-    solver = make_solver(record.history, scheme, start)
+    solver = make_solver(record.history, scheme)
     stress = as_samples(record.true_stress, "true_stress", len(record.history))
     return _core.normal_equations(solver, engine_law(law), record.change._engine(), stress)
 

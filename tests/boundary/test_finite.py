@@ -86,7 +86,7 @@ def test_stress(law, history, scheme):
 @settings(thorough, max_examples=EXAMPLES // 2)
 @given(laws(), histories())
 def test_stress_by_cvode(law, history):
-    finite_or_refused(lambda: law.stress(*history, "cvode", max_steps=300))
+    finite_or_refused(lambda: law.stress(*history, probation.CVODE(max_steps=300)))
 
 
 @thorough

@@ -35,7 +35,7 @@ def by_scipy(law, time, strain, stress, scheme, held=(False, False, False)):
     Where the data hardly tell a parameter, that search stops a few 1e-6 short: a Gauss-Newton step takes it on.
     """
     record = Record("a", time, strain, stress, control="other")
-    prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme, "exponential", 1)
+    prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme)
     prepared = replace(prepared, solver=law.solver(time, strain, scheme), noise=1.0)
     problem = Problem(law, [prepared], held)
     limits = dict.fromkeys(law.parameter_names, (0.0, np.inf))

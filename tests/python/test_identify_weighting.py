@@ -65,7 +65,7 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
     """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
-    problem = RecordProblem.prepare(record, excitation, "sa3", "exponential")
+    problem = RecordProblem.prepare(record, excitation, "sa3")
     carried = StrainNoise.of(problem.excitation, problem.scheme, problem.start, problem.substeps).carried(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
@@ -91,9 +91,9 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
 def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evaluated(method):
     """d/d theta of r^T Sigma(theta)^-1 r by central differences."""
     record = ramp_record(strain_noise=1e-3, samples=100)
-    prepared = RecordProblem.prepare(record, excite(record, method), "sa3", "exponential")
+    prepared = RecordProblem.prepare(record, excite(record, method), "sa3")
     problem = Problem(LAW, [prepared], (False, False, False))
-    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.start, prepared.substeps),))
+    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.substeps),))
     problem.noises = [problem.noises[0].with_carried(weighted.strain[0].carried(LAW))]
     away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
     residual, jacobian = residual_and_jacobian(problem, away, weighted)

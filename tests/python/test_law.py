@@ -58,7 +58,7 @@ def test_feedbacks_are_values():
 
 def test_a_convergence_error_keeps_its_attributes_when_pickled():
     with pytest.raises(probation.ConvergenceError) as raised:
-        LAWS["constant"].stress(TIME, STRAIN, "cvode", max_steps=1)
+        LAWS["constant"].stress(TIME, STRAIN, probation.CVODE(max_steps=1))
     again = pickle.loads(pickle.dumps(raised.value))
     assert (again.time, again.residual_norm) == (raised.value.time, raised.value.residual_norm)
     assert str(again) == str(raised.value)

@@ -72,7 +72,7 @@ def test_constant_tau_on_uneven_steps(scheme, order, constant_tau):
 
 @pytest.mark.parametrize("start", ["exponential", "backward_euler"])
 def test_the_start_of_be2_does_not_spoil_its_order(start, constant_tau):
-    found = errors(law(), "be2", uniform(300), paper.smooth_strain, constant_tau, start=start)
+    found = errors(law(), probation.BE2(start=start), uniform(300), paper.smooth_strain, constant_tau)
     assert measured(found) > 1.9
 
 

@@ -15,12 +15,14 @@ from probation.law.calibration_settings import CalibrationSettings
 from probation.law.change import Change, Direction
 from probation.law.companion import Companion, from_settings
 from probation.law.history import Jumps, make_history
+from probation.law.schemes import as_scheme
 from probation.law.settings import COMPANION_FORMS, CompanionSettings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme, SchemeName
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,11 +123,10 @@ class CalibratedCompanion:
         law: Law,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
         scatter: bool = True,
@@ -139,7 +140,7 @@ class CalibratedCompanion:
         ----------
         law : Law
             With this companion relation; any alpha.
-        time, true_strain, scheme, strain_rate, change, start, jumps, direction
+        time, true_strain, scheme, strain_rate, change, jumps, direction
             As in `Law.sensitivity`.
         scatter : bool
             Whether the record is a new test, which scatters around the relation as a whole: one more column.
@@ -158,7 +159,7 @@ class CalibratedCompanion:
         if self.covariance is None:
             raise InputError("the covariance of the companion relation is not known; calibrate it with standard errors")
         history = make_history(time, true_strain, strain_rate=strain_rate, jumps=jumps, direction=direction)
-        gradient = self.log_gradient(seen_rates(history, scheme, self.relation.rate_floor, direction))
+        gradient = self.log_gradient(seen_rates(history, as_scheme(scheme).name, self.relation.rate_floor, direction))
         values, vectors = np.linalg.eigh(self.covariance)
         factor = vectors * np.sqrt(np.maximum(values, 0.0))
         count = gradient.shape[1]
@@ -178,7 +179,6 @@ class CalibratedCompanion:
             directions=directions,
             strain_rate=strain_rate,
             change=change,
-            start=start,
             jumps=jumps,
             direction=direction,
         )[1]
@@ -188,11 +188,10 @@ class CalibratedCompanion:
         law: Law,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
         scatter: bool = True,
@@ -210,7 +209,6 @@ class CalibratedCompanion:
             scheme,
             strain_rate=strain_rate,
             change=change,
-            start=start,
             jumps=jumps,
             direction=direction,
             scatter=scatter,

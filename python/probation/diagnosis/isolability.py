@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation.design.isolability import Isolability
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 
 
@@ -69,7 +69,7 @@ class CampaignIsolability:
 
 def campaign_isolability(
     campaign: Campaign,
-    scheme: Scheme = "sa3",
+    scheme: SchemeName = "sa3",
     *,
     hold: Mapping[str, float] | None = None,
     effects: Iterable[str] | None = None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,30 +17,17 @@ from probation._arrays import (
     as_samples,
     as_whole_number,
     held_samples,
-    one_of,
 )
 from probation.errors import InputError
 from probation.law.change import Change, Direction, engine_change
 from probation.law.companion import Companion
 from probation.law.history import Jumps, history_arguments, make_history
+from probation.law.schemes import Scheme, SchemeName, as_scheme, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
-
-Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
-SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
-DIFFERENTIABLE: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
-"""The schemes that have sensitivities."""
-
-Start = Literal["exponential", "backward_euler"]
-"""bE2's first step: "exponential" (default) or the paper's "backward_euler".
-
-At h = 0.5 s the paper's start errs by 0.58 MPa in experiment 1 and biases E_u by 1 %; the exponential one is exact for
-a ramp but for the bend of the hardening, and costs nothing. The same rule restarts bE2 after a jump of the rate.
-"""
-
 
 ACCURACIES = (1e-5, 0.5)
 """Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
@@ -229,34 +216,26 @@ class Law:
         self,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         strain_rate: ArrayLike | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
-        relative_tolerance: float = 1e-10,
-        absolute_tolerance: float = 1e-10,
-        max_steps: int = 200_000,
     ) -> _core.Solver:
         """A solver for one history, to be used for many laws; arguments as in `stress`."""
         history = make_history(time, true_strain, strain_rate=strain_rate, jumps=jumps, direction=direction)
-        return make_solver(history, scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        return make_solver(history, scheme)
 
     def stress(
         self,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
-        relative_tolerance: float = 1e-10,
-        absolute_tolerance: float = 1e-10,
-        max_steps: int = 200_000,
         out: FloatArray | None = None,
     ) -> FloatArray:
         """True stress along a strain history.
@@ -267,23 +246,17 @@ class Law:
             Increasing.
         true_strain : array_like, shape (n_times,) [-]
             The start is relaxed: sigma_j(0) = p_j G e_HT(true_strain[0]).
-        scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
-            be2 has order 2, sa3 order 3 on smooth histories (2 with a companion relation unless `strain_rate` is given;
-            on rough measured strain it is no better than sa2); exact and cvode integrate the piecewise-linear history.
+        scheme : {"be2", "sa2", "sa3", "exact", "cvode"}, `BE2`, `SA2`, `SA3`, `Exact` or `CVODE`
+            A name is the scheme with default options. be2 and sa2 have order 2, sa3 order 3 on smooth histories; exact
+            and cvode integrate the piecewise-linear history.
         strain_rate : array_like, shape (n_times,) [1/s], optional
             If given, the history between samples is the cubic through strains and rates.
         change : Change, optional
             What an effect changes in the law along this record.
-        start : {"exponential", "backward_euler"}
-            bE2's first step; the paper's is "backward_euler".
         jumps : "auto", None or array_like of times [s]
             Where the strain rate jumps.
         direction : array_like, shape (n_times - 1,), optional
             Commanded direction of each step.
-        relative_tolerance, absolute_tolerance : float [-], [MPa]
-            Of cvode.
-        max_steps : int
-            Of cvode, between two samples.
         out : ndarray, shape (n_times,), optional
             Where to write the stress.
 
@@ -299,7 +272,7 @@ class Law:
             If CVODE or the iteration of a feedback fails, or the stress is not finite; it has `time` and
             `residual_norm`.
         """
-        options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
+        options = as_scheme(scheme).engine
         changed = engine_change(change)
         if strain_rate is None and direction is None and isinstance(jumps, str) and jumps == "auto":
             found = _core.stress_where_held(self.engine, changed, options, out, time, true_strain)
@@ -314,12 +287,11 @@ class Law:
         self,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         directions: Sequence[Direction] | None = None,
         strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
     ) -> tuple[FloatArray, FloatArray]:
@@ -329,7 +301,7 @@ class Law:
         ----------
         directions : sequence of Direction, optional
             What to differentiate along; the law's three `parameters` if left out.
-        time, true_strain, scheme, strain_rate, change, start, jumps, direction
+        time, true_strain, scheme, strain_rate, change, jumps, direction
             As in `stress`.
 
         Returns
@@ -342,9 +314,7 @@ class Law:
         InputError, ConvergenceError
             As `stress` does; also where a derivative is not finite.
         """
-        solver = self.solver(
-            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
-        )
+        solver = self.solver(time, true_strain, scheme, strain_rate=strain_rate, jumps=jumps, direction=direction)
         changed = engine_change(change)
         if directions is None:
             engine_directions = _core.parameter_directions(self.engine, changed, solver.history)
@@ -359,11 +329,10 @@ class Law:
         self,
         time: ArrayLike,
         true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        scheme: Scheme | SchemeName = "be2",
         *,
         strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
         jumps: ArrayLike | Jumps | None = "auto",
         direction: ArrayLike | None = None,
     ) -> FloatArray:
@@ -382,9 +351,7 @@ class Law:
         InputError, ConvergenceError
             As `stress` does; also where a derivative is not finite.
         """
-        solver = self.solver(
-            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
-        )
+        solver = self.solver(time, true_strain, scheme, strain_rate=strain_rate, jumps=jumps, direction=direction)
         return solver.strain_sensitivity(self.engine, engine_change(change))
 
 
@@ -393,55 +360,3 @@ def engine_law(law: Law) -> _core.Law:
     if not isinstance(law, Law):
         raise InputError(f"law is {law!r}; expected a Law")
     return law.engine
-
-
-def make_solver(
-    history: _core.History,
-    scheme: Scheme = "be2",
-    start: Start = "exponential",
-    relative_tolerance: float = 1e-10,
-    absolute_tolerance: float = 1e-10,
-    max_steps: int = 200_000,
-) -> _core.Solver:
-    """The engine's solver for one history."""
-    return _core.Solver(history, *_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
-
-
-def solver_options(
-    scheme: Scheme,
-    start: Start,
-    relative_tolerance: float = 1e-10,
-    absolute_tolerance: float = 1e-10,
-    max_steps: int = 200_000,
-) -> _core.SolverOptions:
-    """How a solver solves, as the engine takes it; what was asked for before is there already."""
-    try:
-        return _kept_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
-    except TypeError:  # an argument that is not hashable: it is refused by its name
-        return _core.SolverOptions(*_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
-
-
-@lru_cache(maxsize=64, typed=True)
-def _kept_options(*arguments: Any) -> _core.SolverOptions:
-    return _core.SolverOptions(*_checked(*arguments))
-
-
-def engine_scheme(
-    scheme: Scheme, start: Start, schemes: Sequence[Scheme] = SCHEMES
-) -> tuple[_core.Scheme, _core.Start]:
-    """A scheme, one of `schemes`, and bE2's first step, as the engine takes them."""
-    return (
-        getattr(_core.Scheme, one_of(scheme, "scheme", schemes)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
-    )
-
-
-def _checked(
-    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
-) -> tuple[_core.Scheme, _core.Start, float, float, int]:
-    return (
-        *engine_scheme(scheme, start),
-        as_number(relative_tolerance, "relative_tolerance"),
-        as_number(absolute_tolerance, "absolute_tolerance"),
-        as_whole_number(max_steps, "max_steps"),
-    )

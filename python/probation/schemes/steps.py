@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.law.ramp import ramp_stress
+from probation.law.schemes import CVODE
 from probation.schemes.candidates import CANDIDATES, StrainPath, solve
 from probation.schemes.smooth import RampHistory
 
@@ -111,10 +112,8 @@ def _reference(law: Law, history: SmoothHistory, count: int) -> FloatArray:
     fine = law.stress(
         path.time,
         path.true_strain,
-        "cvode",
+        CVODE(relative_tolerance=1e-12, absolute_tolerance=1e-12),
         strain_rate=path.strain_rate,
         jumps=None,
-        relative_tolerance=1e-12,
-        absolute_tolerance=1e-12,
     )
     return fine[::2]
