@@ -24,6 +24,7 @@ from .inference.callable_law import CallableLaw
 from .law.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from .law.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from .law.creep import creep
+from .law.history import StrainHistory
 from .law.kinematics import haward_thackray_strain
 from .law.modal import Law, Spectrum
 from .law.ramp import ramp_stress
@@ -73,6 +74,7 @@ __all__ = [
     "SelfHeating",
     "Simulation",
     "Spectrum",
+    "StrainHistory",
     "StressActivation",
     "Table",
     "Weissenberg",

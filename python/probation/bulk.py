@@ -15,7 +15,7 @@ from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, 
 from probation.errors import InputError
 from probation.law.history import Jumps, looks_for_jumps
 from probation.law.modal import Law, engine_law
-from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, as_scheme
+from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 
 Method = Literal["variable projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable projection", "levenberg-marquardt")
@@ -202,7 +202,7 @@ def _options(
             raise InputError(f"bounds of {name} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {name}") for end in ends)
     return _core.IdentifyOptions(
-        *as_scheme(scheme, DIFFERENTIABLE).arguments()[:2],
+        *at_samples(scheme, DIFFERENTIABLE).arguments[:2],
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace(" ", "_").replace("-", "_")),
         [name in held for name in names],
         lower,

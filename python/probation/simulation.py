@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -137,20 +137,19 @@ def simulate(
         If CVODE fails.
     """
     chosen = as_scheme(scheme)
-    jumps: Literal["auto"] | tuple[float, ...] | None = "auto" if history.jumps is None else history.jumps or None
     if history.true_stress is not None:
         stress = history.true_stress
-        strain = creep(law, history.time, stress, start=chosen.start, jumps=jumps)
+        strain = creep(
+            law,
+            history.time,
+            stress,
+            start=chosen.start,
+            jumps="auto" if history.jumps is None else history.jumps or None,
+        )
     else:
         assert history.true_strain is not None
         strain = history.true_strain
-        stress = law.stress(
-            history.time,
-            strain,
-            chosen,
-            strain_rate=history.strain_rate,
-            jumps=jumps,
-        )
+        stress = law.stress(history, scheme=chosen)
     rate = history.strain_rate if history.strain_rate is not None else np.diff(strain) / np.diff(history.time)
     extrapolation = None if law.companion is None else law.companion.extrapolation(rate)
     return Simulation(

@@ -7,11 +7,13 @@ import pytest
 
 import probation
 from probation import Change
+from probation.law.schemes import make_solver
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=9)
 TIME = np.arange(33) * 0.5
 STRAIN = np.round(0.01 * TIME * 2**20) / 2**20  # exact in float32 too
 STRESS = LAW.stress(TIME, STRAIN)
+HISTORY = probation.StrainHistory(TIME, STRAIN)
 
 
 @pytest.mark.parametrize(
@@ -90,8 +92,6 @@ def test_a_bad_history_is_named(scheme, time, strain, message):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"scheme": "rk4"}, r"scheme is 'rk4'; expected one of be2, sa2, sa3, exact, cvode"),
-        ({"scheme": None}, r"scheme is None"),
         ({"jumps": "all"}, r"jumps is 'all'"),
         ({"jumps": 3.0}, r"jumps has the shape \(\)"),
         ({"jumps": [99.0]}, r"jumps holds a time outside the record, 0.0 to 16.0 s"),
@@ -102,15 +102,37 @@ def test_a_bad_history_is_named(scheme, time, strain, message):
         ({"direction": np.full(32, np.nan)}, r"direction\[0\] is nan"),
     ],
 )
-def test_a_bad_option_is_named(options, message):
+def test_a_history_that_cannot_be_is_refused_when_it_is_made(options, message):
     with pytest.raises(probation.InputError, match=message):
-        LAW.stress(TIME, STRAIN, **options)
+        probation.StrainHistory(TIME, STRAIN, **options)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: LAW.stress(TIME, STRAIN, "rk4"), r"scheme is 'rk4'; expected one of be2, sa2, sa3, exact, cvode"),
+        (lambda: LAW.stress(TIME, STRAIN, None), r"scheme is None"),
+        (lambda: LAW.stress(TIME), r"true_strain is missing; expected time and true_strain, or a StrainHistory"),
+        (lambda: LAW.stress(HISTORY, "sa3"), r"true_strain is 'sa3' beside a StrainHistory"),
+        (
+            lambda: LAW.strain_sensitivity(HISTORY, scheme=probation.SA3(substeps=2)),
+            r"SA3\(substeps=2\); .* substeps=1",
+        ),
+        (lambda: LAW.sensitivity(HISTORY, scheme=probation.SA3(substeps=2), directions=[]), r"SA3\(substeps=2\)"),
+        (lambda: probation.fit(None, probation.SA3(substeps=2)), r"SA3\(substeps=2\)"),
+    ],
+)
+def test_a_call_that_does_not_fit_together_is_named(call, message):
+    with pytest.raises(probation.InputError, match=message):
+        call()
 
 
 @pytest.mark.parametrize(
     ("scheme", "options", "message"),
     [
         (probation.BE2, {"start": "euler"}, r"start is 'euler'; expected one of exponential, backward_euler"),
+        (probation.SA3, {"substeps": 0}, r"substeps is 0; at least 1"),
+        (probation.SA3, {"substeps": 1.5}, r"substeps is 1.5"),
         (probation.CVODE, {"relative_tolerance": 0.0}, r"relative_tolerance is 0.0; a positive number"),
         (probation.CVODE, {"relative_tolerance": np.inf}, r"relative_tolerance is inf"),
         (probation.CVODE, {"absolute_tolerance": -1.0}, r"absolute_tolerance is -1.0"),
@@ -232,7 +254,7 @@ def test_an_impossible_tolerance_fails_too():
 
 
 def test_a_solver_goes_on_after_a_failure():
-    solver = LAW.solver(TIME, STRAIN, probation.CVODE(max_steps=1))
+    solver = make_solver(probation.StrainHistory(TIME, STRAIN).engine, probation.CVODE(max_steps=1))
     out = np.empty(33)
     change = Change()._engine()
     for _ in range(2):

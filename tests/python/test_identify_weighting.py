@@ -66,7 +66,7 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
     problem = RecordProblem.prepare(record, excitation, "sa3")
-    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.start, problem.substeps).carried(LAW)
+    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.substeps).carried(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
     for at in range(100):
@@ -74,11 +74,13 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
         unit[at] = 1e-6
         sides = [
             LAW.stress(
-                record.time,
-                excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
-                "sa3",
-                strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
-                jumps=None,
+                probation.StrainHistory(
+                    record.time,
+                    excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
+                    strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
+                    jumps=None,
+                ),
+                scheme="sa3",
             )
             for sign in (1.0, -1.0)
         ]

@@ -25,7 +25,8 @@ def errors(base, scheme, grids, strain, truth, **options):
     found = []
     for time in grids:
         given = {name: value(time) if callable(value) else value for name, value in options.items()}
-        stress = base.stress(time, strain(time), scheme, **({"jumps": None} | given))
+        history = probation.StrainHistory(time, strain(time), **({"jumps": None} | given))
+        stress = base.stress(history, scheme=scheme)
         at = [int(np.abs(time - t).argmin()) for t in AT]
         found.append(np.abs(stress[at] - truth).max())
     return np.array(found)

@@ -89,17 +89,7 @@ def companion_factor(found: Fit, excitation: Excitation, relation: CalibratedCom
     """
     if relation is None:
         return np.zeros((len(excitation.time), 0))
-    jumps = excitation.time[list(excitation.jumps)] if excitation.jumps else None
-    return relation.prediction_factor(
-        found.law,
-        excitation.time,
-        excitation.true_strain,
-        scheme_of(found.scheme, found.start),
-        strain_rate=excitation.strain_rate,
-        jumps=jumps,
-        direction=excitation.direction,
-        scatter=False,
-    )
+    return relation.prediction_factor(found.law, excitation, scheme=scheme_of(found.scheme, found.start), scatter=False)
 
 
 def estimates(

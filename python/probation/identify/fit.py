@@ -19,7 +19,7 @@ from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.companion import from_settings
 from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
-from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, as_scheme
+from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def fit(
     InputError
         For an unknown name, a bound that is not possible, or nothing left to identify.
     """
-    chosen = as_scheme(scheme)
+    chosen = at_samples(scheme)
     one_of(method, "method", METHODS)
     one_of(weighting, "weighting", WEIGHTINGS)
     one_of(intervals, "intervals", INTERVALS)

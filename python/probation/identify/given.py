@@ -9,7 +9,7 @@ from probation.identify.describe import describe
 from probation.identify.fit import base_law
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.weighting import plainly
-from probation.law.schemes import as_scheme
+from probation.law.schemes import at_samples
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def given(
     law, held = base_law(campaign, {})
     if not all(held):
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
-    chosen = as_scheme(scheme)
+    chosen = at_samples(scheme)
     prepared = [RecordProblem.prepare(record, excite(record, excitation), chosen) for record in campaign.identify]
     problem = Problem(law, prepared, held)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))

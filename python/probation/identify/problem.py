@@ -10,7 +10,7 @@ import numpy as np
 from probation import _core
 from probation.identify.noise_model import NoiseModel
 from probation.law.modal import Law
-from probation.law.schemes import Scheme, SchemeName, as_scheme, make_solver
+from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
 from probation.records.checks import require_signal
 from probation.records.noise import scatter
 
@@ -66,12 +66,12 @@ class RecordProblem:
         if noise is None:
             noise = scatter(record.time, record.true_stress)
         noise = max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)
-        solver = make_solver(excitation.refined(substeps).history(), scheme)
-        return cls(record, excitation, solver, noise, as_scheme(scheme), substeps)
+        solver = make_solver(excitation.refined(substeps).strain_history().engine, scheme)
+        return cls(record, excitation, solver, noise, at_samples(scheme), substeps)
 
     def with_substeps(self, substeps: int) -> RecordProblem:
         """The same with other steps of the scheme."""
-        solver = make_solver(self.excitation.refined(substeps).history(), self.scheme)
+        solver = make_solver(self.excitation.refined(substeps).strain_history().engine, self.scheme)
         return replace(self, solver=solver, substeps=substeps)
 
     def reference(self) -> RecordProblem:
@@ -80,7 +80,7 @@ class RecordProblem:
 
     def driven_by(self, excitation: Excitation) -> RecordProblem:
         """The same record, the law driven otherwise."""
-        solver = make_solver(excitation.refined(self.substeps).history(), self.scheme)
+        solver = make_solver(excitation.refined(self.substeps).strain_history().engine, self.scheme)
         return replace(self, excitation=excitation, solver=solver)
 
     def stress(self, law: Law) -> FloatArray:

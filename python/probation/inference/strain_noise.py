@@ -53,7 +53,7 @@ class StrainNoise:
         operator, rate = excitation.strain_operator(), excitation.rate_operator()
         if substeps > 1:
             scheme = "sa2" if excitation.strain_rate is None else "sa3"
-        solver = make_solver(excitation.history(), scheme)
+        solver = make_solver(excitation.strain_history().engine, scheme)
         if operator is None:
             return cls(solver, _deviation(excitation), None, None)
         return cls(solver, _deviation(excitation), *_directions(excitation, operator, rate))

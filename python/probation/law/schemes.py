@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
@@ -33,32 +33,40 @@ class Scheme:
     ----------
     name : str
         By which a scheme with default options is called: ``scheme="be2"`` is ``scheme=BE2()``.
+    substeps : int
+        Steps from sample to sample.
     start : str
         First step of be2; the others have none to choose.
+
+    Raises
+    ------
+    InputError
+        For an option that is not possible, by its name.
     """
 
     name: ClassVar[SchemeName]
+    substeps: int = field(default=1, init=False, repr=False)
     start: Start = field(default="exponential", init=False, repr=False)
 
     def __post_init__(self) -> None:
+        if as_whole_number(self.substeps, "substeps") < 1:
+            raise InputError(f"substeps is {self.substeps}; at least 1 is needed")
         self.engine  # noqa: B018 - refuses what cannot be
 
     def __getstate__(self) -> dict[str, object]:
-        return {name: value for name, value in self.__dict__.items() if name != "engine"}
+        return {each.name: getattr(self, each.name) for each in fields(self)}
 
     @cached_property
     def engine(self) -> _core.SolverOptions:
         """The options as the engine holds them."""
-        return _core.SolverOptions(*self.arguments())
+        return _core.SolverOptions(*self.arguments)
 
+    @cached_property
     def arguments(self) -> Arguments:
-        """The same, one by one in the engine's order.
+        """The same, one by one in the engine's order."""
+        return self._arguments()
 
-        Raises
-        ------
-        InputError
-            Naming the option, what was found and what was expected.
-        """
+    def _arguments(self) -> Arguments:
         start = getattr(_core.Start, one_of(self.start, "start", STARTS))
         return getattr(_core.Scheme, self.name), start, 1e-10, 1e-10, 200_000
 
@@ -71,6 +79,8 @@ class BE2(Scheme):
     ----------
     start : {"exponential", "backward_euler"}
         First step, and the step after a jump of the rate. The paper's is "backward_euler".
+    substeps : int
+        Steps from sample to sample.
 
     Notes
     -----
@@ -80,13 +90,21 @@ class BE2(Scheme):
 
     name: ClassVar[SchemeName] = "be2"
     start: Start = "exponential"
+    substeps: int = 1
 
 
 @dataclass(frozen=True, kw_only=True)
 class SA2(Scheme):
-    """Exponential recursion on a strain that is linear in each step; order 2."""
+    """Exponential recursion on a strain that is linear in each step; order 2.
+
+    Parameters
+    ----------
+    substeps : int
+        Steps from sample to sample.
+    """
 
     name: ClassVar[SchemeName] = "sa2"
+    substeps: int = 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,9 +113,15 @@ class SA3(Scheme):
 
     Of order 2 with a companion relation, unless the history has strain rates. On rough measured strain it is no better
     than `SA2`.
+
+    Parameters
+    ----------
+    substeps : int
+        Steps from sample to sample.
     """
 
     name: ClassVar[SchemeName] = "sa3"
+    substeps: int = 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,9 +148,8 @@ class CVODE(Scheme):
     absolute_tolerance: float = 1e-10
     max_steps: int = 200_000
 
-    def arguments(self) -> Arguments:
-        """See `Scheme.arguments`."""
-        scheme, start, *_ = super().arguments()
+    def _arguments(self) -> Arguments:
+        scheme, start, *_ = super()._arguments()
         tolerances = []
         for name in ("relative_tolerance", "absolute_tolerance"):
             tolerance = as_number(getattr(self, name), name)
@@ -156,6 +179,20 @@ def as_scheme(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEM
     return found
 
 
+def at_samples(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEMES) -> Scheme:
+    """The same where the steps of the scheme are those between the samples, or are asked for in another way.
+
+    Raises
+    ------
+    InputError
+        As `as_scheme`, and for a scheme with substeps.
+    """
+    found = as_scheme(scheme, among)
+    if found.substeps != 1:
+        raise InputError(f"scheme is {scheme!r}; expected a scheme with substeps=1 here")
+    return found
+
+
 def scheme_of(name: SchemeName, start: Start) -> Scheme:
     """A scheme by its name and, for be2, its first step: what a command line or an answer says of it."""
     return BE2(start=start) if name == "be2" else as_scheme(name)
@@ -163,4 +200,4 @@ def scheme_of(name: SchemeName, start: Start) -> Scheme:
 
 def make_solver(history: _core.History, scheme: Scheme | SchemeName = "be2") -> _core.Solver:
     """The engine's solver for one history."""
-    return _core.Solver(history, *as_scheme(scheme).arguments())
+    return _core.Solver(history, *at_samples(scheme).arguments)

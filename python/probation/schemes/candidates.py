@@ -10,8 +10,9 @@ import numpy as np
 
 from probation.errors import ConvergenceError, InputError
 from probation.law.change import Change
+from probation.law.history import StrainHistory
 from probation.law.ramp import ramp_stress
-from probation.law.schemes import BE2, CVODE, SA2, SA3, Exact
+from probation.law.schemes import BE2, CVODE, SA2, SA3, Exact, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -122,12 +123,11 @@ def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1
         scheme = candidate.scheme
         if isinstance(scheme, CVODE):
             scheme = replace(scheme, relative_tolerance=tolerance, absolute_tolerance=tolerance)
-        solver = law.solver(
-            path.time,
-            path.true_strain,
+        solver = make_solver(
+            StrainHistory(
+                path.time, path.true_strain, strain_rate=path.strain_rate, jumps=None if path.smooth else "auto"
+            ).engine,
             scheme,
-            strain_rate=path.strain_rate,
-            jumps=None if path.smooth else "auto",
         )
         stress, change = np.empty(len(path.time)), Change()._engine()
         time_us = _fastest(lambda: solver.stress(law.engine, change, stress))
