@@ -189,7 +189,10 @@ def at_samples(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHE
     """
     found = as_scheme(scheme, among)
     if found.substeps != 1:
-        raise InputError(f"scheme is {scheme!r}; expected a scheme with substeps=1 here")
+        raise InputError(
+            f"scheme is {scheme!r}; expected a scheme with substeps=1 here (fit and identify_many have an argument "
+            "`substeps`)"
+        )
     return found
 
 
