@@ -13,7 +13,7 @@ from bench.python import engine
 from bench.rows import Findings, Progress
 from bench.timing import take_turns
 from probation import _core, batch
-from probation.law.history import make_history
+from probation.law.history import StrainHistory
 
 SOLVES = 10_000
 SCHEMES = (("be2", "bE2"), ("sa3", "SA3"))
@@ -74,5 +74,5 @@ def _batch(
     """Into an output that is used again: first touch of a new one costs more than computing it."""
     law = engine.law_of(case)
     out = np.empty((len(parameters), len(case.time))) if reused else None
-    history = make_history(case.time, case.true_strain)
+    history = StrainHistory(case.time, case.true_strain)
     return lambda: batch.stresses(law, parameters, history, scheme, threads=threads, out=out)

@@ -88,13 +88,14 @@ def _by_differences(case: cases.Case, measured: Array, stress: Callable[..., Arr
 
 def _engine(case: cases.Case, measured: Array) -> Callable[[], Array]:
     law = probation.Law(unrelaxed_modulus=START[0], tau_max=START[1], hardening_modulus=START[2])
-    options = {"scheme": "be2", "start": "backward_euler", "jumps": None}
+    history = probation.StrainHistory(case.time, case.true_strain, jumps=None)
+    scheme = probation.BE2(start="backward_euler")
 
     def residual(x: Array) -> Array:
-        return law.with_parameters(x).stress(case.time, case.true_strain, **options) - measured
+        return law.with_parameters(x).stress(history, scheme=scheme) - measured
 
     def jacobian(x: Array) -> Array:
-        return law.with_parameters(x).sensitivity(case.time, case.true_strain, **options)[1]
+        return law.with_parameters(x).sensitivity(history, scheme=scheme)[1]
 
     return lambda: _fit(residual, jacobian)
 
@@ -107,5 +108,5 @@ def _in_bulk(case: cases.Case, measured: Array, method: bulk.Method) -> Callable
     records[0] = measured
     strains = np.tile(case.true_strain, (RECORDS, 1))
     return lambda: bulk.identify_many(
-        law, case.time, strains, records, "be2", method=method, start="backward_euler", threads=1
+        law, case.time, strains, records, probation.BE2(start="backward_euler"), method=method, threads=1
     )

@@ -12,7 +12,7 @@ from bench.python import engine
 from bench.rows import Findings, Progress, Row
 from bench.timing import Timing, take_turns
 from probation import _core
-from probation.law.history import make_history
+from probation.law.history import StrainHistory
 
 
 def run(found: Findings, progress: Progress, quick: bool) -> None:
@@ -21,16 +21,16 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     case = cases.ramp()
     one_step = _first(case, 2)
     law, time, strain = engine.law_of(case), case.time, case.true_strain
-    history = make_history(time, strain)
+    history = StrainHistory(time, strain)
     calls = {
         "be2": engine.prepare(case, "be2"),
         "law_be2": engine.prepare_from_arrays(case, "be2"),
         "one step": engine.prepare(one_step, "be2"),
         "law, one step": engine.prepare_from_arrays(one_step, "be2"),
-        "history": lambda: make_history(time, strain),
+        "history": lambda: StrainHistory(time, strain),
         "find_rate_jumps": lambda: _core.History.find_rate_jumps(time, strain),
         "bare history": lambda: _core.History(time, strain),
-        "solver": lambda: _core.Solver(history),
+        "solver": lambda: _core.Solver(history.engine),
         "e_HT": lambda: _core.haward_thackray_strain(strain),
         "new law": lambda: law.with_parameters((3220.0, 5.2, 2.5)),
     }

@@ -7,8 +7,9 @@ import numpy as np
 import probation
 from bench.cases import COMPANION, Case
 from bench.spectrum import Array
-from probation import _core
+from probation import BE2, CVODE, SA2, SA3, Exact, _core
 from probation.law.change import engine_change
+from probation.law.schemes import make_solver
 
 
 def law_of(case: Case) -> probation.Law:
@@ -26,10 +27,15 @@ def law_of(case: Case) -> probation.Law:
     )
 
 
+SCHEMES = {each.name: each for each in (BE2, SA2, SA3, Exact, CVODE)}
+
+
 def solver_of(case: Case, scheme: str, **options: object) -> _core.Solver:
-    if case.alpha is not None:
-        options["strain_rate"] = case.strain_rate
-    return law_of(case).solver(case.time, case.true_strain, scheme, **options)
+    """The solver of a scheme with its `options`."""
+    rate = None if case.alpha is None else case.strain_rate
+    return make_solver(
+        probation.StrainHistory(case.time, case.true_strain, strain_rate=rate).engine, SCHEMES[scheme](**options)
+    )
 
 
 def prepare(case: Case, scheme: str, change: probation.Change | None = None, **options: object) -> Callable[[], Array]:
@@ -48,5 +54,7 @@ def prepare_from_arrays(case: Case, scheme: str) -> Callable[[], Array]:
     """`law.stress`: checks, history and solver made anew in every call."""
     law = law_of(case)
     if case.alpha is not None:
-        return lambda: law.stress(case.time, case.true_strain, scheme, strain_rate=case.strain_rate)
+        return lambda: law.stress(
+            probation.StrainHistory(case.time, case.true_strain, strain_rate=case.strain_rate), scheme=scheme
+        )
     return lambda: law.stress(case.time, case.true_strain, scheme)

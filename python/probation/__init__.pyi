@@ -25,10 +25,12 @@ from .inference.callable_law import CallableLaw
 from .law.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from .law.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from .law.creep import creep
+from .law.history import StrainHistory
 from .law.kinematics import haward_thackray_strain
 from .law.modal import Law, Spectrum
 from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
+from .law.schemes import BE2, CVODE, SA2, SA3, Exact
 from .records.campaign import Campaign
 from .records.preview import preview
 from .records.record import Noise, Record
@@ -38,6 +40,10 @@ from .simulation import Simulation, simulate
 from .smoothing.excitation import Excitation, excite
 
 __all__ = [
+    "BE2",
+    "CVODE",
+    "SA2",
+    "SA3",
     "BulkIdentification",
     "CalibratedCompanion",
     "Calibration",
@@ -50,6 +56,7 @@ __all__ = [
     "CrossCheck",
     "Diagnosis",
     "Direction",
+    "Exact",
     "Excitation",
     "Exponential",
     "Export",
@@ -69,6 +76,7 @@ __all__ = [
     "SelfHeating",
     "Simulation",
     "Spectrum",
+    "StrainHistory",
     "StressActivation",
     "Table",
     "Weissenberg",

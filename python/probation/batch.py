@@ -11,8 +11,9 @@ from probation import _core
 from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, kept_apart
 from probation.errors import InputError
 from probation.law.change import Change, engine_change
-from probation.law.history import Jumps, looks_for_jumps
-from probation.law.modal import Law, Scheme, Start, engine_law, make_solver, solver_options
+from probation.law.history import AnyHistory, Jumps, as_history, looks_for_jumps
+from probation.law.modal import Law, engine_law
+from probation.law.schemes import Scheme, SchemeName, at_samples, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,30 +27,29 @@ class Observed:
 
     Parameters
     ----------
-    history : History
-        From `probation.law.history.make_history`.
+    history : StrainHistory
     true_stress : array_like, shape (n_times,) [MPa]
     change : Change
         What an effect changes in the law along this record.
     """
 
-    history: _core.History
+    history: AnyHistory
     true_stress: ArrayLike
     change: Change = field(default_factory=Change)
 
     def _engine(self) -> _core.BatchRecord:
-        stress = as_samples(self.true_stress, "true_stress", len(self.history))
-        return _core.BatchRecord(self.history, stress, self.change._engine())
+        history = as_history(self.history)
+        stress = as_samples(self.true_stress, "true_stress", len(history))
+        return _core.BatchRecord(history.engine, stress, self.change._engine())
 
 
 def stresses(
     law: Law,
     parameters: ArrayLike,
-    history: _core.History,
-    scheme: Scheme = "be2",
+    history: AnyHistory,
+    scheme: Scheme | SchemeName = "be2",
     *,
     change: Change | None = None,
-    start: Start = "exponential",
     threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
@@ -61,8 +61,7 @@ def stresses(
         Gives the spectrum and the companion relation.
     parameters : array_like, shape (sets, 3)
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
-    history : History
-        From `probation.law.history.make_history`.
+    history : StrainHistory
     threads : int, optional
         All cores if left out.
     out : ndarray, shape (sets, n_times), optional
@@ -80,10 +79,17 @@ def stresses(
         Where a stress is not finite, with the set and the `time`.
     """
     sets = _as_parameters(parameters)
-    found = as_output(out, (len(sets), len(history)))
+    driven = as_history(history)
+    found = as_output(out, (len(sets), len(driven)))
     sets = kept_apart(sets, out)
     _core.batch_stress(
-        engine_law(law), sets, history, engine_change(change), solver_options(scheme, start), as_threads(threads), found
+        engine_law(law),
+        sets,
+        driven.engine,
+        engine_change(change),
+        at_samples(scheme).engine,
+        as_threads(threads),
+        found,
     )
     return found
 
@@ -93,9 +99,8 @@ def field_stresses(
     time: ArrayLike,
     true_strain: ArrayLike,
     parameters: ArrayLike | None = None,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     jumps: Jumps | None = "auto",
     threads: int | None = None,
     out: FloatArray | None = None,
@@ -110,7 +115,7 @@ def field_stresses(
         float32 or float64 with contiguous rows is read where it is.
     parameters : array_like, shape (pixels, 3), optional
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each pixel; the law's own if left out.
-    scheme, start, threads
+    scheme, threads
         As in `stresses`.
     jumps : "auto" or None
         Whether each pixel is searched for rate discontinuities.
@@ -135,7 +140,7 @@ def field_stresses(
     sets = law.parameters[None, :] if parameters is None else _as_parameters(parameters)
     found = as_output(out, strains.shape)
     times, strains, sets = kept_apart(times, out), kept_apart(strains, out), kept_apart(sets, out)
-    options = solver_options(scheme, start)
+    options = at_samples(scheme).engine
     _core.field_stress(engine, sets, times, strains, looks_for_jumps(jumps), options, as_threads(threads), found)
     return found
 
@@ -144,9 +149,8 @@ def sums_of_squares(
     law: Law,
     parameters: ArrayLike,
     records: Sequence[Observed],
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
@@ -154,7 +158,7 @@ def sums_of_squares(
 
     Parameters
     ----------
-    law, parameters, scheme, start, threads
+    law, parameters, scheme, threads
         As in `stresses`.
     records : sequence of Observed
     out : ndarray, shape (sets, records), optional
@@ -175,7 +179,7 @@ def sums_of_squares(
     sets = kept_apart(sets, out)
     engine_records = [record._engine() for record in records]
     _core.batch_sum_of_squares(
-        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), found
+        engine_law(law), sets, engine_records, at_samples(scheme).engine, as_threads(threads), found
     )
     return found
 
@@ -184,9 +188,8 @@ def many_normal_equations(
     law: Law,
     parameters: ArrayLike,
     records: Sequence[Observed],
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
-    start: Start = "exponential",
     threads: int | None = None,
     out: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -194,7 +197,7 @@ def many_normal_equations(
 
     Parameters
     ----------
-    law, parameters, records, scheme, start, threads
+    law, parameters, records, scheme, threads
         As in `sums_of_squares`.
     out : ndarray, shape (sets, records, 13), optional
         What the answer is a view of: J^T J by rows, J^T r, r^T r.
@@ -218,13 +221,13 @@ def many_normal_equations(
     engine_records = [record._engine() for record in records]
     rows = found.reshape(-1, 13)
     _core.batch_normal_equations(
-        engine_law(law), sets, engine_records, solver_options(scheme, start), as_threads(threads), rows
+        engine_law(law), sets, engine_records, at_samples(scheme).engine, as_threads(threads), rows
     )
     return found[..., :9].reshape(*found.shape[:2], 3, 3), found[..., 9:12], found[..., 12]
 
 
 def normal_equations(
-    law: Law, record: Observed, scheme: Scheme = "be2", *, start: Start = "exponential"
+    law: Law, record: Observed, scheme: Scheme | SchemeName = "be2"
 ) -> tuple[FloatArray, FloatArray, float]:
     """J^T J, J^T r and r^T r of the fit residual (model - data) along the law's parameters.
 
@@ -234,8 +237,9 @@ def normal_equations(
     gradient : ndarray, shape (3,)
     sum_of_squares : float [MPa^2]
     """
-    solver = make_solver(record.history, scheme, start)
-    stress = as_samples(record.true_stress, "true_stress", len(record.history))
+    history = as_history(record.history)
+    solver = make_solver(history.engine, scheme)
+    stress = as_samples(record.true_stress, "true_stress", len(history))
     return _core.normal_equations(solver, engine_law(law), record.change._engine(), stress)
 
 

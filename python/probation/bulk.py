@@ -15,7 +15,8 @@ from probation._arrays import FloatArray, Rows, as_number, as_rows, as_threads, 
 from probation.errors import InputError
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.history import Jumps, looks_for_jumps
-from probation.law.modal import DIFFERENTIABLE, Law, Scheme, Start, engine_law, engine_scheme
+from probation.law.modal import Law, engine_law
+from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 
 Method = Literal["variable-projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable-projection", "levenberg-marquardt")
@@ -80,13 +81,12 @@ def identify_many(
     time: ArrayLike,
     true_strain: ArrayLike,
     true_stress: ArrayLike,
-    scheme: Scheme = "sa3",
+    scheme: Scheme | SchemeName = "sa3",
     *,
     method: Method = "variable-projection",
     noise: ArrayLike | None = None,
     hold: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
-    start: Start = "exponential",
     jumps: Jumps | None = "auto",
     substeps: int = 1,
     threads: int | None = None,
@@ -107,7 +107,7 @@ def identify_many(
     true_stress : array_like, shape (n_samples,) or (records, n_samples) [MPa]
         These three in float32 or float64, rows contiguous, are read where they are; other types are copied. One row is
         shared by all records.
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
     method : {"variable-projection", "levenberg-marquardt"}
         Both find the same minimum, after the same coarse search over all of tau_max (or alpha).
     noise : array_like, optional
@@ -117,8 +117,6 @@ def identify_many(
         Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
     bounds : dict of str to (float, float), optional
         By name with unit; every parameter is positive in any case.
-    start : {"exponential", "backward_euler"}
-        bE2's first step.
     jumps : "auto" or None
         Whether each record is searched for rate discontinuities, as `Law.stress` does; at samples only.
     substeps : int
@@ -171,7 +169,7 @@ def identify_many(
         arrays["true_strain"],
         arrays["true_stress"],
         weights,
-        _options(law, scheme, method, held, {} if bounds is None else bounds, start, jumps, int(substeps)),
+        _options(law, scheme, method, held, {} if bounds is None else bounds, jumps, int(substeps)),
         as_threads(threads),
         answer.parameters,
         answer.standard_error,
@@ -198,11 +196,10 @@ def _law_with(law: Law, hold: Mapping[str, float]) -> tuple[_core.Law, Collectio
 
 def _options(
     law: Law,
-    scheme: Scheme,
+    scheme: Scheme | SchemeName,
     method: Method,
     held: Collection[str],
     bounds: Mapping[str, tuple[float, float]],
-    start: Start,
     jumps: Jumps | None,
     substeps: int,
 ) -> _core.IdentifyOptions:
@@ -218,7 +215,7 @@ def _options(
             raise InputError(f"bounds of {outside_name(name)} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {outside_name(name)}") for end in ends)
     return _core.IdentifyOptions(
-        *engine_scheme(scheme, start, DIFFERENTIABLE),
+        *at_samples(scheme, DIFFERENTIABLE).arguments[:2],
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace("-", "_")),
         [name in held for name in names],
         lower,

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation._arrays import one_of
 from probation.answers import json_answer
 from probation.law.answer import law_answer, law_from_answer
 from probation.law.creep import creep
-from probation.law.modal import SCHEMES, Law, Scheme, Start
+from probation.law.modal import Law
+from probation.law.schemes import Scheme, SchemeName, as_scheme
 from probation.provenance import samples_sha256
 from probation.results.reading import answer_in
 from probation.results.rendering import Plotted, rendered
@@ -114,11 +114,7 @@ class Simulation(Plotted):
 def simulate(
     law: Law,
     history: ImposedHistory,
-    scheme: Scheme = "be2",
-    *,
-    start: Start = "exponential",
-    relative_tolerance: float = 1e-10,
-    absolute_tolerance: float = 1e-10,
+    scheme: Scheme | SchemeName = "be2",
 ) -> Simulation:
     """Simulate a test.
 
@@ -127,12 +123,8 @@ def simulate(
     law : Law
     history : ImposedHistory
         From `named_history`, `read_history`, or made of arrays.
-    scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
+    scheme : {"be2", "sa2", "sa3", "exact", "cvode"}, `BE2`, `SA2`, `SA3`, `Exact` or `CVODE`
         As in `Law.stress`; creep is always solved by be2.
-    start : {"exponential", "backward_euler"}
-        bE2's first step.
-    relative_tolerance, absolute_tolerance : float [-], [MPa]
-        Of cvode.
 
     Returns
     -------
@@ -146,31 +138,27 @@ def simulate(
     ConvergenceError
         If CVODE fails.
     """
-    one_of(scheme, "scheme", SCHEMES)
-    jumps: Literal["auto"] | tuple[float, ...] | None = "auto" if history.jumps is None else history.jumps or None
+    chosen = as_scheme(scheme)
     if history.true_stress is not None:
         stress = history.true_stress
-        strain = creep(law, history.time, stress, start=start, jumps=jumps)
+        strain = creep(
+            law,
+            history.time,
+            stress,
+            start=chosen.start,
+            jumps="auto" if history.jumps is None else history.jumps or None,
+        )
     else:
         assert history.true_strain is not None
         strain = history.true_strain
-        stress = law.stress(
-            history.time,
-            strain,
-            scheme,
-            strain_rate=history.strain_rate,
-            start=start,
-            jumps=jumps,
-            relative_tolerance=relative_tolerance,
-            absolute_tolerance=absolute_tolerance,
-        )
+        stress = law.stress(history, scheme=chosen)
     rate = history.strain_rate if history.strain_rate is not None else np.diff(strain) / np.diff(history.time)
     extrapolation = None if law.companion is None else law.companion.extrapolation(rate)
     return Simulation(
         name=history.name,
         law=law,
-        scheme="be2" if history.true_stress is not None else scheme,
-        start=start,
+        scheme="be2" if history.true_stress is not None else chosen.name,
+        start=chosen.start,
         time=history.time,
         true_strain=strain,
         true_stress=stress,

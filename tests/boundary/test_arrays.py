@@ -1,15 +1,19 @@
 """What crosses into the engine, in which shape, and what is said when it does not fit."""
 
+import pickle
+
 import numpy as np
 import pytest
 
 import probation
 from probation import Change
+from probation.law.schemes import make_solver
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=9)
 TIME = np.arange(33) * 0.5
 STRAIN = np.round(0.01 * TIME * 2**20) / 2**20  # exact in float32 too
 STRESS = LAW.stress(TIME, STRAIN)
+HISTORY = probation.StrainHistory(TIME, STRAIN)
 
 
 @pytest.mark.parametrize(
@@ -88,9 +92,6 @@ def test_a_bad_history_is_named(scheme, time, strain, message):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"scheme": "rk4"}, r"scheme is 'rk4'; expected one of be2, sa2, sa3, exact, cvode"),
-        ({"scheme": None}, r"scheme is None"),
-        ({"start": "euler"}, r"start is 'euler'"),
         ({"jumps": "all"}, r"jumps is 'all'"),
         ({"jumps": 3.0}, r"jumps has the shape \(\)"),
         ({"jumps": [99.0]}, r"jumps holds a time outside the record, 0.0 to 16.0 s"),
@@ -99,19 +100,60 @@ def test_a_bad_history_is_named(scheme, time, strain, message):
         ({"strain_rate": np.full(33, np.nan)}, r"strain_rate\[0\] is nan"),
         ({"direction": np.ones(33)}, r"direction has 33 entries; expected one per step, 32"),
         ({"direction": np.full(32, np.nan)}, r"direction\[0\] is nan"),
-        ({"scheme": "cvode", "relative_tolerance": 0.0}, r"relative_tolerance"),
-        ({"scheme": "cvode", "relative_tolerance": np.inf}, r"relative_tolerance"),
-        ({"scheme": "cvode", "absolute_tolerance": -1.0}, r"absolute_tolerance"),
-        ({"relative_tolerance": "tight"}, r"relative_tolerance is 'tight'"),
-        ({"scheme": "cvode", "max_steps": 0}, r"max_steps must be at least 1"),
-        ({"max_steps": 2.5}, r"max_steps is 2.5"),
-        ({"max_steps": 10**30}, r"max_steps is 1000"),
-        ({"max_steps": True}, r"max_steps is True"),
     ],
 )
-def test_a_bad_option_is_named(options, message):
+def test_a_history_that_cannot_be_is_refused_when_it_is_made(options, message):
     with pytest.raises(probation.InputError, match=message):
-        LAW.stress(TIME, STRAIN, **options)
+        probation.StrainHistory(TIME, STRAIN, **options)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: LAW.stress(TIME, STRAIN, "rk4"), r"scheme is 'rk4'; expected one of be2, sa2, sa3, exact, cvode"),
+        (lambda: LAW.stress(TIME, STRAIN, None), r"scheme is None"),
+        (lambda: LAW.stress(TIME), r"true_strain is missing; expected time and true_strain, or a StrainHistory"),
+        (lambda: LAW.stress(HISTORY, "sa3"), r"true_strain is 'sa3' beside a StrainHistory"),
+        (
+            lambda: LAW.strain_sensitivity(HISTORY, scheme=probation.SA3(substeps=2)),
+            r"SA3\(substeps=2\); .* substeps=1",
+        ),
+        (lambda: LAW.sensitivity(HISTORY, scheme=probation.SA3(substeps=2), directions=[]), r"SA3\(substeps=2\)"),
+        (lambda: probation.fit(None, probation.SA3(substeps=2)), r"SA3\(substeps=2\)"),
+    ],
+)
+def test_a_call_that_does_not_fit_together_is_named(call, message):
+    with pytest.raises(probation.InputError, match=message):
+        call()
+
+
+@pytest.mark.parametrize(
+    ("scheme", "options", "message"),
+    [
+        (probation.BE2, {"start": "euler"}, r"start is 'euler'; expected one of exponential, backward_euler"),
+        (probation.SA3, {"substeps": 0}, r"substeps is 0; at least 1"),
+        (probation.SA3, {"substeps": 1.5}, r"substeps is 1.5"),
+        (probation.CVODE, {"relative_tolerance": 0.0}, r"relative_tolerance is 0.0; a positive number"),
+        (probation.CVODE, {"relative_tolerance": np.inf}, r"relative_tolerance is inf"),
+        (probation.CVODE, {"absolute_tolerance": -1.0}, r"absolute_tolerance is -1.0"),
+        (probation.CVODE, {"relative_tolerance": "tight"}, r"relative_tolerance is 'tight'"),
+        (probation.CVODE, {"max_steps": 0}, r"max_steps is 0; at least 1"),
+        (probation.CVODE, {"max_steps": 2.5}, r"max_steps is 2.5"),
+        (probation.CVODE, {"max_steps": 10**30}, r"max_steps is 1000"),
+        (probation.CVODE, {"max_steps": True}, r"max_steps is True"),
+    ],
+)
+def test_a_scheme_that_cannot_be_is_refused_when_it_is_made(scheme, options, message):
+    with pytest.raises(probation.InputError, match=message):
+        scheme(**options)
+
+
+@pytest.mark.parametrize("name", ["be2", "sa2", "sa3", "exact", "cvode"])
+def test_a_name_is_the_scheme_with_default_options(name):
+    scheme = {"be2": probation.BE2, "sa2": probation.SA2, "sa3": probation.SA3, "exact": probation.Exact,
+              "cvode": probation.CVODE}[name]()  # fmt: skip
+    assert np.array_equal(LAW.stress(TIME, STRAIN, scheme=scheme), LAW.stress(TIME, STRAIN, name))
+    assert pickle.loads(pickle.dumps(scheme)) == scheme
 
 
 @pytest.mark.parametrize(
@@ -198,7 +240,7 @@ def test_sensitivities_come_from_three_schemes_only(scheme):
 
 def test_a_failure_of_cvode_says_where_and_how_far():
     with pytest.raises(probation.ConvergenceError, match="CV_TOO_MUCH_WORK") as raised:
-        LAW.stress(TIME, STRAIN, "cvode", max_steps=1)
+        LAW.stress(TIME, STRAIN, probation.CVODE(max_steps=1))
     assert isinstance(raised.value, RuntimeError)
     assert not isinstance(raised.value, ValueError)
     assert 0.0 < raised.value.time < TIME[1]
@@ -207,12 +249,12 @@ def test_a_failure_of_cvode_says_where_and_how_far():
 
 def test_an_impossible_tolerance_fails_too():
     with pytest.raises(probation.ConvergenceError, match="CV_TOO_MUCH_ACC") as raised:
-        LAW.stress(TIME, STRAIN, "cvode", relative_tolerance=1e-300, absolute_tolerance=1e-300)
+        LAW.stress(TIME, STRAIN, probation.CVODE(relative_tolerance=1e-300, absolute_tolerance=1e-300))
     assert 0.0 <= raised.value.time < TIME[1]
 
 
 def test_a_solver_goes_on_after_a_failure():
-    solver = LAW.solver(TIME, STRAIN, "cvode", max_steps=1)
+    solver = make_solver(probation.StrainHistory(TIME, STRAIN).engine, probation.CVODE(max_steps=1))
     out = np.empty(33)
     change = Change()._engine()
     for _ in range(2):

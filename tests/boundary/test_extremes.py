@@ -69,7 +69,9 @@ def test_steps_that_grow_tenfold_are_survived(scheme):
     """BDF2 is unstable above 2.41 and starts afresh; the exact solution is near."""
     time = np.concatenate([[0.0], np.cumsum(10.0 ** np.repeat([-3, -2, -1, 0], 20))])
     base = law()
-    found, exact = (base.stress(time, 0.005 * time, s, jumps=None) for s in (scheme, "exact"))
+    found, exact = (
+        base.stress(probation.StrainHistory(time, 0.005 * time, jumps=None), scheme=s) for s in (scheme, "exact")
+    )
     assert np.abs(found - exact).max() < 0.5
 
 
@@ -108,7 +110,11 @@ def test_sa3_falls_back_where_reduced_time_would_run_backwards():
     time = np.arange(12) * 0.5
     factor = np.where(time < 2.4, 1e-3, 1.0)
     found = {
-        s: law(modes=4).stress(time, 0.01 * time, s, change=Change(relaxation_time_factor=factor), jumps=None)
+        s: law(modes=4).stress(
+            probation.StrainHistory(time, 0.01 * time, jumps=None),
+            scheme=s,
+            change=Change(relaxation_time_factor=factor),
+        )
         for s in ("sa2", "sa3", "exact")
     }
     assert np.abs(found["sa3"] - found["exact"]).max() < 0.5
@@ -121,8 +127,8 @@ def test_noise_against_the_command_sees_the_floor(direction):
     companion = probation.PowerLaw(1.0, -1.0, rate_floor=1e-6)  # tau = 1 / rate
     base = law(tau_max=None, companion=companion, modes=1, hardening_modulus=0.0)
     time, strain = np.array([0.0, 1.0, 2.0]), direction * np.array([0.0, 0.1, 0.08])
-    clipped = base.stress(time, strain, "exact", direction=[direction, direction])
-    modulus = base.stress(time, strain, "exact", direction=[0, 0])
+    clipped = base.stress(probation.StrainHistory(time, strain, direction=[direction, direction]), scheme="exact")
+    modulus = base.stress(probation.StrainHistory(time, strain, direction=[0, 0]), scheme="exact")
     first = 3220.0 * (1.0 - np.exp(-0.1))  # E_u rate tau (1 - e^(-t / tau)), rate tau = 1
     hold = first * np.exp(-1e-6) - 3220.0 * 0.02 * -np.expm1(-1e-6) / 1e-6
     seen = first * np.exp(-0.02) - 3220.0 * (1.0 - np.exp(-0.02))

@@ -9,6 +9,7 @@ import pytest
 
 import probation
 from probation import Change, SelfHeating
+from probation.law.schemes import make_solver
 from reference import paper
 
 TIME = np.linspace(0.0, 60.0, 3001)
@@ -55,7 +56,7 @@ def test_the_interpreter_goes_on_during_a_call(call):
     change = Change(extra_modulus=np.ones(400), extra_relaxation_time=np.geomspace(1e-3, 1e3, 400))
     n = {"stress": 201, "tangent": 1001, "strain_sensitivity": 401}[call]
     scheme = "cvode" if call == "stress" else "sa3"
-    solver = base.solver(TIME[:n] ** 1.01, STRAIN[:n], scheme)
+    solver = make_solver(probation.StrainHistory(TIME[:n] ** 1.01, STRAIN[:n]).engine, scheme)
     done = threading.Event()
     out, columns = np.empty(n), np.empty((n, 40))
     engine_change = change._engine()

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 import probation
 from probation import Change, Law, PowerLaw, Weissenberg, batch
 from probation.law.creep import creep
-from probation.law.history import make_history
+from probation.law.history import StrainHistory
 
 TIME = np.linspace(0.0, 100.0, 201)
 STRAIN = 0.005 * TIME
@@ -17,19 +17,19 @@ SETS = np.array([[3220.0, 5.2, 2.5], [3000.0, 6.0, 2.0], [3500.0, 4.0, 3.0]])
 
 @pytest.mark.parametrize("threads", [1, 2, None])
 def test_a_batch_is_many_single_solves(threads):
-    history = make_history(TIME, STRAIN)
+    history = StrainHistory(TIME, STRAIN)
     found = batch.stresses(LAW, SETS, history, "sa3", threads=threads)
     assert_allclose(found, [LAW.with_parameters(one).stress(TIME, STRAIN, "sa3") for one in SETS], rtol=1e-14)
 
 
 def test_a_batch_writes_where_it_is_told():
     out = np.empty((3, 201))
-    assert batch.stresses(LAW, SETS, make_history(TIME, STRAIN), out=out) is out
+    assert batch.stresses(LAW, SETS, StrainHistory(TIME, STRAIN), out=out) is out
 
 
 def test_what_an_output_shares_memory_with_is_read_first():
     """Every function with out=: parameters, times, strains that lie in the memory of the answer."""
-    history, records = make_history(TIME, STRAIN), [batch.Observed(make_history(TIME, STRAIN), 0.3 * TIME)]
+    history, records = StrainHistory(TIME, STRAIN), [batch.Observed(StrainHistory(TIME, STRAIN), 0.3 * TIME)]
     sets = np.tile(SETS, (7, 1)) * np.linspace(0.9, 1.1, 21)[:, None]
 
     def inside(out, values, offset=0):
@@ -72,7 +72,7 @@ def test_a_stress_may_be_written_over_its_own_times_or_strains(scheme):
 
 
 def test_sums_of_squares_are_those_of_the_stresses():
-    history, data = make_history(TIME, STRAIN), 0.3 * TIME
+    history, data = StrainHistory(TIME, STRAIN), 0.3 * TIME
     records = [batch.Observed(history, data), batch.Observed(history, data, Change(load_bearing_area=0.9))]
     found = batch.sums_of_squares(LAW, SETS, records)
     stress = batch.stresses(LAW, SETS, history)
@@ -82,7 +82,7 @@ def test_sums_of_squares_are_those_of_the_stresses():
 
 def test_normal_equations_are_those_of_the_sensitivities():
     data = 0.3 * TIME
-    matrix, gradient, squares = batch.normal_equations(LAW, batch.Observed(make_history(TIME, STRAIN), data))
+    matrix, gradient, squares = batch.normal_equations(LAW, batch.Observed(StrainHistory(TIME, STRAIN), data))
     stress, sensitivity = LAW.sensitivity(TIME, STRAIN)
     assert_allclose(matrix, sensitivity.T @ sensitivity, rtol=1e-10)
     assert_allclose(gradient, sensitivity.T @ (stress - data), rtol=1e-9)
@@ -93,7 +93,10 @@ def test_normal_equations_are_those_of_the_sensitivities():
 def test_the_stress_of_a_pixel_is_that_of_its_strain_alone(jumps):
     strains = np.array([STRAIN, np.minimum(STRAIN, 0.3)])
     found = batch.field_stresses(LAW, TIME, strains, SETS[1:], "sa3", jumps=jumps)
-    alone = [LAW.with_parameters(p).stress(TIME, e, "sa3", jumps=jumps) for p, e in zip(SETS[1:], strains, strict=True)]
+    alone = [
+        LAW.with_parameters(p).stress(probation.StrainHistory(TIME, e, jumps=jumps), scheme="sa3")
+        for p, e in zip(SETS[1:], strains, strict=True)
+    ]
     assert_allclose(found, alone, rtol=1e-12, atol=1e-12)
 
 
@@ -106,7 +109,7 @@ def test_a_field_refuses_what_is_no_law_and_jumps_of_one_record(law, jumps, name
 
 
 def test_a_bad_set_of_parameters_is_named():
-    history = make_history(TIME, STRAIN)
+    history = StrainHistory(TIME, STRAIN)
     with pytest.raises(probation.InputError, match="tau_max"):
         batch.stresses(LAW, [[3220.0, -1.0, 2.5]], history)
     with pytest.raises(probation.InputError, match=r"\(sets, 3\)"):
@@ -131,7 +134,7 @@ def test_the_strain_of_creep_carries_the_stress(law):
     time = np.linspace(0.0, 200.0, 401)
     stress = np.minimum(time, 20.0)
     strain = creep(law, time, stress, jumps=[20.0])
-    assert_allclose(law.stress(time, strain, jumps=[20.0]), stress, atol=1e-7)
+    assert_allclose(law.stress(probation.StrainHistory(time, strain, jumps=[20.0])), stress, atol=1e-7)
     assert np.all(np.diff(strain) > 0.0)
 
 

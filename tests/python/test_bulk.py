@@ -12,10 +12,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import BulkIdentification, Law, PowerLaw, Record, Weissenberg, bulk, identify_many
+from probation import BulkIdentification, Law, PowerLaw, Record, StrainHistory, Weissenberg, bulk, identify_many
 from probation.identify.covariance import covariance
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, first_guess
+from probation.law.schemes import make_solver
 from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
@@ -35,8 +36,8 @@ def by_scipy(law, time, strain, stress, scheme, held=(False, False, False)):
     Where the data hardly tell a parameter, that search stops a few 1e-6 short: a Gauss-Newton step takes it on.
     """
     record = Record("a", time, strain, stress, control="other")
-    prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme, "exponential", 1)
-    prepared = replace(prepared, solver=law.solver(time, strain, scheme), noise=1.0)
+    prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme)
+    prepared = replace(prepared, solver=make_solver(StrainHistory(time, strain).engine, scheme), noise=1.0)
     problem = Problem(law, [prepared], held)
     limits = dict.fromkeys(law.parameter_names, (0.0, np.inf))
     best = by_least_squares(problem, first_guess(problem, limits), limits)

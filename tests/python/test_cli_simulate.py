@@ -60,7 +60,9 @@ def test_given_rates_are_used(tmp_path):
     path.write_text("time_s,true_strain,strain_rate_per_s\n" + rows, encoding="utf-8")
     assert main(["simulate", str(path), "--scheme", "sa3", *LAW, "-o", str(out)]) == 0
     law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
-    assert (columns(out)[1][2] == law.stress(time, strain, "sa3", strain_rate=rate)).all()
+    assert (
+        columns(out)[1][2] == law.stress(probation.StrainHistory(time, strain, strain_rate=rate), scheme="sa3")
+    ).all()
 
 
 def test_modes_and_decades_can_be_set(history, tmp_path):
@@ -140,7 +142,9 @@ def test_creep_finds_the_strain_that_carries_the_stress(tmp_path):
     assert stress[-1] == 20.0
     assert (np.diff(strain) > 0).all()
     law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
-    np.testing.assert_allclose(law.stress(time, strain, "be2", jumps=[1.0]), stress, atol=1e-6)
+    np.testing.assert_allclose(
+        law.stress(probation.StrainHistory(time, strain, jumps=[1.0]), scheme="be2"), stress, atol=1e-6
+    )
 
 
 def test_histories_are_listed_with_units_and_defaults(capsys):

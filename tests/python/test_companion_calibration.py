@@ -40,7 +40,7 @@ def grips(seed=0, samples=400):
         fine = np.linspace(0.0, history.duration, 20 * (samples - 1) + 1)
         law = Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=RELATION)
         strain = history.true_strain(fine)
-        stress = law.stress(fine, strain, scheme="exact", jumps=None)[::20]
+        stress = law.stress(probation.StrainHistory(fine, strain, jumps=None), scheme="exact")[::20]
         stress = stress + 0.04 * np.random.default_rng([seed, number]).normal(size=samples)
         records.append(Record(f"grip-{number}", fine[::20], strain[::20], stress, control="displacement-rate"))
     return Campaign("grips", tuple(records))
@@ -270,16 +270,18 @@ def test_the_stress_band_is_that_of_moved_parameters(scheme):
     def stress(slope=0.0, intercept=0.0, modulus=0.0, alpha=1.0):
         relation = Weissenberg(TRUTH[0] + slope, TRUTH[1] + intercept)
         law = Law(unrelaxed_modulus=3220.0 + modulus, alpha=alpha, hardening_modulus=1.8, companion=relation)
-        return law.stress(time, strain, scheme, jumps=None)
+        return law.stress(probation.StrainHistory(time, strain, jumps=None), scheme=scheme)
 
     law = Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=RELATION)
     steps = {"slope": 1e-6, "intercept": 1e-6, "modulus": 0.1}
     moved = [(stress(**{n: d}) - stress(**{n: -d})) / (2 * d) for n, d in steps.items()]
     scattered = 0.02 * (stress(alpha=np.exp(1e-4)) - stress(alpha=np.exp(-1e-4))) / 2e-4
     expected = np.stack(moved, axis=1) @ covariance @ np.stack(moved)
-    factor = known.prediction_factor(law, time, strain, scheme, jumps=None, scatter=False)
+    factor = known.prediction_factor(
+        law, probation.StrainHistory(time, strain, jumps=None), scheme=scheme, scatter=False
+    )
     assert_allclose(factor @ factor.T, expected, atol=2e-5 * np.abs(expected).max())
-    se = known.prediction_se(law, time, strain, scheme, jumps=None)
+    se = known.prediction_se(law, probation.StrainHistory(time, strain, jumps=None), scheme=scheme)
     assert_allclose(se, np.sqrt(np.diag(expected) + scattered**2), rtol=1e-4, atol=1e-9)
 
 

@@ -8,9 +8,11 @@ import pytest
 
 import probation
 from probation.cli import main
+from probation.law.schemes import make_solver
 from probation.published.experiments import RAMP_LAW, experiment_1, experiment_3, twin_campaign
 from probation.records.record import Record
 from probation.report.crosscheck_page import sections
+from probation.schemes import candidates
 from probation.schemes.steps import observed_order
 
 
@@ -94,14 +96,12 @@ def test_on_a_rough_record_cvode_still_agrees_with_exact():
 def test_a_scheme_that_fails_is_told_and_the_others_go_on(monkeypatch):
     twin = experiment_3()
 
-    solver = probation.Law.solver
-
-    def refuse(law, time, true_strain, scheme, **options):
-        if scheme == "cvode" and len(time) == len(twin.time):  # not the finer reference of the study of steps
+    def refuse(history, scheme):
+        if scheme.name == "cvode" and len(history) == len(twin.time):  # not the finer reference of the study of steps
             raise probation.ConvergenceError("stopped at t = 3 s")
-        return solver(law, time, true_strain, scheme, **options)
+        return make_solver(history, scheme)
 
-    monkeypatch.setattr(probation.Law, "solver", refuse)
+    monkeypatch.setattr(candidates, "make_solver", refuse)
     answer = probation.crosscheck([twin.record()], twin.truth)
     assert schemes(answer, 0)["cvode"].failure == "stopped at t = 3 s"
     assert answer.verdict.startswith("All schemes but cvode, which failed, agree within")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from probation import Campaign, Law, Weissenberg, diagnose
+from probation.law.history import StrainHistory
 from probation.law.settings import LawSettings
 from probation.published.experiments import SAMPLES, experiment_2, experiment_3, necking_history, twin_campaign
 from probation_studies.paper.wavy_bias import drawn_wave
@@ -22,7 +23,7 @@ def record(number, necking, role, bias=0.0):
     """TRUTH along the strain history of experiment 2 or 3, by the exact scheme on 20 times finer a grid, with noise."""
     history = necking_history(number, necking)
     fine = np.linspace(0.0, history.duration, 20 * (SAMPLES - 1) + 1)
-    stress = TRUTH.stress(fine, history.true_strain(fine), scheme="exact", jumps=None)[::20]
+    stress = TRUTH.stress(StrainHistory(fine, history.true_strain(fine), jumps=None), scheme="exact")[::20]
     stress = stress + NOISE * np.random.default_rng([number, int(necking[1])]).standard_normal(SAMPLES)
     twin = (experiment_2 if number == 2 else experiment_3)(necking=necking)
     wave = drawn_wave(twin.true_strain, np.random.default_rng([7, number]))

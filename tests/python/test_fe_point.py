@@ -25,7 +25,7 @@ def test_one_dimension_is_the_laws_own_sa2_where_every_instant_is_a_jump():
     rises = np.r_[np.full(30, 0.004), np.full(30, 0.009), np.full(10, -0.002)]
     steps = np.r_[np.full(30, 4.0), np.full(30, 0.7), np.full(10, 1.0)]
     time, strain = np.r_[0.0, np.cumsum(steps)], np.r_[0.0, np.cumsum(rises)]
-    expected = LAW.stress(time, strain, scheme="sa2", jumps=time[1:-1])
+    expected = LAW.stress(probation.StrainHistory(time, strain, jumps=time[1:-1]), scheme="sa2")
     point = MaterialPoint.from_law(LAW, 2e4)
     state, found = None, [0.0]
     for rise, dt in zip(rises, steps, strict=True):

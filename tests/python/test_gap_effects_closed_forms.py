@@ -80,7 +80,7 @@ def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11
     values = (1.0 - change / math.log(10.0), change)
     found, _ = predicted(base, necking, "rate_dependent_relaxation", "weissenberg", values)
     rated = probation.Law(unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=WEISSENBERG_AS_PRINTED)
-    expected = rated.stress(necking.time, necking.true_strain, jumps=None)
+    expected = rated.stress(probation.StrainHistory(necking.time, necking.true_strain, jumps=None))
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
@@ -92,7 +92,10 @@ def test_with_a_companion_relation_its_slope_changes():
     other = probation.PowerLaw(0.03 * views[0].reference_rate ** 0.07, -0.97)
     expected = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=other)
     np.testing.assert_allclose(
-        found, expected.stress(necking.time, necking.true_strain, jumps=None), rtol=1e-10, atol=1e-10
+        found,
+        expected.stress(probation.StrainHistory(necking.time, necking.true_strain, jumps=None)),
+        rtol=1e-10,
+        atol=1e-10,
     )
 
 

@@ -103,3 +103,12 @@ def test_a_history_imposes_strain_or_stress_not_both():
         probation.ImposedHistory("odd", time, true_strain=time, true_stress=time)
     with pytest.raises(probation.InputError, match="true_strain has 2 samples"):
         probation.ImposedHistory("odd", time, true_strain=time[:2])
+
+
+def test_a_law_takes_a_named_history_as_it_is():
+    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
+    history = probation.named_history("load-unload")
+    expected = probation.simulate(law, history, probation.SA3()).true_stress
+    assert np.array_equal(law.stress(history, scheme="sa3"), expected)
+    with pytest.raises(probation.InputError, match="found an imposed stress, expected a strain history"):
+        law.stress(probation.named_history("creep"))

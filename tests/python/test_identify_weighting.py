@@ -65,8 +65,8 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
     """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
-    problem = RecordProblem.prepare(record, excitation, "sa3", "exponential")
-    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.start, problem.substeps).carried(LAW)
+    problem = RecordProblem.prepare(record, excitation, "sa3")
+    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.substeps).carried(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
     for at in range(100):
@@ -74,11 +74,13 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
         unit[at] = 1e-6
         sides = [
             LAW.stress(
-                record.time,
-                excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
-                "sa3",
-                strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
-                jumps=None,
+                probation.StrainHistory(
+                    record.time,
+                    excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
+                    strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
+                    jumps=None,
+                ),
+                scheme="sa3",
             )
             for sign in (1.0, -1.0)
         ]
@@ -91,9 +93,9 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
 def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evaluated(method):
     """d/d theta of r^T Sigma(theta)^-1 r by central differences."""
     record = ramp_record(strain_noise=1e-3, samples=100)
-    prepared = RecordProblem.prepare(record, excite(record, method), "sa3", "exponential")
+    prepared = RecordProblem.prepare(record, excite(record, method), "sa3")
     problem = Problem(LAW, [prepared], (False, False, False))
-    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.start, prepared.substeps),))
+    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.substeps),))
     problem.noises = [problem.noises[0].with_carried(weighted.strain[0].carried(LAW))]
     away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
     residual, jacobian = residual_and_jacobian(problem, away, weighted)

@@ -58,7 +58,7 @@ def test_feedbacks_are_values():
 
 def test_a_convergence_error_keeps_its_attributes_when_pickled():
     with pytest.raises(probation.ConvergenceError) as raised:
-        LAWS["constant"].stress(TIME, STRAIN, "cvode", max_steps=1)
+        LAWS["constant"].stress(TIME, STRAIN, probation.CVODE(max_steps=1))
     again = pickle.loads(pickle.dumps(raised.value))
     assert (again.time, again.residual_norm) == (raised.value.time, raised.value.residual_norm)
     assert str(again) == str(raised.value)
@@ -168,3 +168,51 @@ def test_a_spectrum_that_cannot_be_is_refused(ratio, weight, message):
 def test_a_feedback_that_cannot_be_is_refused(make, message):
     with pytest.raises(probation.InputError, match=message):
         make()
+
+
+# A history is an object or two arrays
+
+WAVY_TIME = np.linspace(0.0, 20.0, 41)
+WAVY_STRAIN = 0.02 * WAVY_TIME + 0.01 * np.sin(WAVY_TIME)
+
+
+@pytest.mark.parametrize("scheme", ["be2", "sa2", "sa3", "exact", "cvode"])
+def test_a_history_object_is_its_two_arrays(scheme):
+    law, history = LAWS["constant"], probation.StrainHistory(WAVY_TIME, WAVY_STRAIN)
+    assert np.array_equal(law.stress(history, scheme=scheme), law.stress(WAVY_TIME, WAVY_STRAIN, scheme=scheme))
+
+
+def test_a_history_object_keeps_what_it_was_made_of():
+    rate = np.gradient(WAVY_STRAIN, WAVY_TIME)
+    made = probation.StrainHistory(
+        WAVY_TIME, WAVY_STRAIN, strain_rate=rate, jumps=[WAVY_TIME[5]], direction=np.ones(len(WAVY_TIME) - 1)
+    )
+    for history in (made, pickle.loads(pickle.dumps(made))):
+        assert np.array_equal(history.time, WAVY_TIME)
+        assert np.array_equal(history.true_strain, WAVY_STRAIN)
+        assert np.array_equal(history.strain_rate, rate)
+        assert np.array_equal(history.direction, np.ones(len(WAVY_TIME) - 1))
+        assert history.jumps == (5,)
+
+
+@pytest.mark.parametrize("scheme", [probation.BE2, probation.SA2, probation.SA3])
+@pytest.mark.parametrize("rates", [False, True], ids=["lines", "cubics"])
+def test_substeps_are_steps_on_the_refined_history(scheme, rates):
+    law = LAWS["constant"]
+    wave = 1.0 + 0.1 * np.sin(np.linspace(0.0, 3.0, len(WAVY_TIME)))
+    rate = np.gradient(WAVY_STRAIN, WAVY_TIME) if rates else None
+    history = probation.StrainHistory(WAVY_TIME, WAVY_STRAIN, strain_rate=rate, jumps=None)
+    change = probation.Change(relaxation_time_factor=wave)
+    fine = history.refined(4)
+    finer = probation.Change(relaxation_time_factor=np.interp(fine.time, WAVY_TIME, wave))
+    expected = law.sensitivity(fine, scheme=scheme(), change=finer)
+    stress, sensitivity = law.sensitivity(history, scheme=scheme(substeps=4), change=change)
+    np.testing.assert_allclose(stress, expected[0][::4], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(sensitivity, expected[1][::4], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(law.stress(history, scheme=scheme(substeps=4), change=change), stress, rtol=1e-12)
+
+
+def test_substeps_bring_the_scheme_to_the_exact_answer():
+    law, exact = LAWS["constant"], LAWS["constant"].stress(WAVY_TIME, WAVY_STRAIN, "exact")
+    once, often = (np.abs(law.stress(WAVY_TIME, WAVY_STRAIN, probation.SA2(substeps=n)) - exact).max() for n in (1, 8))
+    assert often < 0.05 * once

@@ -114,6 +114,8 @@ def test_an_interruption_while_loading_shows_no_stack(seconds, tmp_path):
     status, told, _ = interrupted(["diagnose", str(tmp_path)], seconds, tmp_path)
     if status == 2:
         pytest.skip("a fast machine: it had ended")
+    if status == -signal.SIGINT and "probation" not in told:
+        pytest.skip("a slow machine: it was Python itself that started")
     assert status == 130
     assert told in ("", "probation: interrupted\n")
 

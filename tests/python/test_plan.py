@@ -138,7 +138,7 @@ def test_a_companion_relation_beyond_its_rates_is_warned_of():
 
 
 def test_the_example_of_the_documentation_prints_what_stands_below_it(capsys):
-    text = Path(__file__).parents[2].joinpath("docs", "isolability.md").read_text(encoding="utf-8")
+    text = Path(__file__).parents[2].joinpath("docs/isolability.md").read_text(encoding="utf-8")
     example, shown = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
     exec(example, {})
     assert " ".join(capsys.readouterr().out.split()).startswith(" ".join(shown.split()))

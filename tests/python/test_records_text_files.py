@@ -237,7 +237,7 @@ def test_a_heading_splits_into_name_and_unit(label, name, unit):
 def test_what_the_campaign_says_of_a_unit_wins_over_the_file_with_a_warning(read):
     record = read(table(), units={"true_stress": "kPa"})
     assert record.true_stress[-1] == pytest.approx(110.0 / 12.0 * 1e-3)
-    assert any("as told" in warning for warning in record.warnings)
+    assert any("as given" in warning for warning in record.warnings)
 
 
 def test_columns_may_be_chosen_by_position_where_there_are_no_headings(read):

@@ -49,7 +49,9 @@ def test_a_necking_history_that_cannot_be_is_refused():
 def test_the_response_is_that_of_cvode_to_the_noise_free_digit(number):
     """CVODE shares nothing with the exact scheme that makes the synthetic data."""
     twin = experiment(number, noise=0.0)
-    stress = twin.truth.stress(twin.time, twin.true_strain, "cvode", strain_rate=twin.strain_rate, jumps=None)
+    stress = twin.truth.stress(
+        probation.StrainHistory(twin.time, twin.true_strain, strain_rate=twin.strain_rate, jumps=None), scheme="cvode"
+    )
     np.testing.assert_allclose(twin.true_stress, stress, atol=2e-6)
 
 

@@ -50,8 +50,10 @@ def test_stress_is_linear_in_the_two_moduli(scheme, seed, E_u, G, tau, factor):
 def test_only_the_ratio_of_times_counts(scheme, seed, tau, factor):
     """Eq. (6) has no time of its own but tau_max."""
     time, strain = random_history(seed)
-    plain = law(3000.0, 2.0, tau).stress(time, strain, scheme, jumps=None)
-    scaled = law(3000.0, 2.0, tau * factor).stress(time * factor, strain, scheme, jumps=None)
+    plain = law(3000.0, 2.0, tau).stress(probation.StrainHistory(time, strain, jumps=None), scheme=scheme)
+    scaled = law(3000.0, 2.0, tau * factor).stress(
+        probation.StrainHistory(time * factor, strain, jumps=None), scheme=scheme
+    )
     assert_allclose(scaled, plain, rtol=0.0, atol=1e-9)
 
 
@@ -62,8 +64,8 @@ def test_at_a_constant_weissenberg_number_the_law_knows_no_rate(scheme, seed, nu
     time, strain = random_history(seed)
     strain = np.maximum.accumulate(strain) + 1e-3 * time  # no holds: the floor would be a time of its own
     base = law(3000.0, 2.0, None, companion=probation.PowerLaw(number, -1.0, rate_floor=1e-30))
-    plain = base.stress(time, strain, scheme, jumps=None)
-    scaled = base.stress(time * factor, strain, scheme, jumps=None)
+    plain = base.stress(probation.StrainHistory(time, strain, jumps=None), scheme=scheme)
+    scaled = base.stress(probation.StrainHistory(time * factor, strain, jumps=None), scheme=scheme)
     assert_allclose(scaled, plain, rtol=0.0, atol=1e-8)
 
 
@@ -97,7 +99,9 @@ def test_all_schemes_tell_the_same_story(seed, tau, with_companion):
     if with_companion:
         strain = strain + 0.05 * time  # rates of one sign
         base = law(1000.0, 2.0, None, companion=probation.Weissenberg(*paper.WEISSENBERG))
-    stress = {scheme: base.stress(time, strain, scheme, jumps=None) for scheme in SCHEMES}
+    stress = {
+        scheme: base.stress(probation.StrainHistory(time, strain, jumps=None), scheme=scheme) for scheme in SCHEMES
+    }
     for scheme in ("be2", "sa2", "exact"):
         assert np.abs(stress[scheme] - stress["sa3"])[200:].max() < 0.02
 
@@ -109,7 +113,9 @@ def test_the_past_does_not_answer_to_the_future(scheme, seed, tau):
     other = strain.copy()
     other[31:] += 0.1
     base = law(3000.0, 2.0, tau)
-    first, second = (base.stress(time, each, scheme, jumps=None) for each in (strain, other))
+    first, second = (
+        base.stress(probation.StrainHistory(time, each, jumps=None), scheme=scheme) for each in (strain, other)
+    )
     assert np.array_equal(first[:31], second[:31])
     assert (first[31:] != second[31:]).all()
 
@@ -119,5 +125,7 @@ def test_the_past_does_not_answer_to_the_future(scheme, seed, tau):
 def test_the_clock_may_start_anywhere(scheme, seed, tau, offset):
     time, strain = random_history(seed)
     base = law(3000.0, 2.0, tau)
-    plain, shifted = (base.stress(t, strain, scheme, jumps=None) for t in (time, time + offset))
+    plain, shifted = (
+        base.stress(probation.StrainHistory(t, strain, jumps=None), scheme=scheme) for t in (time, time + offset)
+    )
     assert_allclose(shifted, plain, rtol=0.0, atol=1e-6)

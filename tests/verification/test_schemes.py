@@ -11,6 +11,7 @@ from reference import literal, paper
 
 E_U, TAU, G = paper.E_U, paper.TAU_MAX, paper.G
 SCHEMES = ("be2", "sa2", "sa3", "exact", "cvode")
+PAPERS_BE2 = probation.BE2(start="backward_euler")
 
 
 def law(**changed):
@@ -31,7 +32,7 @@ def test_be2_is_literally_eq_9(start):
     """z-form and sigma-form differ by rounding alone: 1e-12 MPa where both are given the same rates."""
     time = np.linspace(0.0, 400.0, 2001) if start == "uniform" else paper.uneven(1500, 400.0)
     strain, rate = 0.005 * time, np.full(len(time), 0.005)
-    found = law().stress(time, strain, strain_rate=rate, start="backward_euler", jumps=None)
+    found = law().stress(probation.StrainHistory(time, strain, strain_rate=rate, jumps=None), scheme=PAPERS_BE2)
     assert_allclose(found, literal.be2(time, strain, E_U, G, TAU, rates=rate[1:]), rtol=0.0, atol=1e-12)
 
 
@@ -39,14 +40,14 @@ def test_be2_takes_the_three_point_backward_difference():
     """Strains are rounded: 1e-16 over h, times E_u tau, is 1e-12 MPa."""
     time = paper.uneven(500, 60.0)
     strain = paper.smooth_strain(time)
-    found = law().stress(time, strain, start="backward_euler", jumps=None)
+    found = law().stress(probation.StrainHistory(time, strain, jumps=None), scheme=PAPERS_BE2)
     assert_allclose(found, literal.be2(time, strain, E_U, G, TAU), rtol=0.0, atol=5e-12)
 
 
 def test_be2_restarts_as_the_paper_starts():
     time = np.arange(241) * 0.25
     strain = np.where(time < 30.0, 0.005 * time, 0.15 - 0.01 * (time - 30.0))
-    found = law().stress(time, strain, start="backward_euler", jumps=[30.0])
+    found = law().stress(probation.StrainHistory(time, strain, jumps=[30.0]), scheme=PAPERS_BE2)
     expected = literal.be2(time, strain, E_U, G, TAU, fresh={120})
     assert_allclose(found, expected, rtol=0.0, atol=5e-12)
 
@@ -57,7 +58,7 @@ def test_be2_starts_afresh_beyond_the_stable_ratio():
     time = np.concatenate([[0.0], np.cumsum(steps)])
     strain = paper.smooth_strain(time)
     rates = literal.backward_rates(time, strain)
-    found = law().stress(time, strain, start="backward_euler", jumps=None)
+    found = law().stress(probation.StrainHistory(time, strain, jumps=None), scheme=PAPERS_BE2)
     expected = literal.be2(time, strain, E_U, G, TAU, fresh={40, 100}, rates=rates)
     assert_allclose(found, expected, rtol=0.0, atol=5e-12)
 
@@ -69,7 +70,7 @@ def test_be2_uses_the_relaxation_time_at_the_end_of_the_step():
     rates = literal.backward_rates(time, strain)
     tau = 1.1 * (0.00464 * np.log10(rates) + 0.0367) / rates
     base = law(tau_max=None, alpha=1.1, companion=companion)
-    found = base.stress(time, strain, start="backward_euler", jumps=None)
+    found = base.stress(probation.StrainHistory(time, strain, jumps=None), scheme=PAPERS_BE2)
     assert_allclose(found, literal.be2(time, strain, E_U, G, tau), rtol=0.0, atol=5e-12)
 
 
@@ -79,7 +80,7 @@ def test_sa_schemes_are_literally_their_recursions(scheme, order, modes):
     """In q and s as docs/law.md writes them, coefficients in 40 digits; a jump, uneven steps."""
     time = np.concatenate([np.linspace(0.0, 6.0, 13), 6.0 + paper.uneven(30, 20.0)[1:]])
     strain = np.where(time < 6.0, 0.004 * time, 0.024 + paper.smooth_strain(time - 6.0))
-    found = law(modes=modes).stress(time, strain, scheme, jumps=[6.0])
+    found = law(modes=modes).stress(probation.StrainHistory(time, strain, jumps=[6.0]), scheme=scheme)
     expected = literal.sa(time, strain, E_U, G, TAU, order=order, modes=modes, fresh={12})
     assert_allclose(found, expected, rtol=0.0, atol=1e-12)
 
@@ -90,7 +91,7 @@ def test_sa_schemes_are_literally_their_recursions(scheme, order, modes):
 @pytest.mark.parametrize(("h", "error"), [(0.5, 0.58), (0.2, 0.18), (0.1, 0.07)])
 def test_the_papers_start_errs_as_physics_states(h, error):
     time, strain = experiment_1(h)
-    found = law().stress(time, strain, start="backward_euler") - probation.ramp_stress(law(), 0.005, time)
+    found = law().stress(time, strain, scheme=PAPERS_BE2) - probation.ramp_stress(law(), 0.005, time)
     assert np.abs(found).max() == pytest.approx(error, abs=0.006)
 
 
@@ -98,7 +99,10 @@ def test_the_papers_start_errs_as_physics_states(h, error):
 def test_the_exponential_start_is_about_five_times_better(h):
     time, strain = experiment_1(h)
     truth = probation.ramp_stress(law(), 0.005, time)
-    worst = {s: np.abs(law().stress(time, strain, start=s) - truth).max() for s in ("exponential", "backward_euler")}
+    worst = {
+        s: np.abs(law().stress(time, strain, scheme=probation.BE2(start=s)) - truth).max()
+        for s in ("exponential", "backward_euler")
+    }
     assert worst["exponential"] < 0.25 * worst["backward_euler"]
 
 
@@ -111,7 +115,7 @@ def test_sa3_keeps_its_error_on_the_ramp_of_the_performance_table():
 
 def test_cvode_keeps_its_error_on_the_ramp():
     time = np.linspace(0.0, 400.0, 2001)
-    found = law().stress(time, 0.005 * time, "cvode", relative_tolerance=1e-10)
+    found = law().stress(time, 0.005 * time, probation.CVODE(relative_tolerance=1e-10))
     assert_allclose(found, probation.ramp_stress(law(), 0.005, time), rtol=0.0, atol=1e-6)
 
 
@@ -131,7 +135,7 @@ def test_exact_is_the_closed_form_of_every_segment():
 
 def test_cvode_agrees_with_exact_on_segments():
     time, strain = several_segments()
-    found = law().stress(time, strain, "cvode", relative_tolerance=1e-10)
+    found = law().stress(time, strain, probation.CVODE(relative_tolerance=1e-10))
     assert_allclose(found, law().stress(time, strain, "exact"), rtol=0.0, atol=1e-6)
 
 
@@ -224,8 +228,8 @@ def changed_run(field, scheme, n, companion):
     if companion:
         relation = probation.Weissenberg(*paper.WEISSENBERG)
         base = law(modes=12, decades=4.0, tau_max=None, alpha=1.0, companion=relation)
-    tight = {"relative_tolerance": 1e-11, "absolute_tolerance": 1e-11}
-    stress = base.stress(time, strain, scheme, change=FIELDS[field](wave), jumps=[16.0], **tight)
+    tight = probation.CVODE(relative_tolerance=1e-11, absolute_tolerance=1e-11) if scheme == "cvode" else scheme
+    stress = base.stress(probation.StrainHistory(time, strain, jumps=[16.0]), scheme=tight, change=FIELDS[field](wave))
     return stress[:: n // 32]
 
 
@@ -303,6 +307,8 @@ def test_a_late_sample_does_not_change_what_was_before_it(scheme):
     time = np.append(0.0, np.cumsum(1e-6 * (1.0 + 0.3 * chance.uniform(-1.0, 1.0, 60))))
     strain = 0.3 * time / time[-1]
     law = probation.Law(unrelaxed_modulus=3000.0, tau_max=6e-5, hardening_modulus=2.0)
-    alone = law.stress(time, strain, scheme, jumps=None)
-    later = law.stress(np.append(time, 1e9), np.append(strain, strain[-1]), scheme, jumps=None)
+    alone = law.stress(probation.StrainHistory(time, strain, jumps=None), scheme=scheme)
+    later = law.stress(
+        probation.StrainHistory(np.append(time, 1e9), np.append(strain, strain[-1]), jumps=None), scheme=scheme
+    )
     assert_allclose(later[: len(alone) - 1], alone[:-1], rtol=1e-7)

@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Direction, PowerActivation, SelfHeating, StressActivation
+from probation import Change, Direction, PowerActivation, SelfHeating, StrainHistory, StressActivation
 from reference import literal, paper
 
 SCHEMES = ("be2", "sa2", "sa3")
@@ -80,13 +80,18 @@ companions = pytest.mark.parametrize("companion", [False, True], ids=["constant"
 def test_parameters_are_differentiated(scheme, feedback, companion, history):
     time, strain, options, _ = history
     base, change = law(companion), Change(feedbacks=feedback)
-    stress, found = base.sensitivity(time, strain, scheme, change=change, **options)
-    assert_allclose(stress, base.stress(time, strain, scheme, change=change, **options), rtol=1e-12, atol=1e-12)
+    stress, found = base.sensitivity(StrainHistory(time, strain, **options), scheme=scheme, change=change)
+    assert_allclose(
+        stress,
+        base.stress(StrainHistory(time, strain, **options), scheme=scheme, change=change),
+        rtol=1e-12,
+        atol=1e-12,
+    )
     for k, name in enumerate(base.parameter_names):
         value = getattr(base, name)
         expected = central(
             lambda d, name=name, value=value: replace(base, **{name: value + d}).stress(
-                time, strain, scheme, change=change, **options
+                StrainHistory(time, strain, **options), scheme=scheme, change=change
             ),
             1e-5 * value,
         )
@@ -103,11 +108,14 @@ def test_every_strain_sample_is_differentiated(scheme, feedback, companion, hist
     time, strain, options, rates = history
     options = options | ({"strain_rate": rates} if given_rate else {})
     base, change = law(companion), Change(feedbacks=feedback)
-    found = base.strain_sensitivity(time, strain, scheme, change=change, **options)
+    found = base.strain_sensitivity(StrainHistory(time, strain, **options), scheme=scheme, change=change)
     for k in range(0, len(time), 3):
         unit = np.eye(len(time))[k]
         expected = central(
-            lambda d, unit=unit: base.stress(time, strain + d * unit, scheme, change=change, **options), 2e-7
+            lambda d, unit=unit: base.stress(
+                StrainHistory(time, strain + d * unit, **options), scheme=scheme, change=change
+            ),
+            2e-7,
         )
         agree(found[:, k], expected, 1e-5)
 
@@ -118,7 +126,7 @@ def test_every_strain_sample_is_differentiated(scheme, feedback, companion, hist
 def test_no_stress_answers_to_a_later_strain(scheme, companion, history):
     """But for the central differences of sa2 and sa3, which see tau_max one sample ahead."""
     time, strain, options, _ = history
-    found = law(companion).strain_sensitivity(time, strain, scheme, **options)
+    found = law(companion).strain_sensitivity(StrainHistory(time, strain, **options), scheme=scheme)
     ahead = 2 if companion and scheme != "be2" else 1
     assert not np.triu(found, ahead).any()
     assert np.abs(np.diag(found)).min() > 0.0
@@ -135,16 +143,15 @@ def test_given_rates_are_differentiated(scheme, companion, feedback, history):
     base, change = law(companion), Change(feedbacks=feedback)
     towards = rng.standard_normal(len(time)) * 1e-3
     _, found = base.sensitivity(
-        time,
-        strain,
-        scheme,
+        StrainHistory(time, strain, strain_rate=rates, **options),
+        scheme=scheme,
         change=change,
-        strain_rate=rates,
         directions=[Direction(strain_rate=towards)],
-        **options,
     )
     expected = central(
-        lambda d: base.stress(time, strain, scheme, change=change, strain_rate=rates + d * towards, **options),
+        lambda d: base.stress(
+            StrainHistory(time, strain, strain_rate=rates + d * towards, **options), scheme=scheme, change=change
+        ),
         1e-4,
     )
     agree(found[:, 0], expected)
@@ -236,11 +243,13 @@ def test_every_field_of_a_direction_is_differentiated(scheme, feedback, companio
     n = len(time)
     base, change = law(companion), replace(changes(n)[changed], feedbacks=feedback)
     for name, direction in directions(n).items():
-        _, found = base.sensitivity(time, strain, scheme, change=change, directions=[direction], **options)
+        _, found = base.sensitivity(
+            StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[direction]
+        )
 
         def stress(d, direction=direction):
             moved_law, moved_change = moved(base, change, direction, d, strain[0])
-            return moved_law.stress(time, strain, scheme, change=moved_change, **options)
+            return moved_law.stress(StrainHistory(time, strain, **options), scheme=scheme, change=moved_change)
 
         try:
             agree(found[:, 0], central(stress, 1e-5), 3e-6)
@@ -258,7 +267,9 @@ def test_directions_add_up(scheme, start, feedback):
     every = fields["all at once"]
     alone = [fields[name] for name in vars(every) if name in fields]
     change = replace(changes(len(time))["plain"], initial_modal_stress=start, feedbacks=feedback)
-    _, found = law(True).sensitivity(time, strain, scheme, change=change, directions=[every, *alone], **options)
+    _, found = law(True).sensitivity(
+        StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[every, *alone]
+    )
     scale = np.abs(found).max()
     assert_allclose(found[:, 0], found[:, 1:].sum(axis=1), rtol=0.0, atol=1e-11 * scale)
 
@@ -275,9 +286,11 @@ def test_a_mode_of_weight_zero_has_a_tangent(scheme, feedback, start):
         Change(initial_modal_stress=start, feedbacks=feedback),
         Direction(modal_weight=[0.0, 1.0, 0.0]),
     )
-    _, found = base.sensitivity(time, strain, scheme, change=change, directions=[direction], **options)
+    _, found = base.sensitivity(
+        StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[direction]
+    )
     f = [
-        law.stress(time, strain, scheme, change=changed, **options)
+        law.stress(StrainHistory(time, strain, **options), scheme=scheme, change=changed)
         for law, changed in (moved(base, change, direction, d, strain[0]) for d in (0.0, 1e-4, 2e-4))
     ]
     agree(found[:, 0], (4.0 * f[1] - f[2] - 3.0 * f[0]) / 2e-4, 2e-6)
@@ -343,8 +356,13 @@ def test_feedback_parameters_are_differentiated(scheme, companion, history, para
 
     where = (0, 0) if parameter == 0 else (1, parameter - 1)
     direction = Direction(feedback=where[0], feedback_parameter=where[1])
-    _, found = base.sensitivity(time, strain, scheme, change=change(values), directions=[direction], **options)
+    _, found = base.sensitivity(
+        StrainHistory(time, strain, **options), scheme=scheme, change=change(values), directions=[direction]
+    )
     step = 1e-4 * values[parameter]
     moved = np.eye(5)[parameter]
-    expected = central(lambda d: base.stress(time, strain, scheme, change=change(values + d * moved), **options), step)
+    expected = central(
+        lambda d: base.stress(StrainHistory(time, strain, **options), scheme=scheme, change=change(values + d * moved)),
+        step,
+    )
     agree(found[:, 0], expected, 3e-6)

@@ -29,7 +29,7 @@ from probation.calibration.record_fits import (
 from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
-from probation.law.modal import SCHEMES, Scheme
+from probation.law.schemes import SCHEMES, SchemeName
 from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
 from probation.smoothing.excitation import excite
@@ -57,7 +57,7 @@ def calibrate_companion(
     route: Route = "auto",
     modulus: Modulus = "shared",
     hardening: Hardening = "by-record",
-    scheme: Scheme = "sa3",
+    scheme: SchemeName = "sa3",
     progress: Progress | None = None,
 ) -> Calibration:
     """Calibrate companion relations on tests at several strain rates.

@@ -14,13 +14,16 @@ from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
 from probation.law.change import Change, Direction
 from probation.law.companion import Companion, from_settings
-from probation.law.history import Jumps, make_history
+from probation.law.history import as_history
+from probation.law.schemes import as_scheme
 from probation.law.settings import COMPANION_FORMS, CompanionSettings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.history import AnyHistory
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme, SchemeName
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,15 +122,11 @@ class CalibratedCompanion:
     def prediction_factor(
         self,
         law: Law,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        time: ArrayLike | AnyHistory,
+        true_strain: ArrayLike | None = None,
+        scheme: Scheme | SchemeName = "be2",
         *,
-        strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
         scatter: bool = True,
     ) -> FloatArray:
         """What the uncertainty of the relation does to a predicted stress, as a factor L of its covariance L Lᵀ.
@@ -139,7 +138,7 @@ class CalibratedCompanion:
         ----------
         law : Law
             With this companion relation; any alpha.
-        time, true_strain, scheme, strain_rate, change, start, jumps, direction
+        time, true_strain, scheme, change
             As in `Law.sensitivity`.
         scatter : bool
             Whether the record is a new test, which scatters around the relation as a whole: one more column.
@@ -157,8 +156,9 @@ class CalibratedCompanion:
             raise InputError(f"law.companion is {law.companion}; expected the calibrated relation, {self.relation}")
         if self.covariance is None:
             raise InputError("the covariance of the companion relation is not known; calibrate it with standard errors")
-        history = make_history(time, true_strain, strain_rate=strain_rate, jumps=jumps, direction=direction)
-        gradient = self.log_gradient(seen_rates(history, scheme, self.relation.rate_floor, direction))
+        history = as_history(time, true_strain)
+        rates = seen_rates(history.engine, as_scheme(scheme).name, self.relation.rate_floor, history.direction)
+        gradient = self.log_gradient(rates)
         values, vectors = np.linalg.eigh(self.covariance)
         factor = vectors * np.sqrt(np.maximum(values, 0.0))
         count = gradient.shape[1]
@@ -171,30 +171,16 @@ class CalibratedCompanion:
         ]
         if scatter and self.log_scatter > 0.0:
             directions.append(Direction(log_relaxation_time=self.log_scatter))
-        return law.sensitivity(
-            time,
-            true_strain,
-            scheme,
-            directions=directions,
-            strain_rate=strain_rate,
-            change=change,
-            start=start,
-            jumps=jumps,
-            direction=direction,
-        )[1]
+        return law.sensitivity(history, scheme=scheme, directions=directions, change=change)[1]
 
     def prediction_se(
         self,
         law: Law,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        time: ArrayLike | AnyHistory,
+        true_strain: ArrayLike | None = None,
+        scheme: Scheme | SchemeName = "be2",
         *,
-        strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
         scatter: bool = True,
     ) -> FloatArray:
         """Standard error of a predicted stress that the uncertainty of the relation brings; see `prediction_factor`.
@@ -203,18 +189,7 @@ class CalibratedCompanion:
         -------
         ndarray, shape (n_times,) [MPa]
         """
-        factor = self.prediction_factor(
-            law,
-            time,
-            true_strain,
-            scheme,
-            strain_rate=strain_rate,
-            change=change,
-            start=start,
-            jumps=jumps,
-            direction=direction,
-            scatter=scatter,
-        )
+        factor = self.prediction_factor(law, time, true_strain, scheme, change=change, scatter=scatter)
         return np.asarray(np.sqrt(np.sum(factor**2, axis=1)))
 
     def settings(self) -> CompanionSettings:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from probation.calibration.forms import Form
     from probation.law.companion import Companion
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.law.settings import LawSettings
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
@@ -93,7 +93,7 @@ class DirectProblem:
         self,
         records: Sequence[Record],
         settings: LawSettings,
-        scheme: Scheme,
+        scheme: SchemeName,
         hardening: Hardening,
         excitations: Sequence[Excitation] | None = None,
         own_rms: Sequence[float] | None = None,
@@ -101,8 +101,7 @@ class DirectProblem:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
         driven = [excite(each) for each in records] if excitations is None else excitations
         self.records = [
-            RecordProblem.prepare(record, each, scheme, "exponential")
-            for record, each in zip(records, driven, strict=True)
+            RecordProblem.prepare(record, each, scheme) for record, each in zip(records, driven, strict=True)
         ]
         if own_rms is None:
             own_rms = [_own_rms(each, settings) for each in self.records]
@@ -152,7 +151,7 @@ class DirectProblem:
     def seen(self, at: int, floor: float) -> FloatArray:
         """Rates that the relation is asked for along one record, shape (n_times,) [1/s]."""
         each = self.records[at]
-        return seen_rates(each.solver.history, each.scheme, floor, each.excitation.direction)
+        return seen_rates(each.solver.history, each.scheme.name, floor, each.excitation.direction)
 
     def linear(self, at: int, form: Form, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Unit solves of one record, u (of E_u) and v (of G), and its derivatives of ln tau_max for each.
@@ -397,4 +396,4 @@ def thinned(each: RecordProblem, count: int) -> RecordProblem:
         jumps=tuple(np.searchsorted(kept, drive.jumps).tolist()),
         direction=drive.direction[kept[:-1]],
     )
-    return RecordProblem.prepare(record, excitation, each.scheme, each.start)
+    return RecordProblem.prepare(record, excitation, each.scheme)

@@ -17,6 +17,7 @@ from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_cova
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.inference.parameter import outside_name
+from probation.law.schemes import at_samples
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.certificate.prediction import Prediction
     from probation.identify.result import Fit
-    from probation.law.modal import Scheme, Start
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
     from probation.records.record import Record
     from probation.smoothing.methods import Method as ExcitationMethod
@@ -41,12 +42,11 @@ TOLERANCE = 0.05
 
 def certify(
     campaign: Campaign,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
     tolerance: float = TOLERANCE,
     hold: Mapping[str, float] | None = None,
     excitation: ExcitationMethod = "auto",
-    start: Start = "exponential",
     progress: Callable[[float], None] | None = None,
 ) -> Certificate:
     """Put the law on probation, to see whether it is intrinsic to the material.
@@ -62,12 +62,12 @@ def certify(
     ----------
     campaign : Campaign
         Two records at least.
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
     tolerance : float
         Systematic error that is let pass, as a fraction of the record's largest stress.
     hold : dict of str to float, optional
         Parameters held, by name with unit; on top of the campaign's own.
-    excitation, start
+    excitation
         As in `probation.fit`.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
@@ -94,7 +94,7 @@ def certify(
         )
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
-    trial = Trial(campaign, scheme, start, excitation)
+    trial = Trial(campaign, at_samples(scheme), excitation)
     records = campaign.records
     rated = campaign.law.companion is not None
     total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)

@@ -10,6 +10,7 @@ import numpy as np
 from probation.certificate.trial import companion_factor, free_parameters
 from probation.identify.modelled_record import ModelledRecord
 from probation.identify.problem import RecordProblem
+from probation.law.schemes import scheme_of
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def predict(
     relation : CalibratedCompanion, optional
         What is known of the law's companion relation.
     """
-    problem = RecordProblem.prepare(record, excite(record, method), base.scheme, base.start, base.substeps)
+    problem = RecordProblem.prepare(record, excite(record, method), scheme_of(base.scheme, base.start), base.substeps)
     stress, sensitivity = problem.sensitivity(base.law)
     slopes = sensitivity[:, free_parameters(base)]
     variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)

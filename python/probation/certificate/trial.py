@@ -12,6 +12,7 @@ from probation.certificate.consistency import Estimate
 from probation.identify.fit import fit
 from probation.identify.given import given
 from probation.inference.parameter import WEAKLY, outside_name
+from probation.law.schemes import scheme_of
 from probation.records.campaign import Campaign
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.identify.result import Fit
-    from probation.law.modal import Scheme, Start
+    from probation.law.schemes import Scheme
     from probation.law.settings import LawSettings
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
@@ -39,13 +40,13 @@ class Trial:
     ----------
     campaign : Campaign
         Whose law is on trial.
-    scheme, start, excitation : str
+    scheme : Scheme
+    excitation : str
         As in `probation.fit`.
     """
 
     campaign: Campaign
     scheme: Scheme
-    start: Start
     excitation: ExcitationMethod
 
     @property
@@ -56,7 +57,7 @@ class Trial:
     def base(self) -> Fit:
         """The law on the records with role "identify": identified, or as it is given."""
         if self.all_given:
-            return given(self.campaign, self.scheme, excitation=self.excitation, start=self.start)
+            return given(self.campaign, self.scheme, excitation=self.excitation)
         return self.fit(self.campaign.identify)
 
     def fit(self, records: Iterable[Record], law: LawSettings | None = None) -> Fit:
@@ -68,7 +69,6 @@ class Trial:
             self.scheme,
             method="variable-projection",
             excitation=self.excitation,
-            start=self.start,
         )
 
     def holding(self, base: Fit, names: Iterable[str]) -> LawSettings:
@@ -89,18 +89,7 @@ def companion_factor(found: Fit, excitation: Excitation, relation: CalibratedCom
     """
     if relation is None:
         return np.zeros((len(excitation.time), 0))
-    jumps = excitation.time[list(excitation.jumps)] if excitation.jumps else None
-    return relation.prediction_factor(
-        found.law,
-        excitation.time,
-        excitation.true_strain,
-        found.scheme,
-        strain_rate=excitation.strain_rate,
-        start=found.start,
-        jumps=jumps,
-        direction=excitation.direction,
-        scatter=False,
-    )
+    return relation.prediction_factor(found.law, excitation, scheme=scheme_of(found.scheme, found.start), scatter=False)
 
 
 def estimates(

@@ -8,6 +8,7 @@ from probation.commands.campaign_options import add_campaign, add_control, campa
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_start, add_substeps
+from probation.law.schemes import scheme_of
 from probation.smoothing.methods import METHODS as EXCITATIONS
 
 NAME = "fit"
@@ -71,11 +72,10 @@ def run(options: argparse.Namespace) -> int:
     with shown(f"identifying on {campaign.name}") as advance:
         answer = fit(
             campaign,
-            options.scheme,
+            scheme_of(options.scheme, options.start),
             method=options.method,
             hold=held,
             excitation=options.excitation,
-            start=options.start,
             substeps=options.substeps,
             weighting=options.weighting,
             intervals=options.intervals,

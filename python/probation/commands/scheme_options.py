@@ -6,16 +6,16 @@ import argparse
 from typing import TYPE_CHECKING, Literal
 
 from probation.answers import PARAMETER_KEYS
-from probation.law.modal import DIFFERENTIABLE
+from probation.law.schemes import DIFFERENTIABLE, STARTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
 
 
 def add_scheme(
-    parser: argparse._ActionsContainer, default: Scheme = "be2", choices: Sequence[Scheme] = DIFFERENTIABLE
+    parser: argparse._ActionsContainer, default: SchemeName = "be2", choices: Sequence[SchemeName] = DIFFERENTIABLE
 ) -> None:
     """Add ``--scheme``."""
     parser.add_argument("--scheme", choices=choices, default=default, help=f"time integration ({default})")
@@ -44,7 +44,7 @@ def add_start(parser: argparse._ActionsContainer) -> None:
     """Add ``--start``."""
     parser.add_argument(
         "--start",
-        choices=("exponential", "backward_euler"),
+        choices=STARTS,
         default="exponential",
         help="be2's first step; the paper's is backward_euler",
     )

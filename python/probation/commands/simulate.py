@@ -17,7 +17,7 @@ from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.scheme_options import add_scheme, add_start
 from probation.commands.streams import put
 from probation.errors import InputError
-from probation.law.modal import SCHEMES
+from probation.law.schemes import CVODE, SCHEMES, Scheme, scheme_of
 
 if TYPE_CHECKING:
     from probation.histories import ImposedHistory
@@ -83,10 +83,7 @@ def run(options: argparse.Namespace) -> int:
     simulation = simulate(
         law_from_options(options),
         history,
-        options.scheme,
-        start=options.start,
-        relative_tolerance=options.tolerance,
-        absolute_tolerance=options.tolerance,
+        _scheme(options),
     )
     for warning in simulation.warnings:
         warn(warning)
@@ -96,6 +93,12 @@ def run(options: argparse.Namespace) -> int:
         [text_output("CSV", options.output, simulation.to_csv), *usual_outputs(simulation, options)],
     )
     return 0
+
+
+def _scheme(options: argparse.Namespace) -> Scheme:
+    if options.scheme == "cvode":
+        return CVODE(relative_tolerance=options.tolerance, absolute_tolerance=options.tolerance)
+    return scheme_of(options.scheme, options.start)
 
 
 def _history(options: argparse.Namespace) -> ImposedHistory:

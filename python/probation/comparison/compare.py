@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.comparison.result import Verdict
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 
 NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
@@ -50,7 +50,7 @@ Z95 = 1.959963984540054
 def compare(
     campaign: Campaign,
     against: Campaign | Reference,
-    scheme: Scheme = "sa3",
+    scheme: SchemeName = "sa3",
     *,
     pairs: Mapping[str, str | Sequence[str]] | None = None,
     effects: Iterable[str] | None = None,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation.comparison.measured_law import Branch
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
 
@@ -43,13 +43,13 @@ class Reference:
     """
 
     campaign: Campaign
-    scheme: Scheme
+    scheme: SchemeName
     law: DnlrLaw
     branches: Mapping[str, tuple[Branch, ...]]
     noises: Mapping[str, NoiseModel]
 
     @classmethod
-    def of(cls, campaign: Campaign, scheme: Scheme = "sa3") -> Reference:
+    def of(cls, campaign: Campaign, scheme: SchemeName = "sa3") -> Reference:
         """Fit the law to all records of a campaign and keep what it leaves.
 
         Parameters

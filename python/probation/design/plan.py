@@ -21,7 +21,8 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.inference.parameter import UNITS, outside_name
 from probation.law.answer import law_answer
-from probation.law.modal import Scheme, engine_law
+from probation.law.modal import engine_law
+from probation.law.schemes import SchemeName
 from probation.records.campaign import Campaign
 from probation.results.rendering import Plotted, Summarised, rendered
 
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
 
-SCHEME: Scheme = "sa3"
+SCHEME: SchemeName = "sa3"
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ class Plan(Summarised, Plotted):
     """
 
     law: Law
-    scheme: Scheme
+    scheme: SchemeName
     tests: tuple[PlannedTest, ...]
     parameters: dict[str, Parameter]
     product: Parameter

@@ -17,7 +17,8 @@ from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.law.modal import Law, Scheme
+    from probation.law.modal import Law
+    from probation.law.schemes import SchemeName
     from probation.smoothing.excitation import Excitation
 
 DRAWS = 5
@@ -109,7 +110,7 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
     )
 
 
-def propagated(excitation: Excitation, law: Law, scheme: Scheme) -> FloatArray:
+def propagated(excitation: Excitation, law: Law, scheme: SchemeName) -> FloatArray:
     """Factor A of the stress covariance A A^T that the noise of the strain makes, (n_samples, n_directions) [MPa]."""
     if not excitation.strain_noise:
         return np.zeros((len(excitation.time), 0))

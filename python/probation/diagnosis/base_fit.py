@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from probation.identify.result import Fit
     from probation.inference.protocol import GapLaw
     from probation.inference.screen import Column
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
     from probation.records.campaign import Campaign
@@ -126,7 +126,7 @@ class BaseFit:
         return Whitener(self.whitened.noises)
 
 
-def base_fit(campaign: Campaign, scheme: Scheme = "sa3", hold: Mapping[str, float] | None = None) -> BaseFit:
+def base_fit(campaign: Campaign, scheme: SchemeName = "sa3", hold: Mapping[str, float] | None = None) -> BaseFit:
     """Fit the engine's law to the identify records of a campaign.
 
     Parameters
@@ -206,7 +206,7 @@ def _local_noise_variance(residual: FloatArray) -> FloatArray:
     return np.asarray(np.maximum(power, QUIETEST * float(np.mean(power)) + 1e-300), dtype=np.float64)
 
 
-def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme = "sa3") -> BaseFit:
+def fit_law(law: GapLaw, campaign: Campaign, scheme: SchemeName = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=scheme)

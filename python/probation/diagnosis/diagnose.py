@@ -46,18 +46,18 @@ if TYPE_CHECKING:
     from probation.diagnosis.result import Checks
     from probation.effects.effect import Effect
     from probation.inference.protocol import GapLaw
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 
 RECONSIDERED = 16
 """Hypotheses that are judged again once the noise is estimated jointly with the best one."""
 
-SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
+SCHEMES: tuple[SchemeName, ...] = ("be2", "sa2", "sa3")
 
 
 def diagnose(
     campaign: Campaign,
-    scheme: Scheme = "sa3",
+    scheme: SchemeName = "sa3",
     *,
     effects: Iterable[str] | None = None,
     hold: Mapping[str, float] | None = None,

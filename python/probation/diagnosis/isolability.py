@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from probation.design.isolability import Isolability
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 
 
@@ -48,7 +48,7 @@ class CampaignIsolability(Result):
 
 def campaign_isolability(
     campaign: Campaign,
-    scheme: Scheme = "sa3",
+    scheme: SchemeName = "sa3",
     *,
     hold: Mapping[str, float] | None = None,
     effects: Iterable[str] | None = None,

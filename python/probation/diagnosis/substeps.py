@@ -57,12 +57,5 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
 def predicted(found: Fit, excitation: Excitation, substeps: int) -> FloatArray:
     """The fitted law's stress at the samples, shape (n_samples,) [MPa]."""
     fine = excitation.refined(substeps)
-    stress = found.law.stress(
-        fine.time,
-        fine.true_strain,
-        scheme=found.scheme,
-        strain_rate=fine.strain_rate,
-        jumps=fine.time[list(fine.jumps)] if fine.jumps else None,
-        direction=fine.direction,
-    )
+    stress = found.law.stress(fine, scheme=found.scheme)
     return np.asarray(stress[::substeps])

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.law.modal import Scheme
+    from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
@@ -74,7 +74,7 @@ class RecordView:
     direction: FloatArray
     data: FloatArray
     stride: int
-    scheme: Scheme
+    scheme: SchemeName
     temperature: FloatArray | None
     index: int
     count: int
@@ -180,7 +180,7 @@ def view_of(
     index: int = 0,
     count: int = 1,
     reference_rate: float,
-    scheme: Scheme = "be2",
+    scheme: SchemeName = "be2",
     substeps: int = 1,
 ) -> RecordView:
     """The view of one record.
@@ -220,7 +220,7 @@ def views_of(
     campaign: Campaign,
     *,
     excitations: Mapping[str, Excitation] | None = None,
-    scheme: Scheme = "be2",
+    scheme: SchemeName = "be2",
     substeps: int = 1,
 ) -> tuple[RecordView, ...]:
     """Views of all records of a campaign, held-out ones too, in its order.

@@ -22,7 +22,8 @@ from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, read_run
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.answer import law_answer
-from probation.law.modal import DIFFERENTIABLE, Law
+from probation.law.modal import Law
+from probation.law.schemes import DIFFERENTIABLE
 from probation.origin import commit
 from probation.pool import WorkersLostError, run_all
 

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from probation.bulk import Method
     from probation.field.samples import BoolArray, IndexArray
     from probation.field.source import Samples
-    from probation.law.modal import Law, Scheme
+    from probation.law.modal import Law
+    from probation.law.schemes import SchemeName
 
 
 Substeps: TypeAlias = int | Literal["auto"]
@@ -50,7 +51,7 @@ class Way:
     """
 
     law: Law
-    scheme: Scheme
+    scheme: SchemeName
     method: Method
     held: tuple[str, ...]
     smoothing: bool

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation._arrays import as_samples
 from probation.errors import InputError
+from probation.law.history import StrainHistory
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -46,6 +47,19 @@ class ImposedHistory:
         for name in ("true_strain", "true_stress", "strain_rate"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, as_samples(getattr(self, name), name, len(time)))
+
+    def strain_history(self) -> StrainHistory:
+        """The same as `Law.stress` takes it.
+
+        Raises
+        ------
+        InputError
+            If the stress is imposed.
+        """
+        if self.true_strain is None:
+            raise InputError(f"{self.name}: found an imposed stress, expected a strain history; creep takes it")
+        jumps = "auto" if self.jumps is None else self.jumps or None
+        return StrainHistory(self.time, self.true_strain, strain_rate=self.strain_rate, jumps=jumps)
 
     def __len__(self) -> int:
         return len(self.time)

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
     from probation.identify.weighting import Weighted, Weighting
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme
     from probation.records.campaign import Campaign
 
 LIKELY_MODULI = (1e-3, 1e6)
@@ -39,7 +40,6 @@ def describe(
     problem: Problem,
     weighted: Weighted,
     scheme: Scheme,
-    start: Start,
     method: Method,
     weighting: Weighting,
     limits: Mapping[str, tuple[float, float]],
@@ -54,7 +54,8 @@ def describe(
         Its noise models are those of the law.
     weighted : Weighted
         The law, and how the residual was weighed.
-    scheme, start, method, weighting, intervals : str
+    scheme : Scheme
+    method, weighting, intervals : str
         As the fit was asked for.
     limits : mapping of str to (float, float)
         Bounds of the parameters.
@@ -96,8 +97,8 @@ def describe(
     return Fit(
         campaign=campaign.name,
         law=law,
-        scheme=scheme,
-        start=start,
+        scheme=scheme.name,
+        start=scheme.start,
         substeps=problem.records[0].substeps,
         method=method,
         weighting=_used(weighting, problem, weighted),

@@ -17,8 +17,9 @@ from probation.identify.search import by_least_squares, by_simplex, first_guess,
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.companion import from_settings
-from probation.law.modal import SCHEMES, Law, Scheme, Start
+from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
+from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -33,13 +34,12 @@ START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_m
 
 def fit(
     campaign: Campaign,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
     method: Method = "least-squares",
     hold: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     excitation: ExcitationMethod = "auto",
-    start: Start = "exponential",
     substeps: int | Literal["auto"] = "auto",
     weighting: Weighting = "auto",
     intervals: Intervals = "standard-error",
@@ -50,8 +50,8 @@ def fit(
     Parameters
     ----------
     campaign : Campaign
-    scheme : {"be2", "sa2", "sa3"}
-        The schemes that have sensitivities.
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        The schemes that have sensitivities. How many steps it takes is `substeps`.
     method : {"least-squares", "variable-projection", "simplex"}
         All find the same minimum; least-squares is the default.
     hold : dict of str to float, optional
@@ -60,8 +60,6 @@ def fit(
         By name with unit; every parameter is positive in any case.
     excitation : str
         Whether, and how, the strain is smoothed, one of `excitation.METHODS`: "auto" does so where it is noisy.
-    start : {"exponential", "backward_euler"}
-        bE2's first step.
     substeps : int or "auto"
         Steps of the scheme from sample to sample. 1 is the paper's; "auto" takes as many as it needs for its own error
         to shift no parameter by more than a tenth of its standard error, up to 16 (more on short records).
@@ -86,11 +84,11 @@ def fit(
     InputError
         For an unknown name, a bound that is not possible, or nothing left to identify.
     """
-    one_of(scheme, "scheme", SCHEMES)
+    chosen = at_samples(scheme)
     one_of(method, "method", METHODS)
     one_of(weighting, "weighting", WEIGHTINGS)
     one_of(intervals, "intervals", INTERVALS)
-    if scheme in ("exact", "cvode"):
+    if chosen.name not in DIFFERENTIABLE:
         raise InputError(f"scheme is {scheme!r}; identification needs sensitivities: use be2, sa2 or sa3")
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
@@ -99,7 +97,7 @@ def fit(
     prepared = []
     for index, record in enumerate(campaign.identify):
         steps = 1 if substeps == "auto" else substeps
-        prepared.append(RecordProblem.prepare(record, excite(record, excitation), scheme, start, steps))
+        prepared.append(RecordProblem.prepare(record, excite(record, excitation), chosen, steps))
         if progress:
             progress(0.3 * (index + 1) / len(campaign.identify))
     problem = Problem(law, prepared, held)
@@ -109,7 +107,7 @@ def fit(
             "identify; probation certify predicts with a law that is given"
         )
     searched = {**limits, law.parameter_names[1]: search_range(problem, limits)}
-    adapting = substeps == "auto" and scheme != "sa3"
+    adapting = substeps == "auto" and chosen.name != "sa3"
     told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
     best = _least_squares(problem, prepared, method, searched, adapting, told)
     weighted = plainly(problem, best)
@@ -119,7 +117,7 @@ def fit(
             weighted = _with_more_substeps(problem, weighted, weighting, searched, excitation)
     if progress:
         progress(0.9)
-    found = describe(campaign, problem, weighted, scheme, start, method, weighting, limits, intervals)
+    found = describe(campaign, problem, weighted, chosen, method, weighting, limits, intervals)
     if progress:
         progress(1.0)
     return found

@@ -9,21 +9,21 @@ from probation.identify.describe import describe
 from probation.identify.fit import base_law
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.weighting import plainly
+from probation.law.schemes import at_samples
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from probation.identify.result import Fit
-    from probation.law.modal import Scheme, Start
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
     from probation.smoothing.methods import Method as ExcitationMethod
 
 
 def given(
     campaign: Campaign,
-    scheme: Scheme = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
     excitation: ExcitationMethod = "auto",
-    start: Start = "exponential",
 ) -> Fit:
     """The campaign's law as it is, beside the records with role "identify".
 
@@ -31,7 +31,7 @@ def given(
     ----------
     campaign : Campaign
         Its `law.fixed` holds every parameter.
-    scheme, excitation, start
+    scheme, excitation
         As in `probation.fit`.
 
     Raises
@@ -42,10 +42,9 @@ def given(
     law, held = base_law(campaign, {})
     if not all(held):
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
-    prepared = [
-        RecordProblem.prepare(record, excite(record, excitation), scheme, start) for record in campaign.identify
-    ]
+    chosen = at_samples(scheme)
+    prepared = [RecordProblem.prepare(record, excite(record, excitation), chosen) for record in campaign.identify]
     problem = Problem(law, prepared, held)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))
     weighted = plainly(problem, law)
-    return describe(campaign, problem, weighted, scheme, start, "least-squares", "plain", limits, "standard-error")
+    return describe(campaign, problem, weighted, chosen, "least-squares", "plain", limits, "standard-error")

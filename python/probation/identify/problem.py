@@ -9,7 +9,8 @@ import numpy as np
 
 from probation import _core
 from probation.identify.noise_model import NoiseModel
-from probation.law.modal import Law, Scheme, Start, make_solver
+from probation.law.modal import Law
+from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
 from probation.records.checks import require_signal
 from probation.records.noise import scatter
 
@@ -37,7 +38,7 @@ class RecordProblem:
     solver : Solver
     noise : float
         Standard deviation of the stress noise [MPa]: given with the record, else by robust differences.
-    scheme, start : str
+    scheme : Scheme
     substeps : int
         Steps of the scheme from sample to sample.
     """
@@ -47,12 +48,11 @@ class RecordProblem:
     solver: _core.Solver
     noise: float
     scheme: Scheme
-    start: Start
     substeps: int
 
     @classmethod
     def prepare(
-        cls, record: Record, excitation: Excitation, scheme: Scheme, start: Start, substeps: int = 1
+        cls, record: Record, excitation: Excitation, scheme: Scheme | SchemeName, substeps: int = 1
     ) -> RecordProblem:
         """Estimate the noise and set up the solver.
 
@@ -66,21 +66,21 @@ class RecordProblem:
         if noise is None:
             noise = scatter(record.time, record.true_stress)
         noise = max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)
-        solver = make_solver(excitation.refined(substeps).history(), scheme, start)
-        return cls(record, excitation, solver, noise, scheme, start, substeps)
+        solver = make_solver(excitation.refined(substeps).strain_history().engine, scheme)
+        return cls(record, excitation, solver, noise, at_samples(scheme), substeps)
 
     def with_substeps(self, substeps: int) -> RecordProblem:
         """The same with other steps of the scheme."""
-        solver = make_solver(self.excitation.refined(substeps).history(), self.scheme, self.start)
+        solver = make_solver(self.excitation.refined(substeps).strain_history().engine, self.scheme)
         return replace(self, solver=solver, substeps=substeps)
 
     def reference(self) -> RecordProblem:
         """The same by SA3 on the same steps, whose own error is far smaller."""
-        return replace(self, solver=make_solver(self.solver.history, "sa3", self.start), scheme="sa3")
+        return replace(self, solver=make_solver(self.solver.history, "sa3"), scheme=as_scheme("sa3"))
 
     def driven_by(self, excitation: Excitation) -> RecordProblem:
         """The same record, the law driven otherwise."""
-        solver = make_solver(excitation.refined(self.substeps).history(), self.scheme, self.start)
+        solver = make_solver(excitation.refined(self.substeps).strain_history().engine, self.scheme)
         return replace(self, excitation=excitation, solver=solver)
 
     def stress(self, law: Law) -> FloatArray:

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import SchemeName, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")
@@ -107,7 +108,7 @@ class Fit(Result):
 
     campaign: str
     law: Law
-    scheme: Scheme
+    scheme: SchemeName
     start: Start
     substeps: int
     method: Method

@@ -264,7 +264,7 @@ def _strain_noises(
             continue
         noise: StrainNoise | None = None
         if each.excitation.strain_noise >= CLEAN:
-            noise = StrainNoise.of(each.excitation, each.scheme, each.start, each.substeps)
+            noise = StrainNoise.of(each.excitation, each.scheme, each.substeps)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
             noise = noise if float(np.max(share)) > CARRIED_NOISE else None

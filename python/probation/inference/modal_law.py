@@ -13,7 +13,8 @@ from probation._complaint import suggestion
 from probation.effects.alteration import NOTIONS, Alteration
 from probation.errors import InputError
 from probation.inference.parameter import outside_name
-from probation.law.modal import Law, Start, make_solver
+from probation.law.modal import Law
+from probation.law.schemes import make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,8 +40,6 @@ class DnlrLaw:
         The base law; its parameters are where a search begins.
     held : sequence of str
         Which of `law.parameter_names` are not identified.
-    first_step : {"exponential", "backward_euler"}
-        bE2's first step.
 
     Raises
     ------
@@ -48,12 +47,11 @@ class DnlrLaw:
         For an unknown name in `held`.
     """
 
-    def __init__(self, law: Law, held: Sequence[str] = (), first_step: Start = "exponential") -> None:
+    def __init__(self, law: Law, held: Sequence[str] = ()) -> None:
         for name in held:
             if name not in law.parameter_names:
                 raise InputError(f"held: found {name!r}; {suggestion(name, law.parameter_names)}")
         self.law = law
-        self.first_step = first_step
         self._values = law.parameters
         self._free = np.array([name not in held for name in law.parameter_names])
         self._names = tuple(name for name in law.parameter_names if name not in held)
@@ -125,7 +123,7 @@ class DnlrLaw:
             kept = self._own.solvers = WeakKeyDictionary()
         solver = kept.get(view)
         if solver is None:
-            solver = kept[view] = make_solver(view.history, view.scheme, self.first_step)
+            solver = kept[view] = make_solver(view.history, view.scheme)
         return solver
 
     def _engine_law(self, values: FloatArray, alteration: Alteration | None) -> _core.Law:

@@ -48,7 +48,7 @@ def propagated_noise(
     if excitation.strain_noise < CLEAN:
         return None
     if isinstance(law, DnlrLaw):
-        noise = StrainNoise.of(excitation, view.scheme, law.first_step, view.stride)
+        noise = StrainNoise.of(excitation, view.scheme, view.stride)
         columns = noise.leading(law.law_at(parameters))
     else:
         columns = _by_differences(law, view, excitation, parameters)

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation import _core
-from probation.law.modal import make_solver
+from probation.law.schemes import make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme, SchemeName
     from probation.smoothing.excitation import Excitation
 
 _SPARE, _PER_FREEDOM = 30, 6.0
@@ -50,12 +51,12 @@ class StrainNoise:
     _made: dict[bytes, FloatArray] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, excitation: Excitation, scheme: Scheme, start: Start = "exponential", substeps: int = 1) -> StrainNoise:
+    def of(cls, excitation: Excitation, scheme: Scheme | SchemeName, substeps: int = 1) -> StrainNoise:
         """That of a record, driven by an excitation at its samples."""
         operator, rate = excitation.strain_operator(), excitation.rate_operator()
         if substeps > 1:
             scheme = "sa2" if excitation.strain_rate is None else "sa3"
-        solver = make_solver(excitation.history(), scheme, start)
+        solver = make_solver(excitation.strain_history().engine, scheme)
         if operator is None:
             return cls(solver, _deviation(excitation), None, None)
         return cls(solver, _deviation(excitation), *_directions(excitation, operator, rate))

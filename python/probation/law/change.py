@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -70,6 +70,8 @@ class Change:
     _SUMS = ("added_relaxed_stress", "initial_modal_stress")
     _LISTS = ("extra_modulus", "extra_relaxation_time")
 
+    _SAMPLED = (*_FACTORS, "added_relaxed_stress")
+
     def and_(self, other: Change) -> Change:
         """Both changes at once: factors multiply, stresses add, modes and feedbacks stand side by side.
 
@@ -90,6 +92,15 @@ class Change:
             else:
                 both[name] = _combined(np.multiply if name in self._FACTORS else np.add, mine, theirs, name)
         return Change(feedbacks=self.feedbacks + other.feedbacks, **both)
+
+    def at(self, instants: FloatArray, time: FloatArray) -> Change:
+        """The same at other `instants` than the `time` of the samples, straight between them; both in s."""
+        moved: dict[str, Any] = {}
+        for name in self._SAMPLED:
+            values = getattr(self, name)
+            if values is not None and np.size(values) > 1:
+                moved[name] = np.interp(instants, time, as_samples(values, name, len(time)))
+        return replace(self, **moved)
 
     def _engine(self) -> _core.LawChange:
         change = _core.LawChange()

@@ -8,11 +8,13 @@ from probation import _core
 from probation._arrays import FloatArray, as_samples, one_of
 from probation.law.change import Change, engine_change
 from probation.law.history import Jumps, jump_indices
+from probation.law.schemes import STARTS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from probation.law.modal import Law, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import Start
 
 
 def creep(
@@ -57,6 +59,6 @@ def creep(
     """
     times = as_samples(time, "time")
     stress = as_samples(true_stress, "true_stress", len(times))
-    rule = getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler")))
+    rule = getattr(_core.Start, one_of(start, "start", STARTS))
     at = jump_indices(jumps, times, stress)
     return _core.creep_strain(law.engine, engine_change(change), times, stress, at, rule)

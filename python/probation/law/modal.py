@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -17,30 +17,17 @@ from probation._arrays import (
     as_samples,
     as_whole_number,
     held_samples,
-    one_of,
 )
 from probation.errors import InputError
 from probation.law.change import Change, Direction, engine_change
 from probation.law.companion import Companion
-from probation.law.history import Jumps, history_arguments, make_history
+from probation.law.history import AnyHistory, StrainHistory, as_history, history_arguments, is_history
+from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
-
-Scheme = Literal["be2", "sa2", "sa3", "exact", "cvode"]
-SCHEMES: tuple[Scheme, ...] = ("be2", "sa2", "sa3", "exact", "cvode")
-DIFFERENTIABLE: tuple[Scheme, ...] = ("be2", "sa2", "sa3")
-"""The schemes that have sensitivities."""
-
-Start = Literal["exponential", "backward_euler"]
-"""bE2's first step: "exponential" (default) or the paper's "backward_euler".
-
-At h = 0.5 s the paper's start errs by 0.58 MPa in experiment 1 and biases E_u by 1 %; the exponential one is exact for
-a ramp but for the bend of the hardening, and costs nothing. The same rule restarts bE2 after a jump of the rate.
-"""
-
 
 ACCURACIES = (1e-5, 0.5)
 """Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
@@ -227,65 +214,29 @@ class Law:
         assert self.spectrum is not None
         return replace(self, spectrum=self.spectrum.reduced(accuracy=accuracy, modes=modes))
 
-    def solver(
-        self,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
-        *,
-        strain_rate: ArrayLike | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
-        relative_tolerance: float = 1e-10,
-        absolute_tolerance: float = 1e-10,
-        max_steps: int = 200_000,
-    ) -> _core.Solver:
-        """A solver for one history, to be used for many laws; arguments as in `stress`."""
-        history = make_history(time, true_strain, strain_rate=strain_rate, jumps=jumps, direction=direction)
-        return make_solver(history, scheme, start, relative_tolerance, absolute_tolerance, max_steps)
-
     def stress(
         self,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        time: ArrayLike | AnyHistory,
+        true_strain: ArrayLike | None = None,
+        scheme: Scheme | SchemeName = "be2",
         *,
-        strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
-        relative_tolerance: float = 1e-10,
-        absolute_tolerance: float = 1e-10,
-        max_steps: int = 200_000,
         out: FloatArray | None = None,
     ) -> FloatArray:
-        """True stress along a strain history.
+        """True stress along a strain history: ``stress(history)`` or ``stress(time, true_strain)``.
 
         Parameters
         ----------
-        time : array_like, shape (n_times,) [s]
-            Increasing.
+        time : array_like, shape (n_times,) [s], or StrainHistory
+            Increasing. A `StrainHistory` has strains of its own, perhaps rates, and says where the rate jumps; a
+            history of `named_history` or `read_history` stands for one.
         true_strain : array_like, shape (n_times,) [-]
             The start is relaxed: sigma_j(0) = p_j G e_HT(true_strain[0]).
-        scheme : {"be2", "sa2", "sa3", "exact", "cvode"}
-            be2 has order 2, sa3 order 3 on smooth histories (2 with a companion relation unless `strain_rate` is given;
-            on rough measured strain it is no better than sa2); exact and cvode integrate the piecewise-linear history.
-        strain_rate : array_like, shape (n_times,) [1/s], optional
-            If given, the history between samples is the cubic through strains and rates.
+        scheme : {"be2", "sa2", "sa3", "exact", "cvode"}, `BE2`, `SA2`, `SA3`, `Exact` or `CVODE`
+            A name is the scheme with default options. be2 and sa2 have order 2, sa3 order 3 on smooth histories; exact
+            and cvode integrate the piecewise-linear history.
         change : Change, optional
             What an effect changes in the law along this record.
-        start : {"exponential", "backward_euler"}
-            bE2's first step; the paper's is "backward_euler".
-        jumps : "auto", None or array_like of times [s]
-            Where the strain rate jumps.
-        direction : array_like, shape (n_times - 1,), optional
-            Commanded direction of each step.
-        relative_tolerance, absolute_tolerance : float [-], [MPa]
-            Of cvode.
-        max_steps : int
-            Of cvode, between two samples.
         out : ndarray, shape (n_times,), optional
             Where to write the stress.
 
@@ -301,38 +252,45 @@ class Law:
             If CVODE or the iteration of a feedback fails, or the stress is not finite; it has `time` and
             `residual_norm`.
         """
-        options = solver_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
-        changed = engine_change(change)
-        if strain_rate is None and direction is None and isinstance(jumps, str) and jumps == "auto":
-            found = _core.stress_where_held(self.engine, changed, options, out, time, true_strain)
+        chosen = as_scheme(scheme)
+        if chosen.substeps == 1 and true_strain is not None:
+            changed = engine_change(change)
+            found = _core.stress_where_held(self.engine, changed, chosen.engine, out, time, true_strain)
             if found is not None:  # None: the arrays have to be made ready first, or refused
                 return found
-        history = history_arguments(time, true_strain, strain_rate, jumps, direction)
-        stress = as_output(out, history[0].shape)
-        _core.stress(self.engine, changed, options, stress, *history)
+            if not is_history(time):
+                arguments = history_arguments(cast("ArrayLike", time), true_strain)
+                stress = as_output(out, arguments[0].shape)
+                _core.stress(self.engine, changed, chosen.engine, stress, *arguments)
+                return stress
+        history = as_history(time, true_strain)
+        stress = as_output(out, (len(history),))
+        solver, changed = _prepared(history, chosen, change)
+        if chosen.substeps == 1:
+            solver.stress(self.engine, changed, stress)
+        else:
+            fine = np.empty(len(solver.history))
+            solver.stress(self.engine, changed, fine)
+            stress[:] = fine[:: chosen.substeps]
         return stress
 
     def sensitivity(
         self,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        time: ArrayLike | AnyHistory,
+        true_strain: ArrayLike | None = None,
+        scheme: Scheme | SchemeName = "be2",
         *,
         directions: Sequence[Direction] | None = None,
-        strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
     ) -> tuple[FloatArray, FloatArray]:
         """True stress and its derivatives; be2, sa2 and sa3 only.
 
         Parameters
         ----------
-        directions : sequence of Direction, optional
-            What to differentiate along; the law's three `parameters` if left out.
-        time, true_strain, scheme, strain_rate, change, start, jumps, direction
+        time, true_strain, scheme, change
             As in `stress`.
+        directions : sequence of Direction, optional
+            What to differentiate along; the law's three `parameters` if left out. With them no substeps.
 
         Returns
         -------
@@ -344,10 +302,8 @@ class Law:
         InputError, ConvergenceError
             As `stress` does; also where a derivative is not finite.
         """
-        solver = self.solver(
-            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
-        )
-        changed = engine_change(change)
+        chosen = as_scheme(scheme) if directions is None else at_samples(scheme)
+        solver, changed = _prepared(as_history(time, true_strain), chosen, change)
         if directions is None:
             engine_directions = _core.parameter_directions(self.engine, changed, solver.history)
         else:
@@ -355,23 +311,20 @@ class Law:
         stress = np.empty(len(solver.history))
         sensitivity = np.empty((len(stress), len(engine_directions)))
         solver.tangent(self.engine, changed, engine_directions, stress, sensitivity)
-        return stress, sensitivity
+        return stress[:: chosen.substeps], sensitivity[:: chosen.substeps]
 
     def strain_sensitivity(
         self,
-        time: ArrayLike,
-        true_strain: ArrayLike,
-        scheme: Scheme = "be2",
+        time: ArrayLike | AnyHistory,
+        true_strain: ArrayLike | None = None,
+        scheme: Scheme | SchemeName = "be2",
         *,
-        strain_rate: ArrayLike | None = None,
         change: Change | None = None,
-        start: Start = "exponential",
-        jumps: ArrayLike | Jumps | None = "auto",
-        direction: ArrayLike | None = None,
     ) -> FloatArray:
-        """Derivative of every stress with respect to every strain sample; be2, sa2 and sa3 only.
+        """Derivative of every stress with respect to every strain sample; be2, sa2 and sa3 only, without substeps.
 
-        The differentiator is part of it: without `strain_rate`, rates and the companion relation follow the strain.
+        The differentiator is part of it: in a history without strain rates, rates and the companion relation follow
+        the strain. Arguments as in `stress`.
 
         Returns
         -------
@@ -384,10 +337,18 @@ class Law:
         InputError, ConvergenceError
             As `stress` does; also where a derivative is not finite.
         """
-        solver = self.solver(
-            time, true_strain, scheme, strain_rate=strain_rate, start=start, jumps=jumps, direction=direction
-        )
+        solver = make_solver(as_history(time, true_strain).engine, scheme)
         return solver.strain_sensitivity(self.engine, engine_change(change))
+
+
+def _prepared(history: StrainHistory, scheme: Scheme, change: Change | None) -> tuple[_core.Solver, _core.LawChange]:
+    """A solver with the substeps of the scheme between its samples, and the change at its instants."""
+    if scheme.substeps == 1:
+        return make_solver(history.engine, scheme), engine_change(change)
+    fine = history.refined(scheme.substeps)
+    if isinstance(change, Change):
+        change = change.at(fine.time, history.time)
+    return make_solver(fine.engine, replace(scheme, substeps=1)), engine_change(change)
 
 
 def engine_law(law: Law) -> _core.Law:
@@ -395,55 +356,3 @@ def engine_law(law: Law) -> _core.Law:
     if not isinstance(law, Law):
         raise InputError(f"law is {law!r}; expected a Law")
     return law.engine
-
-
-def make_solver(
-    history: _core.History,
-    scheme: Scheme = "be2",
-    start: Start = "exponential",
-    relative_tolerance: float = 1e-10,
-    absolute_tolerance: float = 1e-10,
-    max_steps: int = 200_000,
-) -> _core.Solver:
-    """The engine's solver for one history."""
-    return _core.Solver(history, *_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
-
-
-def solver_options(
-    scheme: Scheme,
-    start: Start,
-    relative_tolerance: float = 1e-10,
-    absolute_tolerance: float = 1e-10,
-    max_steps: int = 200_000,
-) -> _core.SolverOptions:
-    """How a solver solves, as the engine takes it; what was asked for before is there already."""
-    try:
-        return _kept_options(scheme, start, relative_tolerance, absolute_tolerance, max_steps)
-    except TypeError:  # an argument that is not hashable: it is refused by its name
-        return _core.SolverOptions(*_checked(scheme, start, relative_tolerance, absolute_tolerance, max_steps))
-
-
-@lru_cache(maxsize=64, typed=True)
-def _kept_options(*arguments: Any) -> _core.SolverOptions:
-    return _core.SolverOptions(*_checked(*arguments))
-
-
-def engine_scheme(
-    scheme: Scheme, start: Start, schemes: Sequence[Scheme] = SCHEMES
-) -> tuple[_core.Scheme, _core.Start]:
-    """A scheme, one of `schemes`, and bE2's first step, as the engine takes them."""
-    return (
-        getattr(_core.Scheme, one_of(scheme, "scheme", schemes)),
-        getattr(_core.Start, one_of(start, "start", ("exponential", "backward_euler"))),
-    )
-
-
-def _checked(
-    scheme: Scheme, start: Start, relative_tolerance: float, absolute_tolerance: float, max_steps: int
-) -> tuple[_core.Scheme, _core.Start, float, float, int]:
-    return (
-        *engine_scheme(scheme, start),
-        as_number(relative_tolerance, "relative_tolerance"),
-        as_number(absolute_tolerance, "absolute_tolerance"),
-        as_whole_number(max_steps, "max_steps"),
-    )

@@ -10,6 +10,7 @@ import numpy as np
 from probation._arrays import FloatArray, one_of
 from probation.histories.necking import GRIP_SPEED, NECKING_SETS, NeckingHistory
 from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.history import StrainHistory
 from probation.law.modal import Law
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.campaign import Campaign
@@ -230,7 +231,7 @@ def _twin(
     """Compute the response on a finer grid by the exact scheme, sample it, add noise."""
     fine = np.linspace(0.0, duration, _FINER * (SAMPLES - 1) + 1)
     seen = strain(fine)
-    response = law.stress(fine, seen, scheme="exact", jumps=None)
+    response = law.stress(StrainHistory(fine, seen, jumps=None), scheme="exact")
     random = np.random.default_rng([seed, experiment])
     stress = response[::_FINER] + noise * random.standard_normal(SAMPLES)
     recorded = seen[::_FINER] + strain_noise * random.standard_normal(SAMPLES)

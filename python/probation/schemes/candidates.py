@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.errors import ConvergenceError, InputError
 from probation.law.change import Change
+from probation.law.history import StrainHistory
 from probation.law.ramp import ramp_stress
+from probation.law.schemes import BE2, CVODE, SA2, SA3, Exact, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from probation import _core
     from probation._arrays import FloatArray
-    from probation.law.modal import Law, Scheme, Start
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme
 
 
 @dataclass(frozen=True)
@@ -27,24 +30,21 @@ class Candidate:
     Attributes
     ----------
     name : str
-    scheme : str or None
+    scheme : Scheme or None
         None for the closed form (7), which only a ramp has.
-    start : str
-        bE2's first step.
     """
 
     name: str
     scheme: Scheme | None
-    start: Start = "exponential"
 
 
 CANDIDATES = (
-    Candidate("be2", "be2"),
-    Candidate("be2, paper's start", "be2", "backward_euler"),
-    Candidate("sa2", "sa2"),
-    Candidate("sa3", "sa3"),
-    Candidate("exact", "exact"),
-    Candidate("cvode", "cvode"),
+    Candidate("be2", BE2()),
+    Candidate("be2, paper's start", BE2(start="backward_euler")),
+    Candidate("sa2", SA2()),
+    Candidate("sa3", SA3()),
+    Candidate("exact", Exact()),
+    Candidate("cvode", CVODE()),
     Candidate("eq. (7)", None),
 )
 
@@ -120,21 +120,20 @@ def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1
     try:
         if candidate.scheme is None:
             return _closed_form(law, path)
-        solver = law.solver(
-            path.time,
-            path.true_strain,
-            candidate.scheme,
-            strain_rate=path.strain_rate,
-            start=candidate.start,
-            jumps=None if path.smooth else "auto",
-            relative_tolerance=tolerance,
-            absolute_tolerance=tolerance,
+        scheme = candidate.scheme
+        if isinstance(scheme, CVODE):
+            scheme = replace(scheme, relative_tolerance=tolerance, absolute_tolerance=tolerance)
+        solver = make_solver(
+            StrainHistory(
+                path.time, path.true_strain, strain_rate=path.strain_rate, jumps=None if path.smooth else "auto"
+            ).engine,
+            scheme,
         )
         stress, change = np.empty(len(path.time)), Change()._engine()
         time_us = _fastest(lambda: solver.stress(law.engine, change, stress))
     except (ConvergenceError, InputError) as error:
         return Solve(None, failure=str(error))
-    return Solve(stress, time_us, _statistics(solver) if candidate.scheme == "cvode" else {})
+    return Solve(stress, time_us, _statistics(solver) if isinstance(scheme, CVODE) else {})
 
 
 def _closed_form(law: Law, path: StrainPath) -> Solve | None:

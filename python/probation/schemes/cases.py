@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation.histories.necking import NECKING_SETS
+from probation.law.history import StrainHistory
 from probation.law.modal import Law
 from probation.provenance import samples_sha256
 from probation.published.experiments import GRIP_LAWS, experiment, necking_history
@@ -62,7 +63,9 @@ def twin_case(number: Literal[1, 3]) -> Case:
         smooth = necking_history(number)
         path = StrainPath(twin.time, twin.true_strain, twin.strain_rate, smooth=True)
         fine = np.linspace(0.0, smooth.duration, _FINER * (len(twin.time) - 1) + 1)
-        reference = GRIP_LAWS[number].stress(fine, smooth.true_strain(fine), "exact", jumps=None)[::_FINER]
+        reference = GRIP_LAWS[number].stress(StrainHistory(fine, smooth.true_strain(fine), jumps=None), scheme="exact")[
+            ::_FINER
+        ]
         named = f"exact on {_FINER} times finer a grid", "necking (A-1)"
     sha256 = samples_sha256(twin.time, twin.true_strain)
     return Case(twin.name, twin.truth, path, reference, named[0], smooth, named[1], sha256)
@@ -71,7 +74,7 @@ def twin_case(number: Literal[1, 3]) -> Case:
 def record_case(record: Record, law: Law, *, with_steps: bool) -> Case:
     """A record; with steps, the order is observed on a necking history of its duration and largest strain."""
     path = StrainPath(record.time - record.time[0], record.true_strain, record.strain_rate)
-    reference = law.stress(path.time, path.true_strain, "exact", strain_rate=path.strain_rate)
+    reference = law.stress(StrainHistory(path.time, path.true_strain, strain_rate=path.strain_rate), scheme="exact")
     smooth = None
     if with_steps:
         plain = NECKING_SETS["P2"]

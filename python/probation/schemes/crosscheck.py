@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
+from probation.law.schemes import BE2
 from probation.schemes.candidates import CANDIDATES, Candidate, Solve, solve
 from probation.schemes.cases import Case, record_case, twin_case
 from probation.schemes.result import CrossCheck, RecordCheck, SchemeCheck
@@ -86,8 +87,8 @@ def _scheme_check(case: Case, candidate: Candidate, done: Solve, steps: StepStud
     error = np.full(1, np.nan) if done.true_stress is None else done.true_stress - case.reference
     return SchemeCheck(
         name=candidate.name,
-        scheme=candidate.scheme,
-        start=candidate.start if candidate.scheme == "be2" else None,
+        scheme=None if candidate.scheme is None else candidate.scheme.name,
+        start=candidate.scheme.start if isinstance(candidate.scheme, BE2) else None,
         largest_error_MPa=float(np.abs(error).max()),
         rms_error_MPa=float(np.sqrt(np.mean(error**2))),
         order=np.nan if steps is None else steps.order.get(candidate.name, np.nan),

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.law.history import StrainHistory
 from probation.law.ramp import ramp_stress
+from probation.law.schemes import CVODE
 from probation.schemes.candidates import CANDIDATES, StrainPath, solve
 from probation.schemes.smooth import RampHistory
 
@@ -109,12 +111,7 @@ def _reference(law: Law, history: SmoothHistory, count: int) -> FloatArray:
     if path.ramp_rate is not None and law.companion is None:
         return ramp_stress(law, path.ramp_rate, path.time)[::2]
     fine = law.stress(
-        path.time,
-        path.true_strain,
-        "cvode",
-        strain_rate=path.strain_rate,
-        jumps=None,
-        relative_tolerance=1e-12,
-        absolute_tolerance=1e-12,
+        StrainHistory(path.time, path.true_strain, strain_rate=path.strain_rate, jumps=None),
+        scheme=CVODE(relative_tolerance=1e-12, absolute_tolerance=1e-12),
     )
     return fine[::2]

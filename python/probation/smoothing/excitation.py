@@ -12,7 +12,8 @@ import numpy as np
 from probation import _core
 from probation._arrays import FloatArray, one_of
 from probation.errors import InputError
-from probation.law.history import make_history
+from probation.law.history import StrainHistory
+from probation.law.refinement import fine_time, refine
 from probation.records.noise import scatter
 from probation.smoothing.differences import differences, differences_error
 from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
@@ -122,9 +123,9 @@ class Excitation:
         operator = self.rate_operator()
         return None if operator is None else self.strain_noise**2 * operator @ operator.T
 
-    def history(self) -> _core.History:
-        """The same as the engine takes it."""
-        return make_history(
+    def strain_history(self) -> StrainHistory:
+        """The same as a law takes it."""
+        return StrainHistory(
             self.time,
             self.true_strain,
             strain_rate=self.strain_rate,
@@ -141,10 +142,9 @@ class Excitation:
             return self
         begin = end = None
         if self.strain_rate is not None:
-            begin, end = self.history().rates(_core.Differentiator.backward)
-        strain, rate = _refine(self.time, substeps, self.true_strain, self.strain_rate, begin, end)
-        within = np.diff(self.time)[:, None] * (np.arange(substeps) / substeps)
-        time = _spread(self.time[:-1, None] + within, self.time[-1:])
+            begin, end = self.strain_history().engine.rates(_core.Differentiator.backward)
+        strain, rate = refine(self.time, substeps, self.true_strain, self.strain_rate, begin, end)
+        time = fine_time(self.time, substeps)
         return replace(
             self,
             time=time,
@@ -166,13 +166,13 @@ class Excitation:
         if rate is not None and self.strain_rate is not None:
             # At a jump the engine takes the secant on one side: the same side here.
             secant = np.diff(strain, axis=0) / np.diff(self.time)[:, None]
-            used = self.history().rates(_core.Differentiator.backward)
+            used = self.strain_history().engine.rates(_core.Differentiator.backward)
             own = [
                 side == given for side, given in zip(used, (self.strain_rate[:-1], self.strain_rate[1:]), strict=True)
             ]
             begin = np.where(own[0][:, None], rate[:-1], secant)
             end = np.where(own[1][:, None], rate[1:], secant)
-        fine, fine_rate = _refine(self.time, substeps, strain, rate, begin, end)
+        fine, fine_rate = refine(self.time, substeps, strain, rate, begin, end)
         return Operators(fine, np.zeros_like(fine) if fine_rate is None else fine_rate)
 
     @property
@@ -261,39 +261,6 @@ def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
         rate_se=rate_se,
         freedom=float(len(strain)),
     )
-
-
-def _refine(
-    time: FloatArray,
-    substeps: int,
-    strain: FloatArray,
-    rate: FloatArray | None,
-    begin: FloatArray | None,
-    end: FloatArray | None,
-) -> tuple[FloatArray, FloatArray | None]:
-    """Strain and rate at `substeps` times as many instants: a straight line, or the cubic through strain and rate.
-
-    Linear in strain, rate and the rates at which each step begins and ends, all with the instants or steps as their
-    first axis.
-    """
-    more = (None,) * (strain.ndim - 1)
-    part = (np.arange(substeps) / substeps)[(None, slice(None), *more)]
-    step = np.diff(time)[(slice(None), None, *more)]
-    rise = np.diff(strain, axis=0)[:, None]
-    fine = strain[:-1, None] + rise * part
-    if rate is None or begin is None or end is None:
-        return _spread(fine, strain[-1:]), None
-    begin, end = begin[:, None], end[:, None]
-    bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
-    fine = fine + part * (1.0 - part) * bend
-    slope = (rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))) / step
-    slope[:, 0] = rate[:-1]
-    return _spread(fine, strain[-1:]), _spread(slope, rate[-1:])
-
-
-def _spread(rows: FloatArray, last: FloatArray) -> FloatArray:
-    """Instants within steps, (n_steps, substeps, ...), as one axis, with the last instant of all."""
-    return np.concatenate([rows.reshape(-1, *rows.shape[2:]), last])
 
 
 def _rate_is_noisy(record: Record, noise: float) -> bool:

@@ -11,8 +11,9 @@ from probation._arrays import FloatArray
 from probation.identify.bias import low_frequency
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, by_simplex
-from probation.law.modal import Law, Scheme, Start
+from probation.law.modal import Law
 from probation.law.ramp import ramp_stress
+from probation.law.schemes import BE2, SA3, Start
 from probation.published.experiments import RAMP_LAW, STRESS_NOISE, experiment_1
 from probation.report.table import Table
 from probation.smoothing.excitation import excite
@@ -302,8 +303,8 @@ def problem_of(record: Record, option: Option) -> Problem:
     if option.filtered:
         record = replace(record, true_strain=straight_line(record), sha256="")
     excitation = excite(record, "raw")
-    scheme: Scheme = "sa3" if option.scheme == "sa3" else "be2"
-    prepared = RecordProblem.prepare(record, excitation, scheme, option.start)
+    scheme = SA3() if option.scheme == "sa3" else BE2(start=option.start)
+    prepared = RecordProblem.prepare(record, excitation, scheme)
     if option.scheme == "closed form":
         prepared = ClosedForm(**vars(prepared))
     return Problem(START, [prepared], (False, False, False))

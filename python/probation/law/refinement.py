@@ -1,0 +1,49 @@
+"""Between samples: a strain history at more instants, where the samples stand for lines or for cubics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+
+def fine_time(time: FloatArray, substeps: int) -> FloatArray:
+    """`substeps` times as many instants, shape (n_steps * substeps + 1,) [s]; the samples are every n-th of them."""
+    within = np.diff(time)[:, None] * (np.arange(substeps) / substeps)
+    return _spread(time[:-1, None] + within, time[-1:])
+
+
+def refine(
+    time: FloatArray,
+    substeps: int,
+    strain: FloatArray,
+    rate: FloatArray | None,
+    begin: FloatArray | None,
+    end: FloatArray | None,
+) -> tuple[FloatArray, FloatArray | None]:
+    """Strain and rate at `substeps` times as many instants: a straight line, or the cubic through strain and rate.
+
+    Linear in strain, rate and the rates at which each step begins and ends, all with the instants or steps as their
+    first axis.
+    """
+    more = (None,) * (strain.ndim - 1)
+    part = (np.arange(substeps) / substeps)[(None, slice(None), *more)]
+    step = np.diff(time)[(slice(None), None, *more)]
+    rise = np.diff(strain, axis=0)[:, None]
+    fine = strain[:-1, None] + rise * part
+    if rate is None or begin is None or end is None:
+        return _spread(fine, strain[-1:]), None
+    begin, end = begin[:, None], end[:, None]
+    bend = (1.0 - part) * (step * begin - rise) + part * (rise - step * end)
+    fine = fine + part * (1.0 - part) * bend
+    slope = (rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))) / step
+    slope[:, 0] = rate[:-1]
+    return _spread(fine, strain[-1:]), _spread(slope, rate[-1:])
+
+
+def _spread(rows: FloatArray, last: FloatArray) -> FloatArray:
+    """Instants within steps, (n_steps, substeps, ...), as one axis, with the last instant of all."""
+    return np.concatenate([rows.reshape(-1, *rows.shape[2:]), last])
