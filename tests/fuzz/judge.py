@@ -114,12 +114,14 @@ def _last(outcome: Outcome) -> str:
 
 
 def _names_input(case: Case, complaint: str) -> bool:
-    """Whether a complaint names a file of the case, an option, or a file that a campaign names."""
+    """Whether a complaint names a file of the case, an option, or a file or record that a campaign names."""
     tops = {PurePosixPath(name).parts[0] for name in case.files}
     stores = {name for name in tops if name not in case.files}
     names = stores | {name.split(".")[0] for name in tops - stores} | {case.command[1].split("/")[-1][:30], "--"}
     place = complaint.removeprefix("probation: ").partition(":")[0]
-    quoted = any(place in content for content in case.files.values() if isinstance(content, str))
+    said = (place, *re.findall("'([^']+)'", place))  # the record that is named, too
+    texts = [content for content in case.files.values() if isinstance(content, str)]
+    quoted = any(each in content for each in said for content in texts)
     return quoted or any(name in complaint for name in names if len(name) > 1)
 
 

@@ -188,7 +188,7 @@ def excess_scatter(residual: FloatArray, error: FloatArray, degrees: int) -> flo
 
     if excess(0.0) <= 0.0:
         return 0.0
-    high = float(np.sqrt(residual @ residual / degrees))  # there chi squared is below its degrees of freedom
+    high = 2.0 * float(np.sqrt(residual @ residual / degrees))  # there chi squared is below its degrees of freedom
     return float(brentq(excess, 0.0, high, rtol=1e-6))
 
 

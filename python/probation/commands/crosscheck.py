@@ -55,11 +55,11 @@ def run(options: argparse.Namespace) -> int:
             answer = crosscheck(progress=advance)
     else:
         campaign = Campaign.load(options.campaign)
-        for warning in campaign.warnings:
-            warn(warning)
         records = [campaign.record(each) for each in options.record] if options.record else campaign.records
         with shown("cross-checking") as advance:
             answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)
+        for warning in campaign.warnings:
+            warn(warning)
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 

@@ -192,7 +192,7 @@ def _opened(path: str) -> xr.Dataset:
         raise InputError(f"{path}: found no such file, expected a zarr store or a netCDF file")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # zarr's, of entries that are none of its own
+            warnings.simplefilter("ignore")  # zarr's, of entries not its own, and numpy's, of their fill values
             if Path(path).is_dir():
                 load("zarr")
                 opened = xarray.open_dataset(path, engine="zarr", decode_times=False, consolidated=False)

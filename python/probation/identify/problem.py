@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation import _core
+from probation.errors import InputError
 from probation.identify.noise_model import NoiseModel
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
@@ -15,7 +17,7 @@ from probation.records.checks import require_signal
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -86,8 +88,17 @@ class RecordProblem:
     def stress(self, law: Law) -> FloatArray:
         """Model stress, shape (n_times,) [MPa]."""
         stress = np.empty(len(self.solver.history))
-        self.solver.stress(law.engine, _core.LawChange(), stress)
+        with self._named():
+            self.solver.stress(law.engine, _core.LawChange(), stress)
         return stress[:: self.substeps]
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Let what the engine refuses name the record: a companion relation that has no time at its rates."""
+        try:
+            yield
+        except InputError as error:
+            raise InputError(f"record {self.record.id!r}: {error}") from None
 
     def sensitivity(self, law: Law) -> tuple[FloatArray, FloatArray]:
         """Model stress (n_times,) [MPa] and its derivatives (n_times, 3) along `law.parameters`."""
@@ -95,7 +106,8 @@ class RecordProblem:
         stress, sensitivity = np.empty(count), np.empty((count, 3))
         change = _core.LawChange()
         directions = _core.parameter_directions(law.engine, change, self.solver.history)
-        self.solver.tangent(law.engine, change, directions, stress, sensitivity)
+        with self._named():
+            self.solver.tangent(law.engine, change, directions, stress, sensitivity)
         return stress[:: self.substeps], sensitivity[:: self.substeps]
 
 

@@ -94,12 +94,12 @@ def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES
 
 
 def find_excess(samples: Mapping[str, FloatArray]) -> Fault | None:
-    """First sample beyond what physics allows (`limits.LARGEST`, `limits.SHORTEST_STEP`), or None.
+    """First sample beyond what physics allows (`limits.LARGEST`, `limits.SMALLEST`), or None.
 
     Parameters
     ----------
     samples : mapping of str to ndarray, shape (n,)
-        By quantity, in internal units and without other faults; the first of them is the time.
+        By quantity, in internal units; infinite where a conversion has left all numbers.
     """
     for quantity, values in samples.items():
         largest = LARGEST.get(quantity, np.inf)  # a true strain has its own: `strain_limits`
@@ -118,15 +118,19 @@ def find_excess(samples: Mapping[str, FloatArray]) -> Fault | None:
             at = int(np.abs(values).argmax())
             least = f"at least {SMALLEST[quantity]:g} {ROLES[quantity].unit.removeprefix('dimensionless')}".rstrip()
             return Fault(quantity, at, f"{magnitude:.4g} as the largest", least, "check the numbers and their unit")
-    quantity, time = next(iter(samples.items()))
-    short = np.flatnonzero(np.diff(time) < SHORTEST_STEP)
-    if short.size:
-        step = time[short[0] + 1] - time[short[0]]
-        return Fault(
-            quantity,
-            int(short[0]) + 1,
-            f"{step:.4g} s after the sample before",
-            f"at least {SHORTEST_STEP:g} s",
-            "check the unit of time",
-        )
     return None
+
+
+def find_short_step(quantity: str, time: FloatArray) -> Fault | None:
+    """First sample that follows the one before sooner than `limits.SHORTEST_STEP`, or None."""
+    short = np.flatnonzero(np.diff(time) < SHORTEST_STEP)
+    if not short.size:
+        return None
+    step = time[short[0] + 1] - time[short[0]]
+    return Fault(
+        quantity,
+        int(short[0]) + 1,
+        f"{step:.4g} s after the sample before",
+        f"at least {SHORTEST_STEP:g} s",
+        "check the unit of time",
+    )

@@ -11,7 +11,7 @@ from probation._complaint import quoted, suggestion
 from probation._text import printable
 from probation.errors import InputError
 from probation.limits import LARGEST, SMALLEST_PARAMETER
-from probation.records.checks import find_excess, find_fault
+from probation.records.checks import find_excess, find_fault, find_short_step
 from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
 
 FloatArray = NDArray[np.float64]
@@ -107,7 +107,7 @@ class Record:
         for name in SAMPLED:
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, self._as_samples(name))
-        if fault := find_fault(self.samples) or find_excess(self.samples):
+        if fault := find_fault(self.samples) or find_excess(self.samples) or find_short_step("time", self.time):
             raise InputError(
                 f"record {quoted(self.id)}, {fault.quantity}, sample {fault.sample}: "
                 f"found {fault.found}, expected {fault.expected}"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from probation._complaint import bad_input, quoted
-from probation.records.checks import find_excess, find_fault
+from probation.records.checks import find_excess, find_fault, find_short_step
 from probation.records.options import ReadOptions
 from probation.records.reading import chosen_tables, open_file
 from probation.records.record import Record
@@ -38,7 +38,7 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
     by_label = {column.label: column for column in table.columns}
     columns = {role: by_label[table.roles[role]] for role in _ROLES}
     log = {role: table.numbers(column) for role, column in columns.items()}
-    if fault := find_fault(log) or find_excess(log):
+    if fault := find_fault(log) or find_excess(log) or find_short_step("time", log["time"]):
         raise bad_input(
             path,
             fault.found,

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The law in one dimension as docs/finite-elements.md and the paper print it, mode by mode, nothing shared with the engine:
-/// sigma_j <- a sigma_j + p_j [E_u phi de + G ((1 - phi) H1 + (phi - a) H0)].
+/// The law in one dimension as docs/finite-elements.md and the paper print it, mode by mode, nothing shared
+/// with the engine: sigma_j <- a sigma_j + p_j [E_u phi de + G ((1 - phi) H1 + (phi - a) H0)].
 class LiteralLaw {
  public:
   LiteralLaw() {
