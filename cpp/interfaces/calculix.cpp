@@ -51,7 +51,8 @@ extern "C" [[gnu::visibility("default")]] void DNLR(
   const Outcome read = constants(props, *nprops, parameters);
   // Points share pnewdt, which is negative as long as none has cut: the smallest factor counts.
   const auto cut = [&](double factor) {
-    if (!(*pnewdt > 0.0 && *pnewdt < factor)) *pnewdt = factor;
+    const bool smaller = *pnewdt > 0.0 && *pnewdt < factor;
+    if (!smaller) *pnewdt = factor;
   };
   if (!read.ok() || *nstatv < point_state_size(parameters.modes)) return cut(smallest_cut);
   Symmetric c{};

@@ -147,7 +147,7 @@ void Solver::stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::A
   require_finite(stress, history_.time(), "the stress");
 }
 
-void Solver::solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress) {
+void Solver::solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd>& stress) {
   if (options_.scheme == Scheme::exact) return exact_stress(law, change, history_, stress);
   if (options_.scheme == Scheme::cvode) {
     work_->cvode = cvode_stress(law, change, history_, options_.cvode, stress);
@@ -205,7 +205,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
 }
 
 void Solver::solve_tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
-                           Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives) {
+                           Eigen::Ref<Eigen::ArrayXd>& stress, Eigen::Ref<RowMajorMatrix>& derivatives) {
   const Index n = history_.size();
   Workspace& w = *work_;
   const FlushSubnormals flushing;

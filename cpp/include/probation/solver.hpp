@@ -62,9 +62,9 @@ class Solver {
   struct Workspace;
   /// What is known of the history, and tables that would change the last bits of the next answer.
   void forget();
-  void solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress);
+  void solve(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd>& stress);
   void solve_tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
-                     Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives);
+                     Eigen::Ref<Eigen::ArrayXd>& stress, Eigen::Ref<RowMajorMatrix>& derivatives);
 
   History history_;
   SolverOptions options_;

@@ -25,17 +25,17 @@ void RecordFit::take_data(const Eigen::ArrayXd& true_stress, const Eigen::ArrayX
 
 void RecordFit::solve(double log_time) {
   solves.solve(std::exp(log_time));
-  u_ = &sampled(solves.u(), sampled_u_);
-  v_ = &sampled(solves.v(), sampled_v_);
+  u_ = sampled(&solves.u(), sampled_u_);
+  v_ = sampled(&solves.v(), sampled_v_);
 }
 
 /// At the samples, in units of the noise; `kept` holds it where that is not `solved` itself.
-const Eigen::ArrayXd& RecordFit::sampled(const Eigen::ArrayXd& solved, Eigen::ArrayXd& kept) const {
+const Eigen::ArrayXd* RecordFit::sampled(const Eigen::ArrayXd* solved, Eigen::ArrayXd& kept) const {
   if (every_ == 1 && weight_.size() == 0) return solved;
-  kept = Eigen::Map<const Eigen::ArrayXd, 0, Eigen::InnerStride<>>(solved.data(), data_.size(),
+  kept = Eigen::Map<const Eigen::ArrayXd, 0, Eigen::InnerStride<>>(solved->data(), data_.size(),
                                                                    Eigen::InnerStride<>(every_));
   if (weight_.size() > 0) kept *= weight_;
-  return kept;
+  return &kept;
 }
 
 void RecordFit::form_residual(FitPoint& point) {
@@ -70,7 +70,7 @@ FitPoint RecordFit::evaluate(double unrelaxed_modulus, double log_time, double h
 
 void RecordFit::differentiate(FitPoint& point) {
   const Eigen::ArrayXd& slope = solves.slope(point.unrelaxed_modulus, point.hardening_modulus);
-  if (&sampled(slope, slope_) == &slope) slope_ = slope;
+  if (sampled(&slope, slope_) == &slope) slope_ = slope;
   const Eigen::ArrayXd* columns[3] = {u_, &slope_, v_};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) point.normal(i, j) = point.normal(j, i) = (*columns[i] * *columns[j]).sum();

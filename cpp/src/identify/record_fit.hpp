@@ -42,7 +42,7 @@ class RecordFit {
 
  private:
   void solve(double log_time);
-  const Eigen::ArrayXd& sampled(const Eigen::ArrayXd& solved, Eigen::ArrayXd& kept) const;
+  const Eigen::ArrayXd* sampled(const Eigen::ArrayXd* solved, Eigen::ArrayXd& kept) const;
   void form_residual(FitPoint& point);
 
   Eigen::ArrayXd data_, weight_;  ///< the weight is empty where all are one

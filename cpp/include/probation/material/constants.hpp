@@ -69,7 +69,8 @@ class ConstantReader {
   double next(double least, double most) noexcept {
     const double value = read_ < count_ ? values_[read_] : std::numeric_limits<double>::quiet_NaN();
     ++read_;
-    if (!(value >= least && value <= most)) refuse();
+    const bool inside = value >= least && value <= most;  // no NaN is
+    if (!inside) refuse();
     return value;
   }
 

@@ -217,7 +217,7 @@ inline Outcome point_update(const Parameters& parameters, const Symmetric& right
   after[2] = std::sqrt(2.0 / 3.0 * contract(now.e_d, now.e_d));
   after[3] = std::expm1(now.log_volume);
   for (int c = 0; c < 6; ++c) after[4 + c] = now.e_d[c];
-  std::copy(modes_after, modes_after + 6 * parameters.modes, after + point_state_header);
+  std::copy_n(modes_after, 6 * parameters.modes, after + point_state_header);
   return outcome;
 }
 
