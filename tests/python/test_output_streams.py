@@ -1,6 +1,7 @@
 """Standard output and standard error closed, full or without a reader; an unknown backend of matplotlib; Ctrl-C."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -114,7 +115,7 @@ def test_an_interruption_while_loading_shows_no_stack(seconds, tmp_path):
     status, told, _ = interrupted(["diagnose", str(tmp_path)], seconds, tmp_path)
     if status == 2:
         pytest.skip("a fast machine: it had ended")
-    if status == -signal.SIGINT and "probation" not in told:
+    if status == -signal.SIGINT and not re.search(r"probation/\w+\.py", told):
         pytest.skip("a slow machine: it was Python itself that started")
     assert status == 130
     assert told in ("", "probation: interrupted\n")
