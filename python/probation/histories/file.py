@@ -10,7 +10,7 @@ import numpy as np
 
 from probation._complaint import bad_input, listed, quoted
 from probation.histories import ImposedHistory
-from probation.records.checks import Fault, find_excess, find_short_step
+from probation.records.checks import find_excess, find_short_step, refusal
 from probation.records.options import ReadOptions
 from probation.records.reading import open_file
 from probation.records.roles import ROLES, role_of
@@ -52,26 +52,16 @@ def read_history(path: str | PathLike[str]) -> HistoryFile:
     table = reading.tables[0]
     columns = _columns(table)
     samples = {role: _samples(table, role, columns[role]) for role in _WANTED if role in columns}
-    _refuse(table, columns, find_excess(samples))
+    if fault := find_excess(samples):
+        raise refusal(table, columns, fault)
     _check_time(table, columns["time"], samples["time"])
     _check_strain(table, columns["true_strain"], samples["true_strain"])
-    _refuse(table, columns, find_short_step("time", samples["time"]))
+    if fault := find_short_step("time", samples["time"]):
+        raise refusal(table, columns, fault)
     history = ImposedHistory(
         path.name, samples["time"], true_strain=samples["true_strain"], strain_rate=samples.get("strain_rate")
     )
     return HistoryFile(history, source.sha256)
-
-
-def _refuse(table: Table, columns: dict[str, Column], fault: Fault | None) -> None:
-    if fault:
-        raise bad_input(
-            table.path,
-            fault.found,
-            fault.expected,
-            row=table.row_numbers[fault.sample],
-            column=columns[fault.quantity].label,
-            remedy=fault.remedy,
-        )
 
 
 def _columns(table: Table) -> dict[str, Column]:

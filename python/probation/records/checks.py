@@ -1,5 +1,7 @@
 """What samples must satisfy before anything may be computed from them."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -7,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from probation._complaint import quoted
+from probation._complaint import bad_input, quoted
 from probation.errors import InputError
 from probation.limits import LARGEST, SHORTEST_STEP, SMALLEST
 from probation.records.roles import ROLES
 
 if TYPE_CHECKING:
     from probation.records.record import Record
+    from probation.records.table import Column, Table
 
 FloatArray = NDArray[np.float64]
 
@@ -40,7 +43,7 @@ class Fault:
     remedy: str = ""
 
 
-def require_signal(record: "Record") -> None:
+def require_signal(record: Record) -> None:
     """Refuse a record that a law cannot be put against: its strain does not move, or it bears no stress.
 
     Raises
@@ -119,6 +122,18 @@ def find_excess(samples: Mapping[str, FloatArray]) -> Fault | None:
             least = f"at least {SMALLEST[quantity]:g} {ROLES[quantity].unit.removeprefix('dimensionless')}".rstrip()
             return Fault(quantity, at, f"{magnitude:.4g} as the largest", least, "check the numbers and their unit")
     return None
+
+
+def refusal(table: Table, columns: Mapping[str, Column], fault: Fault) -> InputError:
+    """A fault of a file's samples, by row and column."""
+    return bad_input(
+        table.path,
+        fault.found,
+        fault.expected,
+        row=table.row_numbers[fault.sample],
+        column=columns[fault.quantity].label,
+        remedy=fault.remedy,
+    )
 
 
 def find_short_step(quantity: str, time: FloatArray) -> Fault | None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from probation._complaint import bad_input, joined, listed, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
-from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step
+from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step, refusal
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
@@ -174,14 +174,7 @@ def _check_samples(table: Table, columns: dict[str, Column], samples: dict[str, 
 def _check_extent(table: Table, columns: dict[str, Column], samples: dict[str, FloatArray]) -> None:
     """Refuse numbers beyond what physics allows, once their unit is known."""
     if fault := find_excess(samples) or find_short_step("time", samples["time"]):
-        raise bad_input(
-            table.path,
-            fault.found,
-            fault.expected,
-            row=table.row_numbers[fault.sample],
-            column=columns[fault.quantity].label,
-            remedy=fault.remedy,
-        )
+        raise refusal(table, columns, fault)
 
 
 def _in_internal_units(table: Table, role: str, column: Column, values: FloatArray, options: ReadOptions) -> FloatArray:

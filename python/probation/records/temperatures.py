@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from probation._complaint import bad_input, quoted
-from probation.records.checks import find_excess, find_fault, find_short_step
+from probation.records.checks import find_excess, find_fault, find_short_step, refusal
 from probation.records.options import ReadOptions
 from probation.records.reading import chosen_tables, open_file
 from probation.records.record import Record
@@ -39,14 +39,7 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
     columns = {role: by_label[table.roles[role]] for role in _ROLES}
     log = {role: table.numbers(column) for role, column in columns.items()}
     if fault := find_fault(log) or find_excess(log) or find_short_step("time", log["time"]):
-        raise bad_input(
-            path,
-            fault.found,
-            fault.expected,
-            row=table.row_numbers[fault.sample],
-            column=columns[fault.quantity].label,
-            remedy=fault.remedy,
-        )
+        raise refusal(table, columns, fault)
     time, begin, end = log["time"], float(record.time[0]), float(record.time[-1])
     missing = max(float(time[0]) - begin, end - float(time[-1]), 0.0)
     if missing > 0.1 * (end - begin):
