@@ -216,3 +216,14 @@ def test_substeps_bring_the_scheme_to_the_exact_answer():
     law, exact = LAWS["constant"], LAWS["constant"].stress(WAVY_TIME, WAVY_STRAIN, "exact")
     once, often = (np.abs(law.stress(WAVY_TIME, WAVY_STRAIN, probation.SA2(substeps=n)) - exact).max() for n in (1, 8))
     assert often < 0.05 * once
+
+
+@pytest.mark.parametrize("scheme", ["be2", "sa2", "sa3"])
+def test_an_answer_follows_its_input_alone_whatever_was_computed_before(scheme):
+    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
+    time = np.cumsum(np.random.default_rng(1).uniform(0.1, 0.3, 60))
+    strain = 0.004 * time + 0.01 * np.sin(time / 3.0)
+    before = law.stress(time, strain, scheme)
+    steps_that_fill_the_tables = np.cumsum(np.sort(np.random.default_rng(2).uniform(0.08, 0.35, 4000)))
+    law.stress(steps_that_fill_the_tables, 1e-4 * steps_that_fill_the_tables, scheme)
+    assert (law.stress(time, strain, scheme) == before).all()

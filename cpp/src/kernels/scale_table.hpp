@@ -115,13 +115,14 @@ struct TabledSteps {
   double offset[most];
   const double* rows[most];
 
-  /// Cells that are missing are formed where steps of a cell are as many as its terms, on average.
+  /// The table is worth while where steps of a cell are as many as its terms, on average. What it holds from
+  /// before has no say: the two ways differ in their last digits, and an answer follows its input alone.
   TabledSteps(const Modes& modes, const double* scale, int available) {
     ScaleTable& kept = *modes.table;
     const auto stride = static_cast<std::ptrdiff_t>(modes.padded) * ScaleTable::terms;
     std::int64_t wanted[ScaleTable::slots];
     for (std::int64_t& cell : wanted) cell = -1;
-    int missing = 0;
+    int cells = 0, missing = 0;
     lowest = highest = scale[0];
     ScaleCell cell;  // of the step before: mostly of this one, too
     const double* rows_of_cell = nullptr;
@@ -134,6 +135,7 @@ struct TabledSteps {
         if (wanted[slot] != index) {
           if (wanted[slot] >= 0) break;
           wanted[slot] = index;
+          ++cells;
           if (kept.cell[slot] != index) ++missing;
         }
         cell = ScaleCell(index);
@@ -144,7 +146,7 @@ struct TabledSteps {
       lowest = here < lowest ? here : lowest;
       highest = here > highest ? here : highest;
     }
-    if (missing * ScaleTable::terms > count) {
+    if (cells * ScaleTable::terms > count) {
       count = 0;
       return;
     }
