@@ -109,3 +109,14 @@ def test_the_glossary_is_in_order_and_names_files_that_are_there():
     files = set(re.findall(r"`([\w/]+(?:\.py|\.hpp|/))`", text))
     assert len(files) > 20
     assert [each for each in sorted(files) if not any((root / each).exists() for root in (ROOT, *PACKAGES))] == []
+
+
+def test_lines_of_the_docs_fit_a_hundred_columns():
+    """Tables may be wider."""
+    wide = {
+        f"{path.relative_to(ROOT)}:{number}"
+        for path in [*(ROOT / "docs").glob("*.md"), *(ROOT / "python").rglob("*.md")]
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if len(line) > 100 and not line.lstrip().startswith("|")
+    }
+    assert wide == set()
