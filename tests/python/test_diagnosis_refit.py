@@ -7,9 +7,10 @@ from scipy.optimize import least_squares
 
 from campaigns import linear_problem as problem
 from probation import Campaign, ConvergenceError, Record
-from probation.diagnosis.base_fit import base_fit
 from probation.diagnosis.explain import base_parameters
 from probation.effects.cause import Cause
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
 
 COUNT = 120
 TIME = np.linspace(0.0, 100.0, COUNT)
@@ -168,5 +169,6 @@ def test_a_base_parameter_at_its_bound_has_no_error():
     time = np.linspace(0.0, 1.0, 60)
     stress = 30.0 - 20.0 * time + 0.01 * np.random.default_rng(1).normal(size=60)
     record = Record("a", time, time, stress, control="strain-rate")
-    hardening = base_parameters(base_fit(Campaign("x", (record,))))[2]
+    campaign = Campaign("x", (record,))
+    hardening = base_parameters(base_fit(campaign, plain_fit(campaign)))[2]
     assert (hardening.value, hardening.se, hardening.status) == (0.0, None, "not_identifiable")

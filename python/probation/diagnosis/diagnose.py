@@ -12,7 +12,6 @@ from probation.detection.gap_test import GapTester
 from probation.detection.place_left_out import place_left_out
 from probation.detection.sharp_gap import with_sharp
 from probation.detection.where import locate
-from probation.diagnosis.base_fit import BaseFit, base_fit, fit_law, with_noise_beside
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
@@ -34,6 +33,9 @@ from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
 from probation.effects.registry import effects as catalogue
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+from probation.inference.base_fit import BaseFit, fit_law, with_noise_beside
 from probation.inference.thinning import thin
 from probation.parallel import usual_threads
 from probation.records.checks import require_signal
@@ -111,7 +113,7 @@ def diagnose(
         if progress:
             progress(part)
 
-    base = base_fit(campaign, scheme, hold) if law is None else fit_law(law, campaign, scheme)
+    base = base_fit(campaign, plain_fit(campaign, scheme, hold)) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
     base = base.screened(considered, workers)
     told(0.2)

@@ -14,10 +14,10 @@ from probation.inference.parameter import IDENTIFIABLE, WEAKLY
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks
+    from probation.inference.base_fit import BaseFit
 
 UNINFORMED = 0.9
 """A standard error above so much of the prior's means that the data add nothing."""

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from probation._arrays import as_threads
 from probation.answers import json_answer
 from probation.design.isolability import isolability
-from probation.diagnosis.base_fit import base_fit
 from probation.effects.registry import effects as known_effects
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
 from probation.parallel import usual_threads
 from probation.results.rendering import Result
 
@@ -73,7 +74,7 @@ def campaign_isolability(
     InputError
         For an unknown effect, or as `probation.fit`.
     """
-    base = base_fit(campaign, scheme, hold)
+    base = base_fit(campaign, plain_fit(campaign, scheme, hold))
     found = isolability(
         base.model,
         base.parameters,

@@ -15,7 +15,7 @@ from probation.inference.refit import Coordinates, Refit, refit
 from probation.noise.span import without
 
 if TYPE_CHECKING:
-    from probation.diagnosis.base_fit import BaseFit
+    from probation.inference.base_fit import BaseFit
     from probation.inference.candidate import WhitenedColumns
 
 SHARP_STEPS = 6

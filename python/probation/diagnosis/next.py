@@ -12,9 +12,9 @@ from probation.diagnosis.result import UNKNOWN, NextTest
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
+    from probation.inference.base_fit import BaseFit
 
 MOST = 4
 """Explanations that a test is planned for, the most probable ones."""

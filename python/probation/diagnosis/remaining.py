@@ -11,8 +11,8 @@ from probation.inference.form_error import form_columns
 from probation.noise.beside import whitened_beside
 
 if TYPE_CHECKING:
-    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.result import Shrink
+    from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
 
 TOLERATED = 0.05

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.diagnosis.base_fit import BaseFit
     from probation.effects.effect import Effect
+    from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
 
 HEAT_STEPS, HEATS = 4, 4

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.detection.where import Located
-    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
+    from probation.inference.base_fit import BaseFit
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
 

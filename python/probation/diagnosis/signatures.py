@@ -14,8 +14,8 @@ from probation.wording import listed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.diagnosis.base_fit import BaseFit
     from probation.diagnosis.hypothesis import Hypothesis
+    from probation.inference.base_fit import BaseFit
 
 LEVEL = 1e-3
 """p-value, over all records, below which a feature is reported."""

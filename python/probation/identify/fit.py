@@ -8,7 +8,9 @@ import numpy as np
 
 from probation._arrays import one_of
 from probation.errors import InputError
+from probation.identify.base_law import base_law
 from probation.identify.describe import describe
+from probation.identify.given import given
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
@@ -16,9 +18,7 @@ from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
 from probation.inference.parameter import by_inside_name, outside_name
-from probation.law.companion import from_settings
 from probation.law.modal import Law
-from probation.law.reduction import spectrum_of
 from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.smoothing.excitation import excite
 
@@ -27,9 +27,8 @@ if TYPE_CHECKING:
 
     from probation.records.campaign import Campaign
     from probation.smoothing.methods import Method as ExcitationMethod
-
-START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_modulus": 1.0}
-"""Placeholders: variable projection needs no start."""
+PARAMETERS = 3
+"""Of the law: E_u, tau_max or alpha, G."""
 
 
 def fit(
@@ -123,6 +122,21 @@ def fit(
     return found
 
 
+def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Mapping[str, float] | None = None) -> Fit:
+    """The law fitted without weights, as it is where nothing is left to identify: where a base fit begins.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+    hold : dict of str to float, optional
+        As in `fit`.
+    """
+    if len(campaign.law.fixed) == PARAMETERS and not hold:
+        return given(campaign, scheme)
+    return fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection")
+
+
 def _least_squares(
     problem: Problem,
     prepared: Sequence[RecordProblem],
@@ -162,27 +176,6 @@ def _with_more_substeps(
     problem.records = tuple(each.with_substeps(needed) for each in problem.records)
     problem.noises = list(problem.white)
     return weigh(problem, weighted.law, weighting, limits, excitation)
-
-
-def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[bool, bool, bool]]:
-    """The campaign's law, with placeholders for what is not held, and which parameters are."""
-    settings = campaign.law
-    companion = from_settings(settings.companion)
-    names = ("unrelaxed_modulus", "tau_max" if companion is None else "alpha", "hardening_modulus")
-    values = {name: START[name] for name in names}
-    fixed = {**settings.fixed, **hold}
-    values.update((name, float(value)) for name, value in by_inside_name(fixed, names, "hold").items())
-    law = Law(
-        unrelaxed_modulus=values["unrelaxed_modulus"],
-        hardening_modulus=values["hardening_modulus"],
-        tau_max=values.get("tau_max"),
-        alpha=values.get("alpha"),
-        decades=settings.decades,
-        companion=companion,
-        spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
-    )
-    held = tuple(outside_name(name) in fixed for name in names)
-    return law, (held[0], held[1], held[2])
 
 
 def _limits(law: Law, bounds: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
+from probation.identify.base_law import base_law
 from probation.identify.describe import describe
-from probation.identify.fit import base_law
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.weighting import plainly
 from probation.law.schemes import at_samples

@@ -13,8 +13,10 @@ import numpy as np
 import probation
 from probation.detection.gap_test import GapTester
 from probation.detection.sharp_gap import with_sharp
-from probation.diagnosis.base_fit import BaseFit, base_fit
 from probation.effects.registry import effects
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+from probation.inference.base_fit import BaseFit
 from probation.inference.candidate import WhitenedColumns
 from probation.inference.thinning import thin
 
@@ -54,7 +56,7 @@ def survey(folder: Path) -> Survey:
     """
     campaign, _ = thin(probation.Campaign.load(folder))
     catalogue = effects()
-    base = base_fit(campaign).screened(catalogue)
+    base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
     gap = with_sharp(GapTester(base.whitened, base.columns.by_effect())(), base.whitened).rejected
     return Survey(campaign.name, base, base.columns_with_starts(catalogue), gap)
 
