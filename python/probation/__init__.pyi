@@ -34,6 +34,7 @@ from .law.schemes import BE2, CVODE, SA2, SA3, Exact
 from .records.campaign import Campaign
 from .records.preview import preview
 from .records.record import Noise, Record
+from .records.specimens import Specimens
 from .schemes.crosscheck import crosscheck
 from .schemes.result import CrossCheck
 from .simulation import Simulation, simulate
@@ -75,6 +76,7 @@ __all__ = [
     "Reference",
     "SelfHeating",
     "Simulation",
+    "Specimens",
     "Spectrum",
     "StrainHistory",
     "StressActivation",

@@ -15,6 +15,7 @@ from probation.law.modal import Law
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.campaign import Campaign
 from probation.records.record import Noise, Record
+from probation.records.specimens import Specimens
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -197,7 +198,7 @@ def twin_campaign(
         )
         law = LawSettings(companion=relation, fixed={"unrelaxed_modulus_MPa": _UNRELAXED_MODULUS})
     default_name = "experiment-" + "-".join(str(number) for number in (*experiments, *held_out))
-    return Campaign(name=name or default_name, records=tuple(records), law=law)
+    return Campaign(name=name or default_name, records=tuple(records), law=law, specimens=Specimens("none"))
 
 
 def _grip_driven(experiment: Literal[2, 3], seed: int, noise: float, necking: NeckingSet, strain_noise: float) -> Twin:

@@ -44,6 +44,7 @@ def assemble(
         **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
         control=control,
         role=role,
+        specimen_id=None,  # a campaign says it
         noise=noise or Noise(),
         file=source.path,
         sha256=source.sha256,

@@ -14,6 +14,7 @@ from probation.records.campaign_file import load_campaign_file
 from probation.records.reading import read_records
 from probation.records.record import Record
 from probation.records.saving import save_campaign
+from probation.records.specimens import Specimens
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ class Campaign:
     records : tuple of Record
         In the order of the campaign file.
     law : LawSettings
+    specimens : Specimens
+        How far specimens differ; ``Specimens("none")`` for a virtual campaign.
     path : Path or None
         The campaign.toml; None for a campaign made in memory.
     file_sha256 : str
@@ -43,6 +46,7 @@ class Campaign:
     name: str
     records: tuple[Record, ...]
     law: LawSettings = field(default_factory=LawSettings)
+    specimens: Specimens = field(default_factory=Specimens)
     path: Path | None = None
     file_sha256: str = ""
 
@@ -74,7 +78,14 @@ class Campaign:
             file, row, column, what was found and what was expected.
         """
         read = load_campaign_file(Path(path))
-        return cls(name=read.name, records=read.records, law=read.law, path=read.path, file_sha256=read.sha256)
+        return cls(
+            name=read.name,
+            records=read.records,
+            law=read.law,
+            specimens=read.specimens,
+            path=read.path,
+            file_sha256=read.sha256,
+        )
 
     @classmethod
     def from_files(
@@ -116,7 +127,7 @@ class Campaign:
         Path
             The campaign.toml.
         """
-        return save_campaign(Path(folder), self.name, self.law, self.records)
+        return save_campaign(Path(folder), self.name, self.law, self.specimens, self.records)
 
     @property
     def identify(self) -> tuple[Record, ...]:
@@ -136,10 +147,11 @@ class Campaign:
     @property
     def data_hash(self) -> str:
         """SHA-256 over campaign.toml, settings, files and samples, in hexadecimal."""
-        digest = hashlib.sha256(repr((self.file_sha256, self.name, self.law)).encode())
+        digest = hashlib.sha256(repr((self.file_sha256, self.name, self.law, self.specimens)).encode())
         for record in self.records:
             facts = (
                 record.id,
+                record.specimen_id,
                 record.role,
                 record.control,
                 record.noise,

@@ -18,6 +18,7 @@ from probation.records.profiles import PROFILES
 from probation.records.reading import read_record
 from probation.records.record import CONTROLS, RECORD_ROLES, Noise, Record
 from probation.records.roles import ROLES
+from probation.records.specimens import DEVIATIONS, SPECIMENS_KEYS, WAYS, Specimens
 from probation.records.start import STARTS
 from probation.records.temperatures import with_temperature
 from probation.records.toml_table import TomlTable
@@ -32,6 +33,7 @@ _RECORD_KEYS = (
     "units",
     "profile",
     "specimen",
+    "specimen_id",
     "specimen_index",
     "sheet",
     "noise",
@@ -49,6 +51,7 @@ class CampaignFile:
     path: Path
     sha256: str
     law: LawSettings
+    specimens: Specimens
     records: tuple[Record, ...]
 
 
@@ -68,8 +71,9 @@ def load_campaign_file(path: Path) -> CampaignFile:
     path = _campaign_path(path)
     data = read_whole(path, TOML_BYTES)
     top = TomlTable.load(path, decode(path, data)[0])
-    top.only(("name", "law", "record"))
+    top.only(("name", "law", "specimens", "record"))
     law = _law(top.table("law"))
+    specimens = _specimens(top.table("specimens"))
     entries = list(top.tables("record"))
     if not entries:
         raise bad_input(path, "no records", "at least one", remedy="add a [[record]] with id and file")
@@ -82,6 +86,7 @@ def load_campaign_file(path: Path) -> CampaignFile:
         path=path,
         sha256=hashlib.sha256(data).hexdigest(),
         law=law,
+        specimens=specimens,
         records=records,
     )
 
@@ -111,6 +116,22 @@ def _law(table: TomlTable) -> LawSettings:
         )
     except InputError as failure:
         raise _at_path(table.path, failure) from None
+
+
+def _specimens(table: TomlTable) -> Specimens:
+    table.only(SPECIMENS_KEYS)
+    if not isinstance(table.values.get("scatter"), dict):
+        return Specimens(table.text("scatter", default="estimate", known=WAYS))
+    scatter = table.table("scatter")
+    scatter.only(DEVIATIONS)
+    values = {name: scatter.number(name) for name in scatter.values}
+    for name, value in values.items():
+        try:
+            Specimens({name: value})
+        except InputError as failure:
+            expected = str(failure).partition(", expected ")[2]
+            raise scatter.complain(name, f"{name} = {value}", expected) from None
+    return Specimens(values)
 
 
 def _companion(table: TomlTable) -> CompanionSettings:
@@ -186,6 +207,8 @@ def _record(folder: Path, entry: TomlTable) -> Record:
         noise=Noise(stress_MPa=levels.get("stress_MPa"), strain=levels.get("strain")),
         start=entry.text("start", default="relaxed", known=STARTS),
     )
+    if "specimen_id" in entry.values:
+        record = replace(record, specimen_id=entry.text("specimen_id"))
     if "temperature_file" in entry.values:
         return with_temperature(record, _existing(folder, entry, "temperature_file"), index or 1)
     if "temperature_C" not in entry.values:

@@ -67,6 +67,8 @@ class Record:
     temperature : ndarray, shape (n,) [°C], or None
     control : {"strain-rate", "displacement-rate", "hold", "cyclic", "other"}
     role : {"identify", "held-out"}
+    specimen_id : str or None
+        Records of one specimen share its deviations; without one the record is a specimen of its own.
     noise : Noise
     file : Path or None
         Where it was read; None for a record made in memory.
@@ -94,6 +96,7 @@ class Record:
     temperature: FloatArray | None = None
     control: str = "other"
     role: str = "identify"
+    specimen_id: str | None = None
     noise: Noise = field(default_factory=Noise)
     file: Path | None = None
     sha256: str = ""
@@ -104,6 +107,12 @@ class Record:
         if not isinstance(self.id, str) or not self.id.strip():
             raise InputError(f"record: found the id {self.id!r}, expected some text")
         object.__setattr__(self, "id", printable(self.id))
+        if self.specimen_id is not None:
+            if not isinstance(self.specimen_id, str) or not self.specimen_id.strip():
+                raise InputError(
+                    f"record {quoted(self.id)}: found the specimen_id {self.specimen_id!r}, expected some text"
+                )
+            object.__setattr__(self, "specimen_id", printable(self.specimen_id))
         for name in SAMPLED:
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, self._as_samples(name))

@@ -8,6 +8,7 @@ from pathlib import Path
 from probation._files import make_folder, write_whole
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.record import Record
+from probation.records.specimens import Specimens
 
 _HEADINGS = {
     "time": "time_s",
@@ -19,7 +20,7 @@ _HEADINGS = {
 }
 
 
-def save_campaign(folder: Path, name: str, law: LawSettings, records: Sequence[Record]) -> Path:
+def save_campaign(folder: Path, name: str, law: LawSettings, specimens: Specimens, records: Sequence[Record]) -> Path:
     """Write the CSVs, then the campaign.toml that names them.
 
     Returns
@@ -32,7 +33,7 @@ def save_campaign(folder: Path, name: str, law: LawSettings, records: Sequence[R
     for record, file_name in zip(records, file_names, strict=True):
         write_whole(folder / file_name, csv_text(record))
     path = folder / "campaign.toml"
-    write_whole(path, campaign_text(name, law, records, file_names))
+    write_whole(path, campaign_text(name, law, specimens, records, file_names))
     return path
 
 
@@ -45,7 +46,9 @@ def csv_text(record: Record) -> str:
     return "\n".join(lines) + "\n"
 
 
-def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_names: Sequence[str]) -> str:
+def campaign_text(
+    name: str, law: LawSettings, specimens: Specimens, records: Sequence[Record], file_names: Sequence[str]
+) -> str:
     """Write the campaign.toml of records saved under these file names."""
     modes = {"modes": law.modes, "decades": law.decades}
     if law.accuracy is not None:
@@ -55,11 +58,14 @@ def campaign_text(name: str, law: LawSettings, records: Sequence[Record], file_n
         parts.append(companion_text(law.companion))
     if law.fixed:
         parts.append("[law.fixed]\n" + _lines(law.fixed))
+    if specimens != Specimens():
+        parts.append("[specimens]\n" + _lines({"scatter": specimens.scatter}))
     for record, file_name in zip(records, file_names, strict=True):
         noise = {"stress_MPa": record.noise.stress_MPa, "strain": record.noise.strain}
         known = {key: level for key, level in noise.items() if level is not None}
         entry = {"id": record.id, "file": file_name, "control": record.control, "role": record.role}
-        parts.append("[[record]]\n" + _lines({**entry, **({"noise": known} if known else {})}))
+        specimen = {"specimen_id": record.specimen_id} if record.specimen_id is not None else {}
+        parts.append("[[record]]\n" + _lines({**entry, **specimen, **({"noise": known} if known else {})}))
     return "\n".join(parts)
 
 

@@ -10,6 +10,7 @@ from probation.errors import InputError
 from probation.law.companion import Weissenberg
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.campaign import Campaign
+from probation.records.specimens import Specimens
 from probation_studies.specimen.experiments import Experiment, Loading, StrainMeasure, constant_rate_point, pull
 
 if TYPE_CHECKING:
@@ -57,7 +58,8 @@ class Specimen:
         assert isinstance(relation, Weissenberg)
         companion = CompanionSettings("weissenberg", {"slope": relation.slope, "intercept": relation.intercept})
         records = tuple(recording.record(each) for each in experiments)
-        return Campaign(name=name, records=records, law=LawSettings(companion=companion))
+        settings = LawSettings(companion=companion)
+        return Campaign(name=name, records=records, law=settings, specimens=Specimens("none"))
 
 
 def make_specimen(

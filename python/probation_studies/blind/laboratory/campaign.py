@@ -67,6 +67,8 @@ class SealedCampaign:
         if self.companion is not None:
             slope, intercept = self.companion
             lines += ["[law.companion]", 'form = "weissenberg"', f"slope = {slope!r}", f"intercept = {intercept!r}"]
+        # Specimens of the laboratory are alike but for noise.
+        lines += ["", "[specimens]", 'scatter = "none"']
         for record in self.records:
             role = "held-out" if record.held_out else "identify"
             lines += ["", "[[record]]", f'id = "{record.id}"', f'file = "{record.id}.csv"']
