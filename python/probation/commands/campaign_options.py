@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation._files import kind_of
+from probation.commands.reading_options import add_reading, reading_from, refuse_reading
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.records.campaign import Campaign
+
+CONTROLS = ("strain-rate", "displacement-rate", "hold", "cyclic", "other")
 
 
 def add_campaign(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
@@ -26,13 +29,10 @@ def add_campaign(parser: argparse.ArgumentParser, *, optional: bool = False) -> 
     )
 
 
-def add_control(parser: argparse.ArgumentParser) -> None:
-    """Add ``--control``, for data files."""
-    parser.add_argument(
-        "--control",
-        choices=("strain-rate", "displacement-rate", "hold", "cyclic", "other"),
-        default="other",
-        help="how the tests in data files were driven (other)",
+def add_data_files(parser: argparse.ArgumentParser) -> None:
+    """Add ``--control`` and how files are read, for data files."""
+    add_reading(parser).add_argument(
+        "--control", choices=CONTROLS, default="other", help="how the tests in data files were driven (other)"
     )
 
 
@@ -70,18 +70,18 @@ def with_held_out(campaign: Campaign, held_out: Sequence[str]) -> Campaign:
 
 def campaign_from(options: argparse.Namespace) -> Campaign:
     """The campaign that `options.campaign` names."""
-    return campaign_at(options.campaign, options.control)
+    return campaign_at(options.campaign, options)
 
 
-def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
+def campaign_at(paths: Sequence[str], options: argparse.Namespace) -> Campaign:
     """A campaign, or data files that stand in for one.
 
     Parameters
     ----------
     paths : sequence of str
         A folder or campaign.toml; or data files, one or more.
-    control : str
-        How the tests in data files were driven.
+    options : argparse.Namespace
+        With those of `add_data_files`.
 
     Raises
     ------
@@ -91,7 +91,8 @@ def campaign_at(paths: Sequence[str], control: str = "other") -> Campaign:
     from probation.records.campaign import Campaign  # noqa: PLC0415 - see the package
 
     if len(paths) > 1 or is_data_file(paths[0]):
-        return Campaign.from_files(paths, control=control)
+        return Campaign.from_files(paths, control=options.control, **reading_from(options))
+    refuse_reading(options, f"the campaign {paths[0]}", "its campaign.toml says how its files are read")
     return Campaign.load(paths[0])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from probation.commands.campaign_options import add_campaign, add_control, add_held_out, campaign_from, with_held_out
+from probation.commands.campaign_options import add_campaign, add_data_files, add_held_out, campaign_from, with_held_out
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme
@@ -28,7 +28,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="the probation test: is the law intrinsic?", description=_DESCRIPTION)
     add_campaign(parser)
-    add_control(parser)
+    add_data_files(parser)
     add_held_out(parser)
     parser.add_argument(
         "--tolerance",

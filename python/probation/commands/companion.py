@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation.commands.campaign_options import add_control, campaign_at, is_data_file
+from probation.commands.campaign_options import add_data_files, campaign_at, is_data_file
 from probation.commands.delivery import Output, add_delivery, deliver, output_folder, outputs_with_report, text_output
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_scheme
@@ -71,7 +71,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="G in the direct route: each record its own (default), or one for all",
     )
     add_scheme(parser, "sa3")
-    add_control(parser)
+    add_data_files(parser)
     add_delivery(parser)
     group = parser.add_argument_group("use")
     group.add_argument("--toml", action="store_true", help="print [law.companion] alone, to paste into a campaign.toml")
@@ -130,4 +130,4 @@ def _source(options: argparse.Namespace) -> Campaign | RateTable:
         table = read_rate_table(Path(options.source[0]))
         if table is not None:
             return table
-    return campaign_at(options.source, options.control)
+    return campaign_at(options.source, options)

@@ -14,7 +14,7 @@ from probation.commands.analysis_options import (
 )
 from probation.commands.campaign_options import (
     add_campaign,
-    add_control,
+    add_data_files,
     add_held_out,
     campaign_at,
     campaign_from,
@@ -63,7 +63,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="where, why and how far the law departs", description=_DESCRIPTION)
     add_campaign(parser, optional=True)
-    add_control(parser)
+    add_data_files(parser)
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument("--list-effects", action="store_true", help="list the effects that are known; no campaign")
     instead.add_argument(
@@ -140,7 +140,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
         pairs.setdefault(record, []).append(other)
     from probation.comparison.compare import compare  # noqa: PLC0415 - see the package
 
-    campaign, reference = campaign_from(options), campaign_at(options.against, options.control)
+    campaign, reference = campaign_from(options), campaign_at(options.against, options)
     with shown(f"{campaign.name} against {reference.name}"):
         answer = compare(
             campaign, reference, options.scheme, pairs=pairs or None, effects=names, threads=options.threads

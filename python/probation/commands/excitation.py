@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation.commands.campaign_options import campaign_at, is_data_file
+from probation.commands.campaign_options import add_data_files, campaign_at, is_data_file
 from probation.commands.delivery import (
     add_delivery,
     deliver,
@@ -16,6 +16,7 @@ from probation.commands.delivery import (
     usual_outputs,
 )
 from probation.commands.progress import shown
+from probation.commands.reading_options import reading_from
 from probation.errors import InputError
 from probation.smoothing.methods import DEFAULT, METHODS
 
@@ -61,6 +62,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--draws", metavar="N", type=_draws, help="draws of the noise that are compared (5)")
     parser.add_argument("--seed", metavar="N", type=int, help="of the noise that is compared (0)")
+    add_data_files(parser)
     add_delivery(parser)
     return parser
 
@@ -79,7 +81,7 @@ def _describe(options: argparse.Namespace) -> int:
         raise InputError("found --draws or --seed without --compare")
     if options.csv == "-" and options.json == "-":
         raise InputError("found both --csv - and --json -, expected one of them on standard output")
-    records = _records(options.file, options.record)
+    records = _records(options)
     several = [name for name in ("csv", "plot") if getattr(options, name)]
     if several and len(records) > 1:
         names = ", ".join(record.id for record in records)
@@ -95,21 +97,22 @@ def _describe(options: argparse.Namespace) -> int:
     return 0
 
 
-def _records(path: str, wanted: list[str] | None) -> tuple[Record, ...]:
+def _records(options: argparse.Namespace) -> tuple[Record, ...]:
     """Those of a campaign, or of a data file that stands in for one."""
+    path: str = options.file
     from probation.records.campaign import Campaign  # noqa: PLC0415
 
     try:
-        campaign = campaign_at([path])
+        campaign = campaign_at([path], options)
     except InputError as error:
         if not is_data_file(path):
             raise
         place = Path(path)
-        campaign = Campaign(place.name, (_strain_alone(place, error),))
-    return tuple(campaign.record(each) for each in wanted) if wanted else campaign.records
+        campaign = Campaign(place.name, (_strain_alone(place, error, options),))
+    return tuple(campaign.record(each) for each in options.record) if options.record else campaign.records
 
 
-def _strain_alone(place: Path, refused: InputError) -> Record:
+def _strain_alone(place: Path, refused: InputError, options: argparse.Namespace) -> Record:
     """A file of strain over time as a record without stress; `refused` says why it is no stress-strain record."""
     import numpy as np  # noqa: PLC0415 - see the package
 
@@ -117,7 +120,7 @@ def _strain_alone(place: Path, refused: InputError) -> Record:
     from probation.records.strain_history import read_strain_history  # noqa: PLC0415
 
     try:
-        history = read_strain_history(place)
+        history = read_strain_history(place, **reading_from(options))
     except InputError:
         raise refused from None
     return Record(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation._files import make_folder
-from probation.commands.campaign_options import add_control, campaign_at
+from probation.commands.campaign_options import add_data_files, campaign_at
 from probation.commands.delivery import Output, add_json, deliver, output_file, output_folder, text_output, warn
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.progress import shown
@@ -52,7 +52,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         nargs="*",
         help="a campaign or data files, identified first, or the JSON that fit --json wrote; or none, with --set",
     )
-    add_control(parser)
+    add_data_files(parser)
     add_law_options(parser)
     group = parser.add_argument_group("format")
     group.add_argument("--format", metavar="NAME", action="append", default=[], help="which; several, or all, too")
@@ -182,7 +182,7 @@ def _source(options: argparse.Namespace) -> Law | Fit | Path:
         raise InputError("found SOURCE beside --set or --companion, expected one of them")
     if len(options.source) == 1 and Path(options.source[0]).suffix.lower() == ".json":
         return Path(options.source[0])
-    campaign = campaign_at(options.source, options.control)
+    campaign = campaign_at(options.source, options)
     with shown(f"identifying on {campaign.name}") as advance:
         return fit(campaign, progress=lambda part: advance(round(100 * part), 100, ""))
 

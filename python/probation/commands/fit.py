@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from probation.commands.campaign_options import add_campaign, add_control, campaign_from
+from probation.commands.campaign_options import add_campaign, add_data_files, campaign_from
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_start, add_substeps
@@ -33,7 +33,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="identify the law on records", description=_DESCRIPTION)
     add_campaign(parser)
-    add_control(parser)
+    add_data_files(parser)
     add_scheme(parser)
     add_start(parser)
     add_substeps(parser)

@@ -17,6 +17,7 @@ from probation.commands.analysis_options import (
 from probation.commands.delivery import add_delivery, deliver, usual_outputs
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.progress import shown
+from probation.commands.reading_options import add_reading, reading_from
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="a planned test by name; may be given several times",
     )
     add_law_options(parser)
+    add_reading(parser)
     group = parser.add_argument_group("noise")
     group.add_argument(
         "--noise", metavar="MPA", type=float, required=True, help="standard deviation of the true stress in all tests"
@@ -106,7 +108,7 @@ def _histories(options: argparse.Namespace) -> dict[str, ImposedHistory]:
         raise InputError(
             "found no planned test, expected HISTORY.csv or --history; see probation simulate --list-histories"
         )
-    tests = [(Path(file).stem, read_history(file).history) for file in options.files]
+    tests = [(Path(file).stem, read_history(file, **reading_from(options)).history) for file in options.files]
     tests += [(text.partition(":")[0], history_from(text)) for text in options.history]
     found: dict[str, ImposedHistory] = {}
     for name, history in tests:

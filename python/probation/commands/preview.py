@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from probation.commands.delivery import deliver, named_numbers, plot_file, plot_output
-from probation.errors import InputError
+from probation.commands.delivery import deliver, plot_file, plot_output
+from probation.commands.reading_options import add_reading, reading_from
 
 NAME = "preview"
 
@@ -23,20 +23,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add the command."""
     parser = subparsers.add_parser(NAME, help="how a file would be read", description=_DESCRIPTION)
     parser.add_argument("file", metavar="FILE", help="CSV, TSV, .xlsx, or what an import profile reads")
-    parser.add_argument("--profile", metavar="NAME", help="import profile; by default recognised from the content")
-    parser.add_argument(
-        "--column",
-        metavar="ROLE=HEADING",
-        action="append",
-        default=[],
-        help="which column is which, by heading or by position counted from 1",
-    )
-    parser.add_argument("--unit", metavar="ROLE=UNIT", action="append", default=[], help="unit of a column")
-    parser.add_argument(
-        "--specimen", metavar="NAME=VALUE", action="append", default=[], help="area_mm2, gauge_length_mm"
-    )
-    parser.add_argument("--specimen-index", metavar="N", type=int, help="of specimens side by side, only this one")
-    parser.add_argument("--sheet", metavar="NAME", help="of an Excel workbook")
+    add_reading(parser)
     parser.add_argument("--plot", metavar="FILE", type=plot_file, help="save a plot, as .png, .svg or .pdf")
     return parser
 
@@ -45,30 +32,6 @@ def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.records.preview import preview  # noqa: PLC0415 - see the package
 
-    shown = preview(
-        options.file,
-        profile=options.profile,
-        columns={role: _heading(text) for role, text in _pairs(options.column, "--column").items()},
-        units=_pairs(options.unit, "--unit"),
-        specimen=named_numbers(options.specimen, "--specimen"),
-        specimen_index=options.specimen_index,
-        sheet=options.sheet,
-    )
+    shown = preview(options.file, **reading_from(options))
     deliver(shown.summary(), [plot_output(shown, options.plot)])
     return 0
-
-
-def _pairs(entries: list[str], option: str) -> dict[str, str]:
-    pairs: dict[str, str] = {}
-    for entry in entries:
-        role, equals, text = (part.strip() for part in entry.partition("="))
-        if not (equals and role and text):
-            raise InputError(f"{option}: found {entry!r}, expected ROLE=…")
-        if role in pairs:
-            raise InputError(f"{option}: found {role} twice, expected it once")
-        pairs[role] = text
-    return pairs
-
-
-def _heading(text: str) -> str | int:
-    return int(text) if text.isdecimal() else text

@@ -14,6 +14,7 @@ from probation.commands.delivery import (
     warn,
 )
 from probation.commands.law_options import add_law_options, law_from_options
+from probation.commands.reading_options import add_reading, reading_from
 from probation.commands.scheme_options import add_scheme, add_start
 from probation.commands.streams import put
 from probation.errors import InputError
@@ -48,6 +49,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--history", metavar="NAME:PARAMETER=VALUE,…", help="a history by name instead of a file")
     parser.add_argument("--list-histories", action="store_true", help="list their names, parameters, units, defaults")
     add_law_options(parser)
+    add_reading(parser)
     group = parser.add_argument_group("scheme")
     add_scheme(group, choices=SCHEMES)
     add_start(group)
@@ -108,4 +110,8 @@ def _history(options: argparse.Namespace) -> ImposedHistory:
     if (options.file is None) == (options.history is None):
         both = "both a file and --history" if options.file else "neither a file nor --history"
         raise InputError(f"found {both}, expected one of them; --list-histories lists the names")
-    return history_from(options.history) if options.history else read_history(options.file).history
+    return (
+        history_from(options.history)
+        if options.history
+        else read_history(options.file, **reading_from(options)).history
+    )

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
 from probation._complaint import bad_input, listed, quoted
 from probation.histories import ImposedHistory
 from probation.records.checks import find_excess, find_short_step, refusal
-from probation.records.options import ReadOptions
+from probation.records.options import ReadingKeys, ReadOptions
 from probation.records.reading import open_file
 from probation.records.roles import ROLES, role_of
+from probation.records.source import Source
+from probation.records.strain_history import read_strain_history
 from probation.records.strain_limits import expected_strain, impossible_sample
 from probation.records.units import convert
 
@@ -34,10 +36,17 @@ class HistoryFile:
     sha256: str
 
 
-def read_history(path: str | PathLike[str]) -> HistoryFile:
+def read_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> HistoryFile:
     """Read ``time_s,true_strain`` (and ``strain_rate_per_s``, if there); other columns are left alone.
 
-    Separators, decimal marks, encodings and units as for records.
+    Separators, decimal marks, encodings and units as for records; where any of `how` is given, any strain
+    of a record will do.
+
+    Parameters
+    ----------
+    path : path-like
+    **how
+        How the file is read, as in `preview`.
 
     Raises
     ------
@@ -45,6 +54,12 @@ def read_history(path: str | PathLike[str]) -> HistoryFile:
         At the first thing that is wrong, naming file, row, column, what was found and what was expected.
     """
     path = Path(path)
+    if any(how.values()):
+        measured = read_strain_history(path, **how)
+        history = ImposedHistory(
+            path.name, measured.time, true_strain=measured.true_strain, strain_rate=measured.strain_rate
+        )
+        return HistoryFile(history, Source.open(path).sha256)
     source, _, reading = open_file(path, ReadOptions())
     if reading.auxiliary or len(reading.tables) != 1:
         held = reading.auxiliary or f"{len(reading.tables)} specimens side by side"

@@ -5,12 +5,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
+from typing import Unpack
 
 from probation._complaint import quoted, suggestion
 from probation._text import printable
 from probation.errors import InputError
 from probation.law.settings import LawSettings
 from probation.records.campaign_file import load_campaign_file
+from probation.records.options import ReadingKeys
 from probation.records.reading import read_records
 from probation.records.record import Record
 from probation.records.saving import save_campaign
@@ -89,7 +91,12 @@ class Campaign:
 
     @classmethod
     def from_files(
-        cls, paths: Sequence[str | PathLike[str]], *, control: str = "other", name: str | None = None
+        cls,
+        paths: Sequence[str | PathLike[str]],
+        *,
+        control: str = "other",
+        name: str | None = None,
+        **how: Unpack[ReadingKeys],
     ) -> "Campaign":
         """Take every specimen of some data files as a record to identify on, with a constant tau_max.
 
@@ -101,6 +108,9 @@ class Campaign:
             How the tests were driven.
         name : str, optional
             The first file's name if left out.
+        **how
+            How each of the files is read, as in `preview`: ``profile``, ``columns``, ``units``, ``specimen``,
+            ``specimen_index``, ``sheet``.
 
         Raises
         ------
@@ -109,7 +119,7 @@ class Campaign:
         """
         if not paths:
             raise InputError("found no files, expected at least one")
-        records = [record for path in paths for record in read_records(path, control=control)]
+        records = [record for path in paths for record in read_records(path, control=control, **how)]
         return cls(name=name or Path(paths[0]).name.split(".")[0], records=tuple(records))
 
     def save(self, folder: str | PathLike[str]) -> Path:

@@ -1,14 +1,48 @@
 """How a file is to be read, where its content alone does not say."""
 
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypedDict, Unpack
 
-from probation._complaint import quoted, suggestion
+from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
 from probation.records.roles import ROLES, STRAIN_ROLES, STRESS_ROLES
 
-SPECIMEN_KEYS = ("area_mm2", "gauge_length_mm")
+SPECIMEN_KEYS = ("area_mm2", "gauge_length_mm", "width_mm", "thickness_mm", "diameter_mm")
+
+
+class ReadingKeys(TypedDict, total=False):
+    """The keywords that say how a file is read: of `preview`, `read_records`, `Campaign.from_files`; all optional.
+
+    Attributes
+    ----------
+    profile : str
+        Import profile; by default recognised from the content.
+    columns : mapping of str to (str or int)
+        Heading (or position counted from 1) of the column for each role: ``time``; one of
+        ``true_strain``, ``engineering_strain``, ``stretch``, ``displacement``; one of ``true_stress``,
+        ``engineering_stress``, ``force``; optionally ``strain_rate``, ``transverse_strain``, ``temperature``.
+        By default found by the headings.
+    units : mapping of str to str
+        Unit of the column of a role, e.g. ``{"force": "kN"}``; wins over the file's. A column
+        without any unit is taken in s, -, MPa, mm, N, 1/s or °C.
+    specimen : mapping of str to float
+        ``area_mm2``, or ``width_mm`` and ``thickness_mm``, or ``diameter_mm`` (for a force), and
+        ``gauge_length_mm`` (for a displacement); wins over the file's.
+    specimen_index : int
+        Only this one of several specimens of a file, counted from 1.
+    sheet : str
+        Sheet of an Excel workbook; by default the first that holds anything.
+    """
+
+    profile: str | None
+    columns: Mapping[str, str | int] | None
+    units: Mapping[str, str] | None
+    specimen: Mapping[str, float] | None
+    specimen_index: int | None
+    sheet: str | None
 
 
 @dataclass(frozen=True)
@@ -44,16 +78,7 @@ class ReadOptions:
         return [label for label in self.columns.values() if isinstance(label, str)]
 
 
-def read_options(
-    path: Path,
-    *,
-    profile: str | None,
-    columns: Mapping[str, str | int] | None,
-    units: Mapping[str, str] | None,
-    specimen: Mapping[str, float] | None,
-    specimen_index: int | None,
-    sheet: str | None,
-) -> ReadOptions:
+def read_options(path: Path, **how: Unpack[ReadingKeys]) -> ReadOptions:
     """Check the keywords of a reading function.
 
     Raises
@@ -61,7 +86,8 @@ def read_options(
     InputError
         If a key is unknown, a value impossible, or two columns compete for one quantity.
     """
-    columns, units, specimen = dict(columns or {}), dict(units or {}), dict(specimen or {})
+    columns, units = dict(how.get("columns") or {}), dict(how.get("units") or {})
+    specimen = dict(how.get("specimen") or {})
     _only_known(path, "columns", columns, ROLES)
     _only_known(path, "units", units, ROLES)
     _only_known(path, "specimen", specimen, SPECIMEN_KEYS)
@@ -80,13 +106,42 @@ def read_options(
         if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < float("inf"):
             raise InputError(f"{path}: specimen.{key}: found {value!r}, expected a positive number")
     return ReadOptions(
-        profile=profile,
+        profile=how.get("profile"),
         columns=columns,
         units=units,
-        specimen=specimen,
-        specimen_index=specimen_index,
-        sheet=sheet,
+        specimen=with_area(path, specimen),
+        specimen_index=how.get("specimen_index"),
+        sheet=how.get("sheet"),
     )
+
+
+def with_area(path: Path, specimen: Mapping[str, float]) -> dict[str, float]:
+    """The dimensions that a record needs: the section from width and thickness, or from the diameter.
+
+    Raises
+    ------
+    InputError
+        If one side of a rectangle is missing, or the section is given twice.
+    """
+    given = [key for key in ("area_mm2", "width_mm", "thickness_mm", "diameter_mm") if key in specimen]
+    needed = {key: float(value) for key, value in specimen.items() if key not in given or key == "area_mm2"}
+    if given in ([], ["area_mm2"]):
+        return needed
+    if given == ["width_mm", "thickness_mm"]:
+        area = specimen["width_mm"] * specimen["thickness_mm"]
+    elif given == ["diameter_mm"]:
+        area = math.pi / 4.0 * specimen["diameter_mm"] ** 2
+    else:
+        raise InputError(
+            f"{path}: specimen: found {listed(given, 'and')}, expected area_mm2, or width_mm and thickness_mm, "
+            "or diameter_mm"
+        )
+    if not 0.0 < area < math.inf:
+        raise InputError(
+            f"{path}: specimen: found a section of {area:g} mm² of {listed(given, 'and')}, expected "
+            "a positive number; check the dimensions"
+        )
+    return {**needed, "area_mm2": area}
 
 
 def _only_known(path: Path, what: str, given: Mapping[str, object], known: Collection[str]) -> None:

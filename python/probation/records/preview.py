@@ -4,21 +4,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from probation.records.assignment import assign_columns
-from probation.records.options import ReadOptions, read_options
+from probation.records.options import ReadingKeys, ReadOptions, read_options
 from probation.records.profiles import Reading
 from probation.records.reading import assemble_all, chosen_tables, open_file
 from probation.records.record import Record
 from probation.records.table import Column, Table
 from probation.results.rendering import Plotted, Summarised
-
-if TYPE_CHECKING:
-    pass
 
 FloatArray = NDArray[np.float64]
 
@@ -68,17 +65,16 @@ class Preview(Summarised, Plotted):
     rows: int
 
 
-def preview(
-    path: str | PathLike[str],
-    *,
-    profile: str | None = None,
-    columns: Mapping[str, str | int] | None = None,
-    units: Mapping[str, str] | None = None,
-    specimen: Mapping[str, float] | None = None,
-    specimen_index: int | None = None,
-    sheet: str | None = None,
-) -> Preview:
-    """Show how a file would be read; parameters as in `read_records`.
+def preview(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> Preview:
+    """Show how a file would be read.
+
+    Parameters
+    ----------
+    path : path-like
+        CSV/TSV, .xlsx, or whatever an import profile reads; may be gzipped.
+    **how
+        How it is read (`records.options.ReadingKeys`): ``profile``, ``columns``, ``units``, ``specimen``,
+        ``specimen_index``, ``sheet``.
 
     Raises
     ------
@@ -86,17 +82,9 @@ def preview(
         Where reading it would; a file without stress-strain records is shown, not refused.
     """
     path = Path(path)
-    options = read_options(
-        path,
-        profile=profile,
-        columns=columns,
-        units=units,
-        specimen=specimen,
-        specimen_index=specimen_index,
-        sheet=sheet,
-    )
+    options = read_options(path, **how)
     source, found, reading = open_file(path, options)
-    _, table = chosen_tables(path, reading, specimen_index)[0]
+    _, table = chosen_tables(path, reading, options.specimen_index)[0]
     records = () if reading.auxiliary else assemble_all(source, found, reading, options)
     return Preview(
         path=path,

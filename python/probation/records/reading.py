@@ -1,13 +1,13 @@
 """Files to records: the one way in, for campaigns, previews and scripts."""
 
-from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
+from typing import Unpack
 
 from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
 from probation.records.assembly import assemble
-from probation.records.options import ReadOptions, read_options
+from probation.records.options import ReadingKeys, ReadOptions, read_options
 from probation.records.profiles import Profile, Reading, find_profile
 from probation.records.record import Noise, Record
 from probation.records.source import Source
@@ -18,17 +18,12 @@ from probation.records.table import Table
 def read_records(
     path: str | PathLike[str],
     *,
-    profile: str | None = None,
-    columns: Mapping[str, str | int] | None = None,
-    units: Mapping[str, str] | None = None,
-    specimen: Mapping[str, float] | None = None,
-    specimen_index: int | None = None,
-    sheet: str | None = None,
     record_id: str | None = None,
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
     start: str = "relaxed",
+    **how: Unpack[ReadingKeys],
 ) -> tuple[Record, ...]:
     """Read every specimen of a file.
 
@@ -36,28 +31,14 @@ def read_records(
     ----------
     path : path-like
         CSV/TSV, .xlsx, or whatever an import profile reads; may be gzipped.
-    profile : str, optional
-        Import profile; by default recognised from the content.
-    columns : mapping of str to (str or int), optional
-        Heading (or position counted from 1) of the column for each role: ``time``; one of
-        ``true_strain``, ``engineering_strain``, ``stretch``, ``displacement``; one of ``true_stress``,
-        ``engineering_stress``, ``force``; optionally ``strain_rate``, ``transverse_strain``, ``temperature``.
-        By default found by the headings.
-    units : mapping of str to str, optional
-        Unit of the column of a role, e.g. ``{"force": "kN"}``; wins over the file's. A column
-        without any unit is taken in s, -, MPa, mm, N, 1/s or °C.
-    specimen : mapping of str to float, optional
-        ``area_mm2`` (for a force) and ``gauge_length_mm`` (for a displacement).
-    specimen_index : int, optional
-        Only this one of several specimens side by side, counted from 1.
-    sheet : str, optional
-        Sheet of an Excel workbook; by default the first that holds anything.
     record_id : str, optional
         By default the file's name without ending, and the specimen's number where there are several.
     control, role, noise
         As in `Record`.
     start : {"relaxed", "loaded"}
         "loaded": the record is cut at its start, and the ramp from zero strain that is missing is put before it.
+    **how
+        How the file is read: `options.ReadingKeys` says each.
 
     Returns
     -------
@@ -69,15 +50,7 @@ def read_records(
         At the first thing that is wrong, naming file, row, column, what was found and expected.
     """
     path = Path(path)
-    options = read_options(
-        path,
-        profile=profile,
-        columns=columns,
-        units=units,
-        specimen=specimen,
-        specimen_index=specimen_index,
-        sheet=sheet,
-    )
+    options = read_options(path, **how)
     source, found, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
@@ -91,17 +64,12 @@ def read_records(
 def read_record(
     path: str | PathLike[str],
     *,
-    profile: str | None = None,
-    columns: Mapping[str, str | int] | None = None,
-    units: Mapping[str, str] | None = None,
-    specimen: Mapping[str, float] | None = None,
-    specimen_index: int | None = None,
-    sheet: str | None = None,
     record_id: str | None = None,
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
     start: str = "relaxed",
+    **how: Unpack[ReadingKeys],
 ) -> Record:
     """Read one specimen of a file; parameters as in `read_records`.
 
@@ -110,20 +78,7 @@ def read_record(
     InputError
         As `read_records`, and if the file holds several specimens and none is chosen.
     """
-    records = read_records(
-        path,
-        profile=profile,
-        columns=columns,
-        units=units,
-        specimen=specimen,
-        specimen_index=specimen_index,
-        sheet=sheet,
-        record_id=record_id,
-        control=control,
-        role=role,
-        noise=noise,
-        start=start,
-    )
+    records = read_records(path, record_id=record_id, control=control, role=role, noise=noise, start=start, **how)
     if len(records) > 1:
         raise several_specimens(Path(path), len(records))
     return records[0]

@@ -1,16 +1,16 @@
 """Strain over time alone, as `simulate` and the excitation take it: files that need no stress."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from probation._complaint import bad_input
 from probation.records.extraction import extract
-from probation.records.options import read_options
+from probation.records.options import ReadingKeys, read_options
 from probation.records.reading import chosen_tables, open_file, several_specimens
 
 FloatArray = NDArray[np.float64]
@@ -40,17 +40,8 @@ class StrainHistory:
     warnings: tuple[str, ...]
 
 
-def read_strain_history(
-    path: str | PathLike[str],
-    *,
-    profile: str | None = None,
-    columns: Mapping[str, str | int] | None = None,
-    units: Mapping[str, str] | None = None,
-    specimen: Mapping[str, float] | None = None,
-    specimen_index: int | None = None,
-    sheet: str | None = None,
-) -> StrainHistory:
-    """Read ``time_s,true_strain`` and perhaps ``strain_rate_per_s``; parameters as in `read_records`.
+def read_strain_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> StrainHistory:
+    """Read ``time_s,true_strain`` and perhaps ``strain_rate_per_s``; `how` as in `read_records`.
 
     Raises
     ------
@@ -58,19 +49,11 @@ def read_strain_history(
         At the first thing that is wrong, naming file, row, column, what was found and expected.
     """
     path = Path(path)
-    options = read_options(
-        path,
-        profile=profile,
-        columns=columns,
-        units=units,
-        specimen=specimen,
-        specimen_index=specimen_index,
-        sheet=sheet,
-    )
+    options = read_options(path, **how)
     _, _, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a strain history", remedy="name another file")
-    tables = chosen_tables(path, reading, specimen_index)
+    tables = chosen_tables(path, reading, options.specimen_index)
     if len(tables) > 1:
         raise several_specimens(path, len(tables))
     _, table = tables[0]

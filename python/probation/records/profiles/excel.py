@@ -1,9 +1,12 @@
 """Profile ``excel``: an .xlsx workbook; the first sheet with enough rows, or the one named."""
 
 import io
+import re
 import warnings
 import zipfile
 from collections.abc import Iterable
+from dataclasses import replace
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from probation._complaint import bad_input, quoted, suggestion
@@ -15,11 +18,15 @@ from probation.records.options import ReadOptions
 from probation.records.profiles.delimited import table_from
 from probation.records.profiles.profile import Profile, Reading
 from probation.records.source import Source
+from probation.records.table import Table
+from probation.records.units import is_percent
 
 if TYPE_CHECKING:
+    from openpyxl.cell.cell import Cell, MergedCell
     from openpyxl.workbook import Workbook
 
 _ZIP_MAGIC = b"PK\x03\x04"
+_PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a number format: text that is shown beside the number
 _OLD_EXCEL_MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 
 
@@ -51,16 +58,16 @@ def _read(source: Source, options: ReadOptions) -> Reading:
                 f"{source.path}: found no sheet {quoted(options.sheet)}; "
                 + suggestion(options.sheet, workbook.sheetnames)
             )
-        filled = [(name, grid) for name in sheets if (grid := _grid(source, workbook, name)).rows]
+        filled = [(name, found) for name in sheets if (found := _grid(source, workbook, name))[0].rows]
     finally:
         workbook.close()
     if not filled:
         raise bad_input(source.path, "an empty sheet", "a table with headings and at least ten rows")
-    name, grid = next((sheet for sheet in filled if len(sheet[1].rows) > MINIMUM_SAMPLES), filled[0])
+    name, (grid, percents) = next((sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES), filled[0])
     ignored = [other for other, _ in filled if other != name]
     note = f"read sheet {quoted(name)} only; choose another with sheet = …: {', '.join(ignored)}"
     return Reading(
-        tables=(table_from(source, grid, options),),
+        tables=(_as_shown(table_from(source, grid, options), percents),),
         separator=grid.separator,
         warnings=(note,) if ignored else (),
     )
@@ -82,21 +89,65 @@ def _open(source: Source) -> "Workbook":
     return openpyxl.load_workbook(content, read_only=True, data_only=True, keep_links=False)
 
 
-def _grid(source: Source, workbook: "Workbook", name: str) -> Grid:
+def _grid(source: Source, workbook: "Workbook", name: str) -> tuple[Grid, set[tuple[int, int]]]:
+    """The cells of a sheet; and which of them, by row number and position, are shown as percentages."""
     sheet = workbook[name]
+    percents: set[tuple[int, int]] = set()
     rows: list[list[str]] = []
     row_numbers: list[int] = []
     count = 0
     if hasattr(sheet, "iter_rows"):  # a chart sheet has none
         if hasattr(sheet, "reset_dimensions"):
             sheet.reset_dimensions()  # some programs write a wrong extent
-        for number, cells in enumerate(sheet.iter_rows(values_only=True), start=1):
+        for number, cells in enumerate(sheet.iter_rows(), start=1):
             count += len(cells)
             check_extent(source, number, len(cells), count)
-            if row := _texts(cells):
+            percents.update((number, at) for at, cell in enumerate(cells) if _is_percentage(cell))
+            if row := _texts(cell.value for cell in cells):
                 rows.append(row)
                 row_numbers.append(number)
-    return Grid(rows=rows, row_numbers=row_numbers, separator=f"Excel sheet {quoted(name)}")
+    return Grid(rows=rows, row_numbers=row_numbers, separator=f"Excel sheet {quoted(name)}"), percents
+
+
+def _is_percentage(cell: "Cell | MergedCell") -> bool:
+    """A number shown in percent: 5 % is stored as 0.05."""
+    if cell.value is None or cell.data_type != "n" or not cell.has_style:
+        return False
+    return "%" in _PLAIN_TEXT.sub("", cell.number_format or "")
+
+
+def _as_shown(table: Table, percents: set[tuple[int, int]]) -> Table:
+    """The table with every percentage as the sheet shows it, in columns of percent or of no unit.
+
+    A unit such as mm/mm takes the stored fraction. Of a column without unit, the other numbers are made percent too.
+    """
+    columns, rows = list(table.columns), table.rows
+    for at, column in enumerate(columns):
+        shown = [(number, column.position) in percents for number in table.row_numbers]
+        if not any(shown) or not (column.unit is None or is_percent(column.unit)):
+            continue
+        if column.unit is None:
+            columns[at] = replace(column, unit="%")
+            shown = [True] * len(shown)
+        rows = [
+            _with_cell(row, column.position, _hundredfold(row[column.position]))
+            if as_percentage and column.position < len(row)
+            else row
+            for row, as_percentage in zip(rows, shown, strict=True)
+        ]
+    return replace(table, columns=tuple(columns), rows=rows)
+
+
+def _with_cell(row: list[str], at: int, text: str) -> list[str]:
+    return [*row[:at], text, *row[at + 1 :]]
+
+
+def _hundredfold(text: str) -> str:
+    """A hundred times the number, every digit kept; other text as it is."""
+    try:
+        return repr(float(Decimal(text) * 100))
+    except (ArithmeticError, ValueError):
+        return text
 
 
 def _texts(cells: Iterable[object]) -> list[str]:

@@ -1,0 +1,87 @@
+"""How files are read, from the command line: the same options wherever a file is read."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from probation.commands.delivery import named_numbers
+from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from probation.records.options import ReadingKeys
+
+_OPTIONS = ("profile", "column", "unit", "specimen", "specimen_index", "sheet")
+
+
+def add_reading(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+    """Add the options that say how a data file is read."""
+    group = parser.add_argument_group("how data files are read", "probation preview FILE shows what they do.")
+    group.add_argument("--profile", metavar="NAME", help="import profile; by default recognised from the content")
+    group.add_argument(
+        "--column",
+        metavar="ROLE=HEADING",
+        action="append",
+        default=[],
+        help="which column is which, by heading or by position counted from 1: time=…, engineering_strain=…, force=…",
+    )
+    group.add_argument(
+        "--unit", metavar="ROLE=UNIT", action="append", default=[], help="unit of a column, such as force=kN"
+    )
+    group.add_argument(
+        "--specimen",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="area_mm2, or width_mm and thickness_mm, or diameter_mm; gauge_length_mm",
+    )
+    group.add_argument("--specimen-index", metavar="N", type=int, help="of several specimens in a file, only this one")
+    group.add_argument("--sheet", metavar="NAME", help="of an Excel workbook")
+    return group
+
+
+def reading_from(options: argparse.Namespace) -> ReadingKeys:
+    """The keywords of `read_records` that the options say.
+
+    Raises
+    ------
+    InputError
+        If an option has not the form that its help says.
+    """
+    return {
+        "profile": options.profile,
+        "columns": {role: _heading(text) for role, text in _pairs(options.column, "--column").items()},
+        "units": _pairs(options.unit, "--unit"),
+        "specimen": named_numbers(options.specimen, "--specimen"),
+        "specimen_index": options.specimen_index,
+        "sheet": options.sheet,
+    }
+
+
+def refuse_reading(options: argparse.Namespace, what: str, remedy: str) -> None:
+    """Refuse the options where no data file is read.
+
+    Raises
+    ------
+    InputError
+        Naming the first that was given.
+    """
+    for name in _OPTIONS:
+        if getattr(options, name) not in (None, []):
+            raise InputError(f"found --{name.replace('_', '-')} with {what}, expected it with data files; {remedy}")
+
+
+def _pairs(entries: list[str], option: str) -> dict[str, str]:
+    pairs: dict[str, str] = {}
+    for entry in entries:
+        role, equals, text = (part.strip() for part in entry.partition("="))
+        if not (equals and role and text):
+            raise InputError(f"{option}: found {entry!r}, expected ROLE=…")
+        if role in pairs:
+            raise InputError(f"{option}: found {role} twice, expected it once")
+        pairs[role] = text
+    return pairs
+
+
+def _heading(text: str) -> str | int:
+    return int(text) if text.isdecimal() else text
