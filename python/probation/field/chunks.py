@@ -120,7 +120,8 @@ def array_of(path: str, name: str, mode: str = "r") -> zarr.Array[Any]:
         If there is none by that name that can be opened.
     """
     try:
-        found = load("zarr").open_array(path, path=name, mode=mode)
+        with np.errstate(over="ignore"):  # a fill value beyond the array's precision is infinite there
+            found = load("zarr").open_array(path, path=name, mode=mode)
     except Exception as failure:
         raise InputError(
             f"{path}: {name}: found no array that can be opened ({_reason(failure)}), expected one"

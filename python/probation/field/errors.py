@@ -84,14 +84,15 @@ def drawn_errors(
     """
     own, held = first.standard_error, first.standard_error == 0.0
     product = first.parameters[:, 0] * first.parameters[:, 1]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        own_product = np.hypot(*(own / first.parameters)[:, :2].T)
+    with np.errstate(invalid="ignore"):  # infinite where nothing is known of a parameter, whatever the other one is
+        parts = own[:, :2] * first.parameters[:, 1::-1]
+        own_product = np.where(np.isfinite(own[:, :2]).all(axis=1), np.hypot(*parts.T), np.inf)
     squares: list[FloatArray] = [np.empty((0, 5))]
     where = [np.empty(0, dtype=np.intp)]
     for pixels, again in draws:
         with np.errstate(invalid="ignore", divide="ignore"):
             moved = np.where(held[pixels], 0.0, (again.parameters - first.parameters[pixels]) / own[pixels])
-            moved_product = again.parameters[:, 0] * again.parameters[:, 1] / product[pixels] - 1.0
+            moved_product = again.parameters[:, 0] * again.parameters[:, 1] - product[pixels]
             more = (again.rms_residual**2 - first.rms_residual[pixels] ** 2) / level[pixels] ** 2
             drawn = np.column_stack([moved**2, (moved_product / own_product[pixels]) ** 2, more])
         squares.append(drawn[again.identified])
@@ -99,11 +100,12 @@ def drawn_errors(
     pooled = _means(np.concatenate(squares), np.concatenate(where), neighbourhood)
     factors = np.sqrt(np.maximum(pooled, 0.0))
     there = first.identified
-    return Errors(
-        np.where(there[:, None], np.where(held, 0.0, own * factors[:, :3]), np.nan),
-        np.where(there, np.abs(product) * own_product * factors[:, 3], np.nan),
-        np.where(there, level * factors[:, 4], np.nan),
-    )
+    with np.errstate(invalid="ignore"):
+        return Errors(
+            np.where(there[:, None], np.where(held, 0.0, own * factors[:, :3]), np.nan),
+            np.where(there, own_product * factors[:, 3], np.nan),
+            np.where(there, level * factors[:, 4], np.nan),
+        )
 
 
 def _means(values: FloatArray, where: IndexArray, neighbourhood: IndexArray) -> FloatArray:
