@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.cause import Cause
-from probation.errors import ConvergenceError, InputError
+from probation.errors import InputError
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
@@ -91,15 +92,21 @@ def effect_signals(
     """
     effects = tuple(effects)
     present = {each.effect.name for each in model.causes}
-    wanted = [
-        (Cause(effect, form, records), values, usual)
-        for effect in effects
-        if effect.name not in present
-        for form in _placed_forms(effect)
-        if not model.missing_notions(Cause(effect, form))
-        for records, views in _places(model, effect, form)
-        for values, usual in _sizes_and_shapes(form, views)
-    ]
+    wanted: list[tuple[Cause, tuple[float, ...], bool]] = []
+    unsolvable: dict[str, str] = {}
+    for effect in effects:
+        if effect.name in present:
+            continue
+        try:
+            wanted += [
+                (Cause(effect, form, records), values, usual)
+                for form in _placed_forms(effect)
+                if not model.missing_notions(Cause(effect, form))
+                for records, views in _places(model, effect, form)
+                for values, usual in _sizes_and_shapes(form, views)
+            ]
+        except UNSOLVABLE as error:
+            unsolvable[effect.name] = str(error)
     still = {view.id: at_rest(model, view, parameters) for view in model.views}
 
     def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal | str:
@@ -119,7 +126,8 @@ def effect_signals(
             known = (
                 "it is in the model already" if effect.name in present else "the law does not know what it would change"
             )
-            left_out[effect.name] = next((each for each in failed if isinstance(each, str)), known)
+            reasons = (each for each in failed if isinstance(each, str))
+            left_out[effect.name] = unsolvable.get(effect.name) or next(reasons, known)
     return [each for each in signals if each.cause.effect.name in shown], left_out
 
 
@@ -169,7 +177,7 @@ def signal(
                 specimen, recorded = still[view.id] if still else at_rest(model, view, parameters)
                 stress = model.recorded(view, base, moved, None if cause.form.needs_solve else specimen)
                 added[model.rows(view.id)] = view.sampled(stress - recorded) / part
-        except (ConvergenceError, InputError, FloatingPointError):
+        except UNSOLVABLE:
             continue
         if np.isfinite(added).all():
             return added

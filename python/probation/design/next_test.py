@@ -9,7 +9,8 @@ import numpy as np
 
 from probation.design.planned_tests import Laboratory, planned_tests
 from probation.design.predicted import Explanation, outcome, predictions
-from probation.errors import ConvergenceError, InputError
+from probation.errors import InputError
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
@@ -163,7 +164,7 @@ def next_test(
     def work(test: PlannedTest) -> tuple[RankedTest, FloatArray] | None:
         try:
             ways = predictions(test, model, base, known, noises)
-        except ConvergenceError:
+        except UNSOLVABLE:
             return None
         found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
         rough = outcome([way.through(ROUGH) for way in ways], prior, group, draws=DRAWS, seed=seed)

@@ -120,7 +120,8 @@ def predictions(
     """What every explanation predicts of a test.
 
     A cause that touches all records touches the new one too. A fault of single records may or may not be there again
-    (`REPEATS_ITSELF`), unless its form can sit nowhere but in one record: a slip does not repeat itself.
+    (`REPEATS_ITSELF`), unless its form can sit nowhere but in one record: a slip does not repeat itself. One with a
+    size each in several records comes back as it was in the last.
 
     Parameters
     ----------
@@ -138,8 +139,8 @@ def predictions(
     view = view.with_data(view.sampled(model.law.stress(view, base)))
     found = []
     for owner, each in enumerate(explanations):
-        confined = [cause for cause in each.model.causes if _may_come_back(cause)]
-        ways = [((), 1.0)] if not confined else [((), 1.0 - REPEATS_ITSELF), (tuple(confined), REPEATS_ITSELF)]
+        confined = {cause.effect.name: cause for cause in each.model.causes if _may_come_back(cause)}
+        ways = [((), 1.0)] if not confined else [((), 1.0 - REPEATS_ITSELF), (tuple(confined.values()), REPEATS_ITSELF)]
         for back, weight in ways:
             stress, slopes = _on(view, each, back, test)
             found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))

@@ -32,6 +32,7 @@ from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
+from probation.diagnosis.skipped import Skipping
 from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
@@ -113,30 +114,31 @@ def diagnose(
         if progress:
             progress(part)
 
+    skipping = Skipping()
     base = base_fit(campaign, plain_fit(campaign, scheme, hold)) if law is None else fit_law(law, campaign, scheme)
     told(0.1)
-    base = base.screened(considered, workers)
+    base = base.screened(considered, workers, skipping.screened)
     told(0.2)
     gap = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
     where = locate(base.whitened, seed=seed)
     told(0.35)
     if gap.rejected:
-        base, found, weighed, judged, verdict = _explained(base, considered, gap.p_value, workers, seed, told)
+        base, found, weighed, judged, verdict = _explained(base, considered, gap.p_value, workers, seed, skipping, told)
     else:
-        found = linear_hypotheses(base, base.columns)
+        found = linear_hypotheses(base, base.columns, skipping)
         weighed = given_no_gap(weigh(found, len(considered), TEMPERED), gap.p_value)
         judged, verdict = {}, "no_gap"
     if weighed[0].effects == (UNKNOWN,):
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
-    shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+    shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, skipping, seed=seed)
     while gap.rejected and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
         told_of = weighed[0].hypothesis
         weighed = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:
             verdict = "unexplained"
         if weighed[0].hypothesis is not told_of:
-            shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, seed=seed)
+            shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, skipping, seed=seed)
     chosen = answer_set(weighed)
     if gap.rejected:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
@@ -145,11 +147,17 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
-    planned = design and is_stretched(base)
-    following = next_test_of(base, weighed, chosen, found, threads=workers, seed=seed) if planned else None
+    following = None
+    if design and is_stretched(base):
+        following = skipping.tried(
+            "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=workers, seed=seed)
+        )
     apart = None
     if design:
-        apart = isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers)
+        apart = skipping.tried(
+            "what these tests can discriminate",
+            lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers),
+        )
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
@@ -174,6 +182,7 @@ def diagnose(
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
+        skipped=skipping.entries(found),
     )
 
 
@@ -183,10 +192,11 @@ def _explained(
     p_value: float,
     threads: int,
     seed: int,
+    skipping: Skipping,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
     """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
-    base, found = _searched(base, considered, threads, lambda part: progress(0.35 + 0.45 * part))
+    base, found = _searched(base, considered, threads, skipping, lambda part: progress(0.35 + 0.45 * part))
     weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
     left, judged = _judged(weighed, answer_set(weighed), base, seed)
     if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
@@ -230,11 +240,12 @@ def _searched(
     base: BaseFit,
     considered: tuple[Effect, ...],
     threads: int,
+    skipping: Skipping,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
-    search = Search(base, considered, threads, progress)
-    found = search.run(base.columns_with_starts(considered, threads))
+    search = Search(base, considered, threads, progress, skipping)
+    found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
     leading = search.ranked()
     if not leading:
         return base, found

@@ -12,9 +12,11 @@ from probation.diagnosis.hypothesis import Hypothesis
 from probation.inference.candidate import Key, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.refit import Coordinates, Refit, refit
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import without
 
 if TYPE_CHECKING:
+    from probation.diagnosis.skipped import Skipping
     from probation.inference.base_fit import BaseFit
     from probation.inference.candidate import WhitenedColumns
 
@@ -23,7 +25,7 @@ SHARP_PLACES = 3
 """Forms and places of an effect with a frequency or an instant that are refitted, those with the best score."""
 
 
-def linear_hypotheses(base: BaseFit, columns: WhitenedColumns) -> list[Hypothesis]:
+def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skipping) -> list[Hypothesis]:
     """The base law and every cause at its best start, in linearised form.
 
     Parameters
@@ -31,6 +33,8 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns) -> list[Hypothesi
     base : BaseFit
     columns : WhitenedColumns
         Of the screen at the base fit.
+    skipping : Skipping
+        What is left out.
     """
     discrepancy = base.discrepancy
     found = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
@@ -55,7 +59,11 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns) -> list[Hypothesi
             column = columns.columns[entries[0][1]]
             start = chosen[0].parameters.copy()
             start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
-            chosen = [refit(chosen[0].model, start, base.whitener, most_steps=SHARP_STEPS)]
+            try:
+                chosen = [refit(chosen[0].model, start, base.whitener, most_steps=SHARP_STEPS)]
+            except UNSOLVABLE as error:
+                skipping.hypothesis([column.cause], error)
+                continue
         judged = [evidence(each, base.refit, discrepancy, unknown=False) for each in chosen]
         together = float(logsumexp([each.log_evidence for each in judged])) - np.log(len(judged))
         found.append(Hypothesis(chosen[0], replace(judged[0], log_evidence=together)))

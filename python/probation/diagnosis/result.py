@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from probation.detection.gap_test import GapTest
     from probation.detection.where import Located, Where
     from probation.diagnosis.closure import Closure
+    from probation.diagnosis.skipped import Skipped
 
 Verdict = Literal["no_gap", "explained", "unexplained"]
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
@@ -220,6 +221,8 @@ class Diagnosis(Result):
     seed : int
     isolability : Isolability or None
         Which effects these tests could tell apart, whatever they show.
+    skipped : tuple of Skipped
+        Hypotheses and parts of the answer that were left out, and why.
     """
 
     campaign: str
@@ -244,6 +247,7 @@ class Diagnosis(Result):
     data_sha256: str
     seed: int
     isolability: Isolability | None = None
+    skipped: tuple[Skipped, ...] = ()
 
     @property
     def best(self) -> Explanation:
@@ -297,6 +301,7 @@ class Diagnosis(Result):
                 "probability_after": self.next_test.probability_after,
             },
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
+            "skipped": [each.to_dict() for each in self.skipped],
             "warnings": list(self.warnings),
         }
 

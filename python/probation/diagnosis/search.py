@@ -9,12 +9,13 @@ import numpy as np
 
 from probation.detection.sharp import find_lines, find_steps
 from probation.diagnosis.hypothesis import Hypothesis
-from probation.errors import ConvergenceError, InputError
+from probation.diagnosis.skipped import Skipping
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_columns
 from probation.inference.refit import MOST_STEPS, Refit, refit
 from probation.inference.screen import screen
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
 from probation.parallel import in_parallel
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
@@ -78,6 +80,8 @@ class Search:
     base : BaseFit
     effects : tuple of Effect
     threads : int
+    skipping : Skipping
+        What is left out.
     found : list of Hypothesis
         The base law's first.
     """
@@ -86,10 +90,11 @@ class Search:
     effects: tuple[Effect, ...]
     threads: int = 2
     progress: Callable[[float], None] | None = None
+    skipping: Skipping = field(default_factory=Skipping)
     found: list[Hypothesis] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.found.append(self._judged(self.base.refit, unknown=True))
+        self.found.append(self._weighed(self.base.refit, unknown=True))
 
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
@@ -115,11 +120,11 @@ class Search:
 
     def reconsidered(self, base: BaseFit, count: int) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
-        again = Search(base, self.effects, self.threads)
+        again = Search(base, self.effects, self.threads, skipping=self.skipping)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - HOPELESS
         leading = [each for each in leading if each.evidence.log_evidence > least]
-        again.found += [again._judged(each) for each in again._polished([each.refit for each in leading])]
+        again.found += again._judged(again._polished([each.refit for each in leading]))
         again._look_beside_the_leading()
         return again.found
 
@@ -143,13 +148,13 @@ class Search:
         )
         first = _promising(_first_of_each(candidates))
         running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS))
-        self.found += [self._judged(each) for each in out]
+        self.found += self._judged(out)
         polished = self._polished(running)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         others = _others(_promising(candidates), first, STARTS - 1)
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
-        self.found += [self._judged(each) for each in polished]
+        self.found += self._judged(polished)
 
     def _raced(self, refits: list[Refit]) -> tuple[list[Refit], list[Refit]]:
         """Which of unfinished refits leave little enough, and which do not and hardly gain any more."""
@@ -183,7 +188,11 @@ class Search:
         """One more cause beside those of a hypothesis."""
         model, at = leading.refit.model, leading.refit.parameters
         raw = model.residual(at)
-        columns = screen(model, at, self.effects, residual=raw, threads=self.threads)
+
+        def unsolved(cause: Cause, error: Exception) -> None:
+            self.skipping.hypothesis([*leading.causes, cause], error)
+
+        columns = screen(model, at, self.effects, residual=raw, threads=self.threads, unsolved=unsolved)
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
         present = {cause.effect.name for cause in leading.causes if cause.records is None}
         columns = [
@@ -196,7 +205,7 @@ class Search:
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
         chosen = _first_of_each_effect([each for each in ranked if each.gain > WORTH], ADDITIONS)
-        self.found += [self._judged(each) for each in self._refitted(leading.refit, chosen)]
+        self.found += self._judged(self._refitted(leading.refit, chosen))
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
@@ -236,14 +245,15 @@ class Search:
         steps: int = MOST_STEPS,
     ) -> list[Refit]:
         """Refits of candidates jointly with the causes that are there, from where these are and from other starts."""
-        jobs = [
-            (
-                before.model.with_causes([*before.model.causes, candidate.cause]),
-                np.concatenate([start, candidate.values]),
-            )
-            for candidate in candidates
-            for start in (before.parameters, *other_starts)
-        ]
+        jobs = []
+        for candidate in candidates:
+            causes = [*before.model.causes, candidate.cause]
+            try:
+                model = before.model.with_causes(causes)
+            except UNSOLVABLE as error:
+                self.skipping.hypothesis(causes, error)
+                continue
+            jobs += [(model, np.concatenate([start, candidate.values])) for start in (before.parameters, *other_starts)]
         return self._solved(jobs, steps)
 
     def _polished(self, refits: Iterable[Refit]) -> list[Refit]:
@@ -255,12 +265,28 @@ class Search:
         def one(job: tuple[CampaignModel, FloatArray]) -> Refit | None:
             try:
                 return refit(*job, self.base.whitener, most_steps=steps)
-            except (ConvergenceError, InputError):
+            except UNSOLVABLE as error:
+                self.skipping.hypothesis(job[0].causes, error)
                 return None
 
         return [each for each in in_parallel(one, jobs, self.threads) if each is not None]
 
-    def _judged(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
+    def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
+        """Refits with their evidence; without those of which it cannot be worked out."""
+        judged = []
+        for each in refits:
+            try:
+                hypothesis = self._weighed(each)
+            except UNSOLVABLE as error:
+                self.skipping.hypothesis(each.model.causes, error)
+                continue
+            if np.isfinite(hypothesis.evidence.log_evidence):
+                judged.append(hypothesis)
+            else:
+                self.skipping.hypothesis(each.model.causes, "its evidence is not finite")
+        return judged
+
+    def _weighed(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
         forms = form_columns(found, self.base.whitener)
         return Hypothesis(found, evidence(found, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
 
@@ -269,7 +295,7 @@ class Search:
         ahead = [*self.ranked()[:LEADING], *self.ranked(1)[:FEWER], *self.ranked(2)[:FEWER]]
         leading = {id(each) for each in ahead}
         self.found = [
-            self._judged(each.refit, unknown=True)
+            self._weighed(each.refit, unknown=True)
             if id(each) in leading and not np.isfinite(each.evidence.log_evidence_unknown)
             else each
             for each in self.found

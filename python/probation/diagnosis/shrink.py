@@ -9,6 +9,7 @@ import numpy as np
 from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.inference.model import CampaignModel
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.inference.view_residual import residual_of
 from probation.noise.estimate import estimate_noise
 from probation.noise.smooth_basis import smooth_basis
@@ -20,13 +21,20 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.detection.where import Located
     from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.skipped import Skipping
     from probation.inference.base_fit import BaseFit
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
 
 
 def shrink_of(
-    base: BaseFit, best: Hypothesis, campaign: Campaign, located: Sequence[Located], *, seed: int
+    base: BaseFit,
+    best: Hypothesis,
+    campaign: Campaign,
+    located: Sequence[Located],
+    skipping: Skipping,
+    *,
+    seed: int,
 ) -> tuple[Shrink, dict[str, RecordCurves]]:
     """Closure by role, record and region, and the curves behind it.
 
@@ -38,13 +46,15 @@ def shrink_of(
     campaign : Campaign
     located : sequence of Located
         Regions that are given their own closure.
+    skipping : Skipping
+        Takes note of records that the explanation cannot predict; they are left as the base law has them.
     seed : int
     """
     rng = np.random.default_rng(seed)
     everywhere = CampaignModel(base.law, base.views)
     before = everywhere.predict(base.parameters)
     causes = best.refit.model.causes
-    after = everywhere.with_causes(causes).predict(best.refit.parameters) if causes else before
+    after = _predicted(everywhere.with_causes(causes), best.refit.parameters, before, skipping) if causes else before
     noises = {noise.name: noise for noise in base.whitened.noises} | _noise_of_others(base, everywhere, campaign)
     pieces = {
         view.id: Piece(
@@ -95,6 +105,20 @@ def shrink_of(
         for view in base.views
     }
     return shrink, curves
+
+
+def _predicted(
+    model: CampaignModel, parameters: FloatArray, before: dict[str, FloatArray], skipping: Skipping
+) -> dict[str, FloatArray]:
+    """Predictions of an explanation by record; a record that it cannot be solved for keeps what it had."""
+    base, causes = model.split(parameters)
+    found = dict(before)
+    for view in model.views:
+        try:
+            found[view.id] = view.sampled(model.recorded(view, base, causes))
+        except UNSOLVABLE as error:
+            skipping.part(f"the best explanation's prediction of {view.id}", error)
+    return found
 
 
 def _noise_of_others(base: BaseFit, everywhere: CampaignModel, campaign: Campaign) -> dict[str, NoiseModel]:

@@ -25,9 +25,10 @@ from probation.noise.whitening import Whitened
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
@@ -89,18 +90,29 @@ class BaseFit:
         """The signals in white coordinates."""
         return WhitenedColumns.of(self.signals, self.whitener, len(self.whitened))
 
-    def screened(self, effects: Sequence[Effect], threads: int = 2) -> BaseFit:
-        """The same with the signals of these effects."""
-        return replace(self, signals=tuple(screen(self.model, self.parameters, effects, threads=threads)))
+    def screened(
+        self,
+        effects: Sequence[Effect],
+        threads: int = 2,
+        unsolved: Callable[[Cause, Exception], None] | None = None,
+    ) -> BaseFit:
+        """The same with the signals of these effects; `unsolved` as in `screen`."""
+        signals = screen(self.model, self.parameters, effects, threads=threads, unsolved=unsolved)
+        return replace(self, signals=tuple(signals))
 
-    def columns_with_starts(self, effects: Sequence[Effect], threads: int = 2) -> WhitenedColumns:
-        """The signals, and those whose shapes begin where the residual says.
+    def columns_with_starts(
+        self,
+        effects: Sequence[Effect],
+        threads: int = 2,
+        unsolved: Callable[[Cause, Exception], None] | None = None,
+    ) -> WhitenedColumns:
+        """The signals, and those whose shapes begin where the residual says; `unsolved` as in `screen`.
 
         For a search only: in a gap test they would find what chance put there.
         """
         started = [each for each in effects if any(form.starts is not None for form in each.forms)]
         residual = self.model.residual(self.parameters)
-        more = screen(self.model, self.parameters, started, residual=residual, threads=threads)
+        more = screen(self.model, self.parameters, started, residual=residual, threads=threads, unsolved=unsolved)
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
 
     @property

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from probation.errors import ConvergenceError, InputError
+from probation.errors import ConvergenceError
+from probation.inference.unsolvable import UNSOLVABLE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -211,7 +212,7 @@ def _moved(
         if not lower < cost:
             return None
         residual, jacobian = _tangent(model, x, coordinates, whitener)
-    except (ConvergenceError, InputError, FloatingPointError):
+    except UNSOLVABLE:
         return None
     return _Point(x, lower, residual, jacobian) if np.isfinite(jacobian).all() else None
 

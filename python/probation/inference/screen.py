@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation.effects.cause import Cause
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, Form, Placement
@@ -50,11 +51,12 @@ def screen(
     residual: FloatArray | None = None,
     placements: tuple[Placement, ...] = ("all", "one"),
     threads: int = 1,
+    unsolved: Callable[[Cause, Exception], None] | None = None,
 ) -> list[Column]:
     """Columns of every effect, form, placement and start, on top of the model as it is.
 
     Effects that the law cannot follow, or not beside those of the model, are left out; see
-    `CampaignModel.missing_notions` and `clashes`.
+    `CampaignModel.missing_notions` and `clashes`. So are those with which it cannot be solved.
 
     Parameters
     ----------
@@ -68,43 +70,65 @@ def screen(
         With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
     threads : int
         Records are worked on in parallel.
+    unsolved : callable, optional
+        Called with each cause that is left out because the law cannot be solved with it, and the error.
 
     Returns
     -------
     list of Column
         In the order of the effects.
     """
-    wanted = [
-        (Cause(effect, form, records), values, views)
-        for effect in effects
-        for form in effect.forms
-        if not model.missing_notions(Cause(effect, form)) and not model.clashes(Cause(effect, form))
-        for records, views in _placed(model, effect, form, placements)
-        for values in _starts(model, form, views, residual)
-    ]
+    wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]] = []
+    failed: list[tuple[Cause, Exception]] = []
+    for effect in effects:
+        for form in effect.forms:
+            cause = Cause(effect, form)
+            try:
+                if model.missing_notions(cause) or model.clashes(cause):
+                    continue
+                wanted += [
+                    (Cause(effect, form, records), values, views)
+                    for records, views in _placed(model, effect, form, placements)
+                    for values in _starts(model, form, views, residual)
+                ]
+            except UNSOLVABLE as error:
+                failed.append((cause, error))
     base, active = model.split(parameters)
 
-    def answers(view: RecordView) -> dict[_Key, FloatArray]:
+    def answers(view: RecordView) -> dict[_Key, FloatArray | Exception]:
         """The slopes of one record; a form at one start is worked out once, wherever it is placed."""
         specimen = model.specimen(view, base, tuple(each for each in active if each[0].touches(view.id))).stress
         still = model.recorded(view, base, active, specimen)
-        found: dict[_Key, FloatArray] = {}
+        found: dict[_Key, FloatArray | Exception] = {}
         for cause, values, views in wanted:
             if view not in views or _key(cause, values) in found:
                 continue
             form = cause.form
             size = values[0] if form.threshold else form.amplitude.step(0.0)
             moved = (*active, (cause, (size, *values[1:])))
-            stress = model.recorded(view, base, moved, None if form.needs_solve else specimen)
-            found[_key(cause, values)] = view.sampled((stress - still) / size)
+            try:
+                stress = model.recorded(view, base, moved, None if form.needs_solve else specimen)
+                found[_key(cause, values)] = view.sampled((stress - still) / size)
+            except UNSOLVABLE as error:
+                found[_key(cause, values)] = error
         return found
 
     found = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
     columns = []
     for cause, values, views in wanted:
-        slope = np.concatenate([found[view][_key(cause, values)] for view in views])
-        rows = model.rows(views[0].id) if cause.records else slice(0, len(model.data))
-        columns.append(Column(cause, values, rows, slope))
+        parts: list[FloatArray] = []
+        for view in views:
+            part = found[view][_key(cause, values)]
+            if isinstance(part, Exception):
+                failed.append((cause, part))
+                break
+            parts.append(part)
+        else:
+            rows = model.rows(views[0].id) if cause.records else slice(0, len(model.data))
+            columns.append(Column(cause, values, rows, np.concatenate(parts)))
+    if unsolved is not None:
+        for cause, why in failed:
+            unsolved(cause, why)
     return columns
 
 

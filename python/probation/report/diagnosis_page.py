@@ -16,6 +16,7 @@ from probation.report.isolability_page import HOW_TO_READ_THE_MAP
 from probation.report.isolability_table import in_words, isolability_table
 from probation.report.page import Gallery, Page, Section, picture
 from probation.report.residual_map import residual_map
+from probation.report.skipped_words import skipped_lines
 from probation.report.table import Table
 from probation.wording import listed, percent
 
@@ -216,7 +217,14 @@ def _looked_for(found: Diagnosis) -> Section:
         "entry can imitate shows as “an effect outside the catalogue”; something that an entry imitates well is called "
         "by that entry's name, which no statistics can prevent."
     )
-    return Section("What was looked for", (text, Table(("effect", "sits in", "what it is"), rows, left=3)))
+    parts: list[str | Table | Picture] = [text, Table(("effect", "sits in", "what it is"), rows, left=3)]
+    if found.skipped:
+        parts.append(
+            "Left out, because the law cannot be solved with it or for want of time; a cause that stands here can be "
+            "neither named nor excluded:"
+        )
+        parts.append(Table(("left out",), tuple((each,) for each in skipped_lines(found)), left=1))
+    return Section("What was looked for", tuple(parts))
 
 
 def _details(found: Diagnosis) -> Section:

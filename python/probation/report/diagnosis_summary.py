@@ -6,6 +6,8 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.report.diagnosis_tables import MOST, mended_by, shrink_table, where_table, which_table
+from probation.report.skipped_words import MOST as MOST_SKIPPED
+from probation.report.skipped_words import skipped_lines
 from probation.wording import percentage
 
 if TYPE_CHECKING:
@@ -40,6 +42,7 @@ def summary(found: Diagnosis) -> str:
         parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
     if found.next_test is not None:
         parts.append(fill(next_test_text(found), WIDTH))
+    parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found, MOST_SKIPPED)))
     parts.append("\n".join(_sentence(f"warning: {warning}") for warning in found.warnings))
     return "\n\n".join(part for part in parts if part)
 

@@ -1,0 +1,29 @@
+"""What a diagnosis left out, in words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.headline import titles
+
+if TYPE_CHECKING:
+    from probation.diagnosis.result import Diagnosis
+    from probation.diagnosis.skipped import Skipped
+
+MOST = 4
+"""Entries on a terminal."""
+
+
+def skipped_lines(found: Diagnosis, most: int | None = None) -> list[str]:
+    """One phrase for everything that was left out; at most so many."""
+    lines = [_text(each) for each in found.skipped]
+    if most is None or len(lines) <= most:
+        return lines
+    return [*lines[:most], f"… and {len(lines) - most} more (--json and --report list them)"]
+
+
+def _text(each: Skipped) -> str:
+    if not each.effects:
+        return each.why
+    more = f" ({each.count} forms and places)" if each.count > 1 else ""
+    return f"{titles(each.effects)}{more}: {each.why}"

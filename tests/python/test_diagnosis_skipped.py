@@ -1,0 +1,128 @@
+"""No hypothesis ends a diagnosis: what cannot be solved is left out and listed with the reason."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from campaigns.few_records import damage, few_records, offset
+from probation import ConvergenceError, InputError, diagnose
+from probation.design.planned_tests import Laboratory, repeats
+from probation.design.predicted import Explanation, predictions
+from probation.effects.cause import Cause
+from probation.effects.effect import Effect, EffectParameter, Form
+from probation.effects.registry import effect, register, unregister
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+
+SIZE = EffectParameter("size", "", -1.0, 1.0, 0.1, "of a test")
+FEEDBACK = "the feedback's stress did not converge at t = 0.1 s"
+NEGATIVE = "the companion relation gives tau_max = -3700 s at a strain rate of 1e-07 1/s"
+
+
+def broken(error, *, beyond=0.0):
+    """An effect of the material that cannot be solved where its amplitude is larger than `beyond`."""
+
+    def recorded_stress(view, values, stress):
+        if abs(values[0]) > beyond:
+            raise error
+        return stress * (1.0 + values[0] * view.true_strain**2)
+
+    return Effect(
+        "broken",
+        "an effect that cannot be solved",
+        "Physics.\nNone.",
+        "a test",
+        "all",
+        "material",
+        (Form("only", (SIZE,), recorded_stress=recorded_stress),),
+    )
+
+
+@pytest.fixture
+def registered():
+    def add(one):
+        register(one)
+        return one
+
+    yield add
+    unregister("broken")
+
+
+def diagnosed(campaign, *effects, **options):
+    return diagnose(campaign, effects=["broken", *effects], threads=2, **options)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [ConvergenceError(FEEDBACK), InputError(NEGATIVE), ZeroDivisionError("float division by zero")],
+    ids=["feedback", "companion", "arithmetic"],
+)
+@pytest.mark.parametrize("beyond", [0.0, 1e-3], ids=["from the start", "on the way"])
+def test_a_hypothesis_that_cannot_be_solved_is_listed_and_the_others_are_judged(registered, error, beyond):
+    registered(broken(error, beyond=beyond))
+    found = diagnosed(few_records(damage(0.05)), "damage", design=False)
+    assert found.best.effects == ("damage",)
+    (alone,) = found.skipped
+    assert (alone.effects, alone.why, alone.count) == (("broken",), str(error), 1)
+    assert {"effects": ["broken"], "why": str(error), "count": 1} in json.loads(found.to_json())["skipped"]
+    assert str(error) in " ".join(found.summary().split())
+
+
+def test_without_a_gap_it_is_listed_too(registered):
+    registered(broken(ConvergenceError(FEEDBACK)))
+    found = diagnosed(few_records(names=("slow", "fast")), "damage", design=True)
+    assert found.verdict == "no_gap"
+    assert [each.effects for each in found.skipped] == [("broken",)]
+
+
+def test_an_effect_whose_own_functions_fail_is_listed(registered):
+    one = broken(ConvergenceError(FEEDBACK))
+
+    def law_change(view, values):
+        raise ConvergenceError(FEEDBACK)
+
+    registered(replace(one, forms=(replace(one.forms[0], law_change=law_change, recorded_stress=None),)))
+    found = diagnosed(few_records(damage(0.05), names=("slow", "fast")), "damage", design=True)
+    assert found.best.effects == ("damage",)
+    assert ("broken",) in [each.effects for each in found.skipped]
+    assert dict(found.isolability.left_out)["broken"] == FEEDBACK
+
+
+def test_where_every_hypothesis_is_solved_nothing_is_listed():
+    assert diagnose(few_records(damage(0.05)), effects=["damage"], design=False).skipped == ()
+
+
+def test_a_held_out_record_that_the_best_explanation_cannot_predict_is_named(registered):
+    """It keeps the base law's prediction."""
+    known = effect("damage")
+
+    def only_fitted(view, values):
+        if view.id == "fast":
+            raise ConvergenceError(FEEDBACK)
+        return known.form("growing").law_change(view, values)
+
+    registered(replace(known, name="broken", forms=(replace(known.form("growing"), law_change=only_fitted),)))
+    found = diagnosed(few_records(damage(0.05), held_out=("fast",)), design=False)
+    assert found.best.effects == ("broken",)
+    (left_out,) = found.skipped
+    assert left_out.effects == ()
+    assert "fast" in left_out.why
+    assert FEEDBACK in left_out.why
+    assert found.shrink.records["fast"].after_MPa == found.shrink.records["fast"].before_MPa
+
+
+def test_a_fault_with_a_size_each_in_two_records_comes_back_once_in_a_planned_test():
+    """It ended a diagnosis with "a cause is given twice for the same records"."""
+    campaign = few_records(offset(1.0, "slow", "fast"), names=("slow", "fast"))
+    base = base_fit(campaign, plain_fit(campaign))
+    known = effect("force_offset")
+    causes = [Cause(known, known.forms[0], (name,)) for name in ("slow", "fast")]
+    model = base.model.with_causes(causes)
+    parameters = model.parameters(base.parameters, (1.0,), (2.0,))
+    explanation = Explanation.of(model, parameters, 1.0, ("force_offset",), base.whitened.noises)
+    test = repeats(Laboratory.of(base.model, base.parameters))[0]
+    ways = predictions(test, base.model, base.parameters, [explanation], base.whitened.noises)
+    assert [way.weight for way in ways] == [0.5, 0.5]
+    assert not np.allclose(ways[0].mean, ways[1].mean)
