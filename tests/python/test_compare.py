@@ -156,8 +156,8 @@ def test_a_comparison_comes_back_from_its_json_without_curves(march):
     [
         ("{", "the text: found no JSON"),
         ('{"schema": "probation.fit/1"}', "the text: found the schema 'probation.fit/1', expected what to_json writes"),
-        ('{"schema": "probation.comparison/1"}', "the text: found no 'changes', expected what to_json writes"),
-        ('{"schema": "probation.comparison/1", "changes": [1]}', "the text: found 'int' object is not subscriptable"),
+        ('{"schema": "probation.comparison/1"}', "the text: found no 'result', expected what to_json writes"),
+        ('{"schema": "probation.comparison/1", "result": [1]}', "the text: found a tuple under 'result'"),
     ],
 )
 def test_what_is_no_comparison_is_refused(text, message):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +17,7 @@ from probation.law.companion import Companion, from_settings
 from probation.law.history import as_history
 from probation.law.schemes import as_scheme
 from probation.law.settings import COMPANION_FORMS, CompanionSettings
+from probation.results.data import named_in
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -56,7 +57,7 @@ class CalibratedCompanion:
     log_scatter: float = 0.0
     unrelaxed_modulus: float | None = None
 
-    form: Form = None  # type: ignore[assignment]  # filled in below
+    form: Form = field(default=None, metadata=named_in("calibration.forms.FORMS"))  # type: ignore[assignment]  # below
 
     def __post_init__(self) -> None:
         if self.form is None:

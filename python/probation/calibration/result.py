@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.special import stdtrit
 
-from probation.answers import json_answer
 from probation.calibration.cross_validation import percent
 from probation.calibration.rate_table import rate_groups
 from probation.records.saving import companion_text
+from probation.results.data import Stored, encoded, named_in
 from probation.results.rendering import Result
 from probation.wording import percentage, plus_minus
 
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from probation.calibration.rate_table import RateTable
     from probation.calibration.record_fits import RecordFits, RecordRate
     from probation.records.campaign import Campaign
-
-SCHEMA = "probation.companion/1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +50,7 @@ class Candidate:
         Of Student's t for its intervals; None for the normal distribution.
     """
 
-    form: Form
+    form: Form = field(metadata=named_in("calibration.forms.FORMS"))
     companion: CalibratedCompanion
     labels: tuple[str, ...]
     percent_residual: FloatArray
@@ -109,7 +107,7 @@ _REASONS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration(Result):
+class Calibration(Result, Stored):
     """Companion relations calibrated on one source.
 
     `plot` draws tau_max and We against the strain rate, as the paper's Figure S2.
@@ -142,6 +140,8 @@ class Calibration(Result):
     data_sha256 : str
     """
 
+    SCHEMA: ClassVar[str] = "probation.companion/1"
+
     source: str
     route: str
     table: RateTable | None
@@ -169,7 +169,7 @@ class Calibration(Result):
         from probation.calibration.paper_relations import paper_relations  # noqa: PLC0415 - identifies on the twins
         from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
 
-        return paper_relations() if self.table is TABLE_2 else None
+        return paper_relations() if encoded(self.table) == encoded(TABLE_2) else None
 
     @property
     def verdict(self) -> str:
@@ -303,7 +303,3 @@ class Calibration(Result):
             }
             for at in range(len(table))
         ]
-
-    def to_json(self) -> str:
-        """The answer as JSON text, schema "probation.companion/1"."""
-        return json_answer(SCHEMA, self.to_dict())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from probation.certificate.trial import companion_factor, free_parameters
 from probation.identify.modelled_record import ModelledRecord
 from probation.identify.problem import RecordProblem
 from probation.law.schemes import scheme_of
+from probation.results.data import CURVE, from_curves
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class Prediction(ModelledRecord):
         Where the parameters come from.
     """
 
-    standard_error: FloatArray
+    standard_error: FloatArray = field(metadata=CURVE)
     tolerance_MPa: float  # noqa: N815 - as it leaves the program
     identified_on: tuple[str, ...]
 
@@ -45,6 +46,15 @@ class Prediction(ModelledRecord):
     def worst(self) -> int:
         """Sample of the largest error."""
         return int(np.argmax(np.abs(self.fit_residual)))
+
+    @from_curves
+    def largest_at(self) -> dict[str, float]:
+        """Where the largest error is, and the standard error of the prediction there."""
+        return {
+            "time_s": float(self.time[self.worst]),
+            "true_strain": float(self.true_strain[self.worst]),
+            "standard_error_MPa": float(self.standard_error[self.worst]),
+        }
 
     @property
     def noise_units(self) -> float:
@@ -54,7 +64,7 @@ class Prediction(ModelledRecord):
     @property
     def relative(self) -> float:
         """The systematic error over the largest stress of the record."""
-        return self.bias_MPa / float(np.max(np.abs(self.true_stress)))
+        return self.bias_MPa / self.largest_stress_MPa
 
     @property
     def passes(self) -> bool:
@@ -71,11 +81,7 @@ class Prediction(ModelledRecord):
             "in_noise_units": self.noise_units,
             "tolerance_MPa": self.tolerance_MPa,
             "passes": self.passes,
-            "largest_at": {
-                "time_s": float(self.time[self.worst]),
-                "true_strain": float(self.true_strain[self.worst]),
-                "standard_error_MPa": float(self.standard_error[self.worst]),
-            },
+            "largest_at": self.largest_at,
             "identified_on": list(self.identified_on),
         }
 

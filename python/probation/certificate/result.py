@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from probation.answers import json_answer
 from probation.inference.parameter import outside_name
+from probation.results.data import Stored
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ VERDICTS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate(Result):
+class Certificate(Result, Stored):
     """Whether a law is intrinsic to a material, and on what grounds.
 
     `plot` draws every record: measured, predicted with nothing adjusted, identified (the paper's Figures 4 to 6).
@@ -58,6 +58,8 @@ class Certificate(Result):
     warnings : tuple of str
     data_sha256 : str
     """
+
+    SCHEMA: ClassVar[str] = "probation.certificate/1"
 
     campaign: str
     verdict: Verdict
@@ -125,10 +127,6 @@ class Certificate(Result):
             },
             "warnings": list(self.warnings),
         }
-
-    def to_json(self) -> str:
-        """The answer as JSON text."""
-        return json_answer("probation.certificate/1", self.to_dict())
 
 
 def _fit_json(found: Fit, record: str) -> dict[str, object]:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from probation.answers import json_answer
-from probation.results.reading import answer_in
+from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
-
-SCHEMA = "probation.comparison/1"
 
 Verdict = Literal["nothing_changed", "changed", "unknown_change"]
 
@@ -62,7 +59,7 @@ class ChangeExplanation:
 
 
 @dataclass(frozen=True, eq=False)
-class ChangeCurves:
+class ChangeCurves(WithCurves):
     """One record minus what its references foretell.
 
     Attributes
@@ -72,15 +69,15 @@ class ChangeCurves:
         What the best explanation says of the change.
     """
 
-    time: FloatArray
-    true_strain: FloatArray
-    change: FloatArray
-    noise: FloatArray
-    explained: FloatArray | None
+    time: FloatArray = field(metadata=CURVE)
+    true_strain: FloatArray = field(metadata=CURVE)
+    change: FloatArray = field(metadata=CURVE)
+    noise: FloatArray = field(metadata=CURVE)
+    explained: FloatArray | None = field(metadata=CURVE)
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Summarised, Plotted):
+class Comparison(Summarised, Plotted, Stored):
     """What changed from one campaign to another.
 
     `plot` draws every record's change and what the best explanation says of it.
@@ -99,9 +96,10 @@ class Comparison(Summarised, Plotted):
     rms_MPa, noise_MPa : dict of str to float
         Of each record's change, and of its noise.
     curves : dict of str to ChangeCurves
-        Empty where it was read from JSON.
     warnings : tuple of str
     """
+
+    SCHEMA: ClassVar[str] = "probation.comparison/1"
 
     campaign: str
     reference: str
@@ -135,63 +133,3 @@ class Comparison(Summarised, Plotted):
             "answer_set": [{"effects": each.effects, "records": each.records} for each in self.answer_set],
             "warnings": list(self.warnings),
         }
-
-    def to_json(self) -> str:
-        """The answer as JSON text."""
-        return json_answer(SCHEMA, self.to_dict())
-
-    @classmethod
-    def from_json(cls, text: str) -> Comparison:
-        """The comparison that `to_json` wrote, without its curves: `plot` refuses it.
-
-        Parameters
-        ----------
-        text : str
-
-        Raises
-        ------
-        InputError
-            If the text is not what `to_json` writes.
-        """
-        with answer_in(text, SCHEMA) as answer:
-            explanations = tuple(_explanation(each) for each in answer["changes"])
-            left = list(explanations)
-            answer_set = []
-            for each in answer["answer_set"]:
-                key = (tuple(each["effects"]), tuple(each["records"]))
-                at = [(other.effects, other.records) for other in left].index(key)
-                answer_set.append(left.pop(at))
-            return cls(
-                campaign=answer["campaign"],
-                reference=answer["against"],
-                verdict=answer["verdict"],
-                headline=answer["headline"],
-                pairs={name: tuple(each["references"]) for name, each in answer["records"].items()},
-                explanations=explanations,
-                answer_set=tuple(answer_set),
-                rms_MPa={name: each["rms_MPa"] for name, each in answer["records"].items()},
-                noise_MPa={name: each["noise_MPa"] for name, each in answer["records"].items()},
-                curves={},
-                warnings=tuple(answer["warnings"]),
-            )
-
-
-def _explanation(content: Mapping[str, Any]) -> ChangeExplanation:
-    return ChangeExplanation(
-        tuple(content["effects"]),
-        tuple(content["records"]),
-        content["probability"],
-        tuple(_parameter(each) for each in content["parameters"]),
-    )
-
-
-def _parameter(content: Mapping[str, Any]) -> ChangedParameter:
-    low, high = content["interval95"]
-    return ChangedParameter(
-        content["effect"],
-        content["name"],
-        content["unit"],
-        tuple(content["records"]),
-        content["value"],
-        (low, high),
-    )

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from probation.answers import json_answer
 from probation.design.effect_design import Design
 from probation.design.isolability import isolability
 from probation.design.planned_record import as_predicted, white_noise
@@ -24,6 +23,7 @@ from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
 from probation.records.campaign import Campaign
+from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised, rendered
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class PlannedTest:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(Summarised, Plotted):
+class Plan(Summarised, Plotted, Stored):
     """What planned tests will say.
 
     Attributes
@@ -107,6 +107,8 @@ class Plan(Summarised, Plotted):
     seed : int
     warnings : tuple of str
     """
+
+    SCHEMA: ClassVar[str] = "probation.plan/1"
 
     law: Law
     scheme: SchemeName
@@ -140,10 +142,6 @@ class Plan(Summarised, Plotted):
             "isolability": self.isolability.to_dict(),
             "warnings": self.warnings,
         }
-
-    def to_json(self) -> str:
-        """The answer as JSON text."""
-        return json_answer("probation.plan/1", self.to_dict())
 
 
 def plan(

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from probation._arrays import as_threads
-from probation.answers import json_answer
 from probation.design.isolability import isolability
 from probation.effects.registry import effects as known_effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.parallel import usual_threads
+from probation.results.data import Stored
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class CampaignIsolability(Result):
+class CampaignIsolability(Result, Stored):
     """What the tests of a campaign could discriminate.
 
     `plot` draws how probably each effect would be named rightly against each other.
@@ -36,15 +36,17 @@ class CampaignIsolability(Result):
     data_sha256 : str
     """
 
+    SCHEMA: ClassVar[str] = "probation.isolability/1"
+
     campaign: str
     scheme: str
     found: Isolability
     data_sha256: str
 
-    def to_json(self) -> str:
-        """The answer as JSON text, `probation.isolability/1`."""
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects, `probation.isolability/1`."""
         content: dict[str, Any] = {"campaign": self.campaign, "data_sha256": self.data_sha256, "scheme": self.scheme}
-        return json_answer("probation.isolability/1", content | self.found.to_dict())
+        return content | self.found.to_dict()
 
 
 def campaign_isolability(

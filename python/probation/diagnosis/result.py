@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from probation.answers import json_answer
+from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class Explanation:
 
 
 @dataclass(frozen=True, eq=False)
-class RecordCurves:
+class RecordCurves(WithCurves):
     """One record with the base law's and the best explanation's prediction.
 
     Attributes
@@ -131,13 +131,13 @@ class RecordCurves:
 
     id: str
     role: str
-    time: FloatArray
-    true_strain: FloatArray
-    strain_rate: FloatArray
-    data: FloatArray
-    base: FloatArray
-    explained: FloatArray | None
-    noise: FloatArray
+    time: FloatArray = field(metadata=CURVE)
+    true_strain: FloatArray = field(metadata=CURVE)
+    strain_rate: FloatArray = field(metadata=CURVE)
+    data: FloatArray = field(metadata=CURVE)
+    base: FloatArray = field(metadata=CURVE)
+    explained: FloatArray | None = field(metadata=CURVE)
+    noise: FloatArray = field(metadata=CURVE)
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ class NextTest:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis(Result):
+class Diagnosis(Result, Stored):
     """Where, which, how far.
 
     `plot` draws every record before and after the best explanation, the regions of the gap marked.
@@ -224,6 +224,8 @@ class Diagnosis(Result):
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
     """
+
+    SCHEMA: ClassVar[str] = "probation.diagnosis/1"
 
     campaign: str
     verdict: Verdict
@@ -304,10 +306,6 @@ class Diagnosis(Result):
             "skipped": [each.to_dict() for each in self.skipped],
             "warnings": list(self.warnings),
         }
-
-    def to_json(self) -> str:
-        """The answer as JSON text."""
-        return json_answer("probation.diagnosis/1", self.to_dict())
 
 
 def _located(each: Located) -> dict[str, Any]:

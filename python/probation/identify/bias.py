@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from probation.noise.moving_parabola import moving_parabola, parabola_weights
+from probation.results.data import CURVE, WithCurves
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -23,7 +24,7 @@ SIGNIFICANT = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class Bias:
+class Bias(WithCurves):
     """Low-frequency part of one fit residual (model minus data).
 
     Attributes
@@ -37,7 +38,7 @@ class Bias:
         What noise alone may reach there.
     """
 
-    low: FloatArray
+    low: FloatArray = field(metadata=CURVE)
     largest_MPa: float  # noqa: N815 - as it leaves the program
     true_strain: float
     time: float

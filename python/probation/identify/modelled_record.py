@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from probation.results.data import CURVE, WithCurves, from_curves
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -13,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class ModelledRecord:
+class ModelledRecord(WithCurves):
     """A record and what a law makes of it.
 
     Attributes
@@ -29,11 +31,11 @@ class ModelledRecord:
     """
 
     id: str
-    time: FloatArray
-    true_strain: FloatArray
-    true_stress: FloatArray
+    time: FloatArray = field(metadata=CURVE)
+    true_strain: FloatArray = field(metadata=CURVE)
+    true_stress: FloatArray = field(metadata=CURVE)
     excitation: Excitation
-    model_stress: FloatArray
+    model_stress: FloatArray = field(metadata=CURVE)
     noise_MPa: float  # noqa: N815 - as it leaves the program
 
     @property
@@ -41,15 +43,25 @@ class ModelledRecord:
         """Model minus data, shape (n_times,) [MPa]."""
         return self.model_stress - self.true_stress
 
-    @property
+    @from_curves
     def rms_MPa(self) -> float:
         """Root mean square of the fit residual."""
         return float(np.sqrt(np.mean(self.fit_residual**2)))
 
-    @property
+    @from_curves
     def max_MPa(self) -> float:
         """Largest fit residual."""
         return float(np.max(np.abs(self.fit_residual)))
+
+    @from_curves
+    def largest_stress_MPa(self) -> float:
+        """Largest measured stress, without its sign."""
+        return float(np.max(np.abs(self.true_stress)))
+
+    @from_curves
+    def rate_jumps_s(self) -> tuple[float, ...]:
+        """Instants at which the strain rate is discontinuous [s]."""
+        return tuple(float(self.time[jump]) for jump in self.excitation.jumps)
 
     @property
     def bias_MPa(self) -> float:

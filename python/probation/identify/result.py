@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from probation.answers import json_answer
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
+from probation.results.data import CURVE, Stored, from_curves
 from probation.results.rendering import Result
 from probation.wording import percentage
 
@@ -44,7 +44,7 @@ class RecordFit(ModelledRecord):
         Whether the residual was weighed for the strain's noise.
     """
 
-    sensitivity: FloatArray
+    sensitivity: FloatArray = field(metadata=CURVE)
     bias: Bias
     noise_correlation: float = 0.0
     strain_noise_weighed: bool = False
@@ -61,12 +61,12 @@ class RecordFit(ModelledRecord):
             "strain_noise_weighed": self.strain_noise_weighed,
             "differentiator": self.excitation.differentiator,
             "strain_noise": self.excitation.strain_noise,
-            "rate_jumps_s": [float(self.time[jump]) for jump in self.excitation.jumps],
+            "rate_jumps_s": list(self.rate_jumps_s),
         }
 
 
 @dataclass(frozen=True, eq=False)
-class Fit(Result):
+class Fit(Result, Stored):
     """Parameters identified on a campaign, and what is known about them.
 
     `plot` draws stress against strain with the fit residuals below, as the paper's Figure 2.
@@ -106,6 +106,8 @@ class Fit(Result):
     data_sha256 : str
     """
 
+    SCHEMA: ClassVar[str] = "probation.fit/1"
+
     campaign: str
     law: Law
     scheme: SchemeName
@@ -127,12 +129,12 @@ class Fit(Result):
     warnings: tuple[str, ...] = field(default=())
     data_sha256: str = ""
 
-    @property
+    @from_curves
     def rms_MPa(self) -> float:
         """Root mean square of the fit residual over all samples."""
         return float(np.sqrt(np.mean(np.concatenate([each.fit_residual for each in self.records.values()]) ** 2)))
 
-    @property
+    @from_curves
     def noise_MPa(self) -> float:
         """Its high-frequency part."""
         weights = [len(each.time) for each in self.records.values()]
@@ -147,7 +149,7 @@ class Fit(Result):
     def verdict(self) -> str:
         """One sentence."""
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
-        largest = max(float(np.max(np.abs(each.true_stress))) for each in self.records.values())
+        largest = max(each.largest_stress_MPa for each in self.records.values())
         part = percentage(self.bias_MPa / largest)
         bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({part} % of the largest stress)"
         if self.bias_MPa > 2.0 * self.noise_MPa:
@@ -190,7 +192,3 @@ class Fit(Result):
             "records": {name: each.to_json() for name, each in self.records.items()},
             "warnings": list(self.warnings),
         }
-
-    def to_json(self) -> str:
-        """The answer as JSON text."""
-        return json_answer("probation.fit/1", self.to_dict())

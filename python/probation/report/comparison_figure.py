@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from probation.report.diagnosis_words import short_ids
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
-from probation.results.reading import require_curves
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
 
 def comparison_figure(found: Comparison) -> Figure:
     """Every record minus what its references predict, twice the noise, and what the best explanation says."""
-    require_curves(found.curves, f"comparison of {found.campaign} against {found.reference}")
     short = short_ids(found.curves)
     with house_style():
         figure = new_figure(8.4, 0.9 + 1.9 * len(found.curves))

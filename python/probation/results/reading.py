@@ -39,22 +39,3 @@ def answer_in(text: str, schema: str) -> Iterator[Mapping[str, Any]]:
         raise InputError(f"the text: found no {missing.args[0]!r}, expected {expected}") from None
     except (TypeError, AttributeError, ValueError, StopIteration) as wrong:
         raise InputError(f"the text: found {' '.join(str(wrong).split())}, expected {expected}") from None
-
-
-def require_curves(curves: Mapping[str, Any], what: str) -> None:
-    """Refuse to draw what was read from JSON.
-
-    Parameters
-    ----------
-    curves : mapping
-        Empty where there are none.
-    what : str
-        The result, for the message.
-
-    Raises
-    ------
-    InputError
-        If there are none.
-    """
-    if not curves:
-        raise InputError(f"{what}: found no curves, as it was read from JSON; compute it again to plot it")

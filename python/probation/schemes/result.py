@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from probation.answers import json_answer
+from probation.results.data import Stored
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class RecordCheck:
 
 
 @dataclass(frozen=True)
-class CrossCheck(Result):
+class CrossCheck(Result, Stored):
     """How far the schemes agree.
 
     `plot` draws the error against the step and against the time of one solve, with the slopes of the orders.
@@ -86,6 +86,8 @@ class CrossCheck(Result):
     law : str
         Which law it was done with, for people.
     """
+
+    SCHEMA: ClassVar[str] = "probation.crosscheck/1"
 
     records: tuple[RecordCheck, ...]
     law: str
@@ -107,27 +109,24 @@ class CrossCheck(Result):
             sentence += f"; leaving out be2 with the paper's start, within {short(without)} MPa"
         return sentence + "."
 
-    def to_json(self) -> str:
-        """The answer, schema "probation.crosscheck/1"."""
-        return json_answer(
-            "probation.crosscheck/1",
-            {
-                "verdict": self.verdict,
-                "agreement_MPa": self.agreement_MPa,
-                "law": self.law,
-                "records": [
-                    {
-                        "record": record.record,
-                        "data_sha256": record.data_sha256,
-                        "samples": record.samples,
-                        "reference": record.reference,
-                        "schemes": [vars(each) for each in record.schemes],
-                        "steps": None if record.steps is None else _steps_answer(record.steps),
-                    }
-                    for record in self.records
-                ],
-            },
-        )
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects, `probation.crosscheck/1`."""
+        return {
+            "verdict": self.verdict,
+            "agreement_MPa": self.agreement_MPa,
+            "law": self.law,
+            "records": [
+                {
+                    "record": record.record,
+                    "data_sha256": record.data_sha256,
+                    "samples": record.samples,
+                    "reference": record.reference,
+                    "schemes": [vars(each) for each in record.schemes],
+                    "steps": None if record.steps is None else _steps_answer(record.steps),
+                }
+                for record in self.records
+            ],
+        }
 
 
 def _steps_answer(steps: StepStudy) -> dict[str, object]:

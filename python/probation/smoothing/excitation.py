@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ from probation.errors import InputError
 from probation.law.history import StrainHistory
 from probation.law.refinement import fine_time, refine
 from probation.records.noise import scatter
+from probation.results.data import CURVE, LEFT_OUT, WithCurves
 from probation.smoothing.differences import differences, differences_error
 from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.smoothing.operators import Operators
@@ -40,7 +41,7 @@ BEYOND_NOISE = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Excitation:
+class Excitation(WithCurves):
     """Strain and rate as the law sees them.
 
     Attributes
@@ -72,19 +73,19 @@ class Excitation:
         Makes what the measured samples do to strain and rate; None where the strain is as measured.
     """
 
-    time: FloatArray
-    true_strain: FloatArray
-    strain_rate: FloatArray | None
+    time: FloatArray = field(metadata=CURVE)
+    true_strain: FloatArray = field(metadata=CURVE)
+    strain_rate: FloatArray | None = field(metadata=CURVE)
     jumps: tuple[int, ...]
-    direction: FloatArray
+    direction: FloatArray = field(metadata=CURVE)
     differentiator: str
     strain_noise: float
     method: Method
-    strain_se: FloatArray
-    rate_se: FloatArray
+    strain_se: FloatArray = field(metadata=CURVE)
+    rate_se: FloatArray = field(metadata=CURVE)
     freedom: float
     noise_inflation: float = 1.0
-    operators: Callable[[], Operators] | None = None
+    operators: Callable[[], Operators] | None = field(default=None, metadata=LEFT_OUT)
 
     def strain_operator(self) -> FloatArray | None:
         """Derivative of `true_strain` by the measured strain at fixed smoothness, shape (n_times, n_measured) [-].

@@ -1,0 +1,201 @@
+"""Fits, certificates, diagnoses and calibrations go to JSON and come back, whatever fields they have."""
+
+import json
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import probation
+from campaigns import made_up_diagnosis as made_up
+from campaigns.few_records import LAW, NOISE, few_records
+from probation import Campaign, InputError, Record
+from probation.calibration.table_2 import TABLE_2
+from probation.certificate.result import Certificate
+from probation.diagnosis.isolability import campaign_isolability
+from probation.diagnosis.result import Diagnosis
+from probation.histories import named_history
+from probation.identify.result import Fit
+from probation.published.experiments import twin_campaign
+from probation.results.data import CURVE, LEFT_OUT, Stored, WithCurves, encoded, from_curves
+
+
+def ramps():
+    """Three rates, at which tau_max is 20 s, 10 s and 4 s."""
+    records = []
+    for rate, tau_max in ((1e-3, 20.0), (2e-3, 10.0), (5e-3, 4.0)):
+        time = np.linspace(0.0, 1.0 / rate, 120)
+        stress = replace(LAW, tau_max=tau_max).stress(time, rate * time, scheme="exact")
+        noisy = stress + NOISE * np.random.default_rng(3).standard_normal(len(time))
+        records.append(Record(f"ramp-{rate:g}", time, rate * time, noisy, control="strain-rate"))
+    return Campaign("ramps", tuple(records))
+
+
+@cache
+def result(name):
+    makers = {
+        "fit": lambda: probation.fit(few_records()),
+        "fit with profiles": lambda: probation.fit(few_records(), intervals="profile"),
+        "fit with a companion relation": lambda: probation.fit(replace(twin_campaign((1,)), name="\u202etwins\x1b")),
+        "certificate": lambda: probation.certify(twin_campaign((1,), held_out=(2,)), "sa2"),
+        "diagnosis": lambda: probation.diagnose(few_records(), effects=["force_offset", "damage"], threads=1),
+        "made-up diagnosis": made_up.self_heating,
+        "diagnosis without a gap": made_up.no_gap,
+        "calibration on a table": lambda: probation.calibrate_companion(TABLE_2),
+        "calibration on ramps": lambda: probation.calibrate_companion(ramps()),
+        "calibration through the law": lambda: probation.calibrate_companion(ramps(), route="direct", form="power"),
+        "comparison": lambda: probation.compare(few_records(), few_records(seed=2), effects=["force_offset"]),
+        "isolability": lambda: campaign_isolability(few_records(), effects=["force_offset", "damage"], threads=1),
+        "plan": lambda: probation.plan(LAW, {"ramp": named_history("ramp")}, noise=0.04, effects=["damage"]),
+        "cross-check": lambda: probation.crosscheck([few_records().records[0]], LAW),
+    }
+    return makers[name]()
+
+
+NAMES = (
+    "fit",
+    "fit with profiles",
+    "fit with a companion relation",
+    "certificate",
+    "diagnosis",
+    "made-up diagnosis",
+    "diagnosis without a gap",
+    "calibration on a table",
+    "calibration on ramps",
+    "calibration through the law",
+    "comparison",
+    "isolability",
+    "plan",
+    "cross-check",
+)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_result_comes_back_with_its_text(name):
+    done = result(name)
+    again = type(done).from_json(done.to_json())
+    assert again.to_json() == done.to_json()
+    assert again.summary() == done.summary()
+
+
+@pytest.mark.parametrize("name", ["fit", "certificate", "diagnosis"])
+def test_with_curves_a_result_comes_back_with_its_figure(name):
+    done = result(name)
+    again = type(done).from_json(done.to_json(curves=True))
+    assert again.to_json(curves=True) == done.to_json(curves=True)
+    assert again.to_json() == done.to_json()
+    assert again.plot().axes
+
+
+@pytest.mark.parametrize("name", ["fit", "certificate", "diagnosis"])
+def test_without_curves_a_figure_is_refused_in_one_line(name):
+    done = result(name)
+    with pytest.raises(InputError, match=r"found no curves, as it was read from JSON without them; write it with"):
+        type(done).from_json(done.to_json()).plot()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_curves_are_left_out_unless_they_are_asked_for(name):
+    content = json.loads(result(name).to_json())["result"]
+    longest = max((len(each["values"]) for each in arrays(content)), default=0)
+    assert longest < 60
+
+
+def arrays(content):
+    if isinstance(content, dict):
+        if content.get("is") == "array":
+            yield content
+        for each in content.values():
+            yield from arrays(each)
+    elif isinstance(content, list):
+        for each in content:
+            yield from arrays(each)
+
+
+def test_a_verdict_that_was_edited_is_refused():
+    text = result("made-up diagnosis").to_json()
+    assert '"verdict": "explained"' in text
+    with pytest.raises(InputError, match=r"the text: found another 'verdict' than the one under 'result'"):
+        Diagnosis.from_json(text.replace('"verdict": "explained"', '"verdict": "no_gap"', 1))
+
+
+@pytest.mark.parametrize(
+    ("found", "put", "said"),
+    [
+        ("identify.result.Fit", "certificate.result.Certificate", "found no 'verdict'"),
+        ("identify.result.Fit", "os.path.join", "'os.path.join' as a kind of value"),
+        ("identify.result.Fit", "cli.main", "'cli.main' as a kind of value"),
+        ("identify.result.Fit", "__main__.main", "'__main__.main' as a kind of value"),
+        ("identify.result.Fit", "results.data.Stored", "'results.data.Stored' as a kind of value"),
+        ('"rms_MPa":', '"rms":', "found no 'rms_MPa'"),
+    ],
+)
+def test_what_to_json_did_not_write_is_refused_in_one_line(found, put, said):
+    text = result("fit").to_json()
+    assert found in text
+    with pytest.raises(InputError, match=rf"^the text: .*{said}.*, expected what to_json writes[^\n]*$"):
+        Fit.from_json(text.replace(found, put))
+
+
+def test_a_certificate_is_no_fit():
+    with pytest.raises(InputError, match=r"found the schema 'probation\.fit/1'"):
+        Certificate.from_json(result("fit").to_json())
+
+
+@dataclass(frozen=True, eq=False)
+class Unforeseen(Stored, WithCurves):
+    """A result with every kind of field that a new result may have."""
+
+    SCHEMA = "probation.unforeseen/1"
+
+    numbers: tuple[float, ...]
+    by_name: dict[str, tuple[str, float] | None]
+    by_pair: dict[tuple[str, int], bool]
+    matrix: np.ndarray
+    part: slice
+    names: frozenset[str]
+    rows: list[int]
+    curve: np.ndarray = field(metadata=CURVE)
+    function: object = field(default=None, metadata=LEFT_OUT)
+
+    @from_curves
+    def largest(self):
+        return float(self.curve.max())
+
+    def to_dict(self):
+        return {"largest": self.largest}
+
+
+def test_every_kind_of_field_comes_back_as_it_was(monkeypatch):
+    monkeypatch.setattr("probation.results.data._class_named", {f"{__name__}.Unforeseen": Unforeseen}.__getitem__)
+    done = Unforeseen(
+        (1.5, np.inf, -0.0),
+        {"is": ("a", np.nan), "b": None},
+        {("a", 1): True},
+        np.array([[1.0, np.nan]]),
+        slice(3, None),
+        frozenset("xy"),
+        [1, 2],
+        np.array([1.0, 7.0]),
+        print,
+    )
+    again = Unforeseen.from_json(done.to_json())
+    assert (again.numbers, again.by_pair, again.part, again.names, again.rows) == (
+        (1.5, np.inf, -0.0),
+        {("a", 1): True},
+        slice(3, None),
+        frozenset("xy"),
+        [1, 2],
+    )
+    assert again.largest == 7.0
+    assert again.function is None
+    assert encoded(again) == encoded(done)
+    with pytest.raises(InputError, match=r"Unforeseen\.curve: found no curves"):
+        _ = again.curve
+    assert not hasattr(again, "another")
+
+
+def test_what_cannot_be_written_is_named():
+    with pytest.raises(TypeError, match="builtin_function_or_method has no form in JSON"):
+        encoded((print,))
