@@ -8,7 +8,7 @@ import probation
 from bench.cases import COMPANION, Case
 from bench.spectrum import Array
 from probation import BE2, CVODE, SA2, SA3, Exact, _core
-from probation.law.change import engine_change
+from probation.law.modified import engine_change
 from probation.law.schemes import make_solver
 
 
@@ -38,7 +38,9 @@ def solver_of(case: Case, scheme: str, **options: object) -> _core.Solver:
     )
 
 
-def prepare(case: Case, scheme: str, change: probation.Change | None = None, **options: object) -> Callable[[], Array]:
+def prepare(
+    case: Case, scheme: str, change: probation.Modification | None = None, **options: object
+) -> Callable[[], Array]:
     """The compiled call: history held by the solver, result in `out`."""
     solver, law, change = solver_of(case, scheme, **options), law_of(case).engine, engine_change(change)
     out = np.empty(len(case.time))

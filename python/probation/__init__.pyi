@@ -22,12 +22,13 @@ from .histories.imposed import ImposedHistory
 from .identify.fit import fit
 from .identify.result import Fit
 from .inference.callable_law import CallableLaw
-from .law.change import Change, Direction, PowerActivation, SelfHeating, StressActivation
 from .law.companion import Exponential, PowerLaw, RateFunction, Table, Weissenberg
 from .law.creep import creep
+from .law.direction import Direction
 from .law.history import StrainHistory
 from .law.kinematics import haward_thackray_strain
 from .law.modal import Law, Spectrum
+from .law.modification import InitialStress, Modification, PowerActivation, RateShift, SelfHeating, StressActivation
 from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
 from .law.schemes import BE2, CVODE, SA2, SA3, Exact
@@ -51,7 +52,6 @@ __all__ = [
     "CallableLaw",
     "Campaign",
     "Certificate",
-    "Change",
     "Comparison",
     "ConvergenceError",
     "CrossCheck",
@@ -63,13 +63,16 @@ __all__ = [
     "Export",
     "Fit",
     "ImposedHistory",
+    "InitialStress",
     "InputError",
     "Law",
+    "Modification",
     "Noise",
     "Plan",
     "PowerActivation",
     "PowerLaw",
     "RateFunction",
+    "RateShift",
     "RateTable",
     "Record",
     "Reduction",

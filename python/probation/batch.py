@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,15 +10,17 @@ import numpy as np
 from probation import _core
 from probation._arrays import FloatArray, as_output, as_rows, as_samples, as_threads, kept_apart
 from probation.errors import InputError
-from probation.law.change import Change, engine_change
 from probation.law.history import AnyHistory, Jumps, as_history, looks_for_jumps
 from probation.law.modal import Law, engine_law
+from probation.law.modified import engine_change, refuse
 from probation.law.schemes import Scheme, SchemeName, at_samples, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
+
+    from probation.law.modification import Modification
 
 
 @dataclass(frozen=True)
@@ -29,18 +31,18 @@ class Observed:
     ----------
     history : StrainHistory
     true_stress : array_like, shape (n_times,) [MPa]
-    change : Change
-        What an effect changes in the law along this record.
+    modification : Modification, optional
+        What an effect changes in the law along this record; as in `stresses`.
     """
 
     history: AnyHistory
     true_stress: ArrayLike
-    change: Change = field(default_factory=Change)
+    modification: Modification | None = None
 
     def _engine(self) -> _core.BatchRecord:
         history = as_history(self.history)
         stress = as_samples(self.true_stress, "true_stress", len(history))
-        return _core.BatchRecord(history.engine, stress, self.change._engine())
+        return _core.BatchRecord(history.engine, stress, _engine_change(self.modification))
 
 
 def stresses(
@@ -49,7 +51,7 @@ def stresses(
     history: AnyHistory,
     scheme: Scheme | SchemeName = "be2",
     *,
-    change: Change | None = None,
+    modification: Modification | None = None,
     threads: int | None = None,
     out: FloatArray | None = None,
 ) -> FloatArray:
@@ -62,6 +64,9 @@ def stresses(
     parameters : array_like, shape (sets, 3)
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
     history : StrainHistory
+    modification : Modification, optional
+        What an effect changes in the law, but for `rate_shift`, `weight_exponent` and `initial_stress`: these change
+        the law itself with its parameters.
     threads : int, optional
         All cores if left out.
     out : ndarray, shape (sets, n_times), optional
@@ -86,7 +91,7 @@ def stresses(
         engine_law(law),
         sets,
         driven.engine,
-        engine_change(change),
+        _engine_change(modification),
         at_samples(scheme).engine,
         as_threads(threads),
         found,
@@ -240,7 +245,16 @@ def normal_equations(
     history = as_history(record.history)
     solver = make_solver(history.engine, scheme)
     stress = as_samples(record.true_stress, "true_stress", len(history))
-    return _core.normal_equations(solver, engine_law(law), record.change._engine(), stress)
+    return _core.normal_equations(solver, engine_law(law), _engine_change(record.modification), stress)
+
+
+_PART_OF_THE_LAW = frozenset({"rate_shift", "weight_exponent", "initial_stress"})
+"""Changes that are resolved with the law's parameters, one set at a time."""
+
+
+def _engine_change(modification: Modification | None) -> _core.LawChange:
+    refuse(modification, _PART_OF_THE_LAW, "a batch")
+    return engine_change(modification)
 
 
 def _as_parameters(parameters: ArrayLike) -> FloatArray:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import probation
-from probation import Change
+from probation import Modification
+from probation.law.modified import UNCHANGED
 from probation.law.schemes import make_solver
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=9)
@@ -176,7 +177,7 @@ def test_a_name_is_the_scheme_with_default_options(name):
 @pytest.mark.parametrize("scheme", ["be2", "exact", "cvode"])
 def test_a_bad_change_is_named(scheme, change, message):
     with pytest.raises(probation.InputError, match=message):
-        LAW.stress(TIME, STRAIN, scheme, change=Change(**change))
+        LAW.stress(TIME, STRAIN, scheme, modification=Modification(**change))
 
 
 # out=
@@ -256,10 +257,9 @@ def test_an_impossible_tolerance_fails_too():
 def test_a_solver_goes_on_after_a_failure():
     solver = make_solver(probation.StrainHistory(TIME, STRAIN).engine, probation.CVODE(max_steps=1))
     out = np.empty(33)
-    change = Change()._engine()
     for _ in range(2):
         with pytest.raises(probation.ConvergenceError):
-            solver.stress(LAW.engine, change, out)
+            solver.stress(LAW.engine, UNCHANGED, out)
 
 
 def test_an_error_of_the_law_inside_cvode_is_the_callers():

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change
+from probation import Modification
 from reference import literal, paper
 
 SCHEMES = ("be2", "sa2", "sa3", "exact")
@@ -113,7 +113,7 @@ def test_sa3_falls_back_where_reduced_time_would_run_backwards():
         s: law(modes=4).stress(
             probation.StrainHistory(time, 0.01 * time, jumps=None),
             scheme=s,
-            change=Change(relaxation_time_factor=factor),
+            modification=Modification(relaxation_time_factor=factor),
         )
         for s in ("sa2", "sa3", "exact")
     }

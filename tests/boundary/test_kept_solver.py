@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import probation
-from probation import Change, Law, StressActivation, Weissenberg
-from probation.law.change import engine_change
+from probation import Law, Modification, StressActivation, Weissenberg
+from probation.law.modified import engine_change
 from probation.law.schemes import make_solver
 
 EVEN = np.linspace(0.0, 100.0, 301)
@@ -19,9 +19,9 @@ LAWS = (
 )
 CHANGES = (
     None,
-    Change(relaxation_time_factor=0.7, extra_modulus=[30.0], extra_relaxation_time=[4.0]),
-    Change(feedbacks=(StressActivation(20.0),)),
-    Change(initial_modal_stress=np.linspace(0.0, 1.0, 50)),
+    Modification(relaxation_time_factor=0.7, extra_modulus=[30.0], extra_relaxation_time=[4.0]),
+    Modification(feedbacks=(StressActivation(20.0),)),
+    Modification(initial_modal_stress=np.linspace(0.0, 1.0, 50)),
 )
 
 
@@ -46,7 +46,7 @@ def alone(law, change, scheme, time, strain):
 
 def differing(made):
     """Which of these calls give another answer than alone, to the last bit."""
-    answers = [law.stress(time, strain, scheme, change=change) for law, change, scheme, time, strain in made]
+    answers = [law.stress(time, strain, scheme, modification=change) for law, change, scheme, time, strain in made]
     return [k for k, answer in enumerate(answers) if not np.array_equal(answer, alone(*made[k]))]
 
 
@@ -68,7 +68,7 @@ def test_a_call_that_was_refused_leaves_nothing_behind(scheme):
     with pytest.raises(probation.InputError, match=r"true_strain\[7\] is nan"):
         law.stress(EVEN, np.where(np.arange(301) == 7, np.nan, strain), scheme)
     with pytest.raises(probation.InputError, match="load_bearing_area"):
-        law.stress(EVEN, strain, scheme, change=Change(load_bearing_area=np.ones(5)))
+        law.stress(EVEN, strain, scheme, modification=Modification(load_bearing_area=np.ones(5)))
     np.testing.assert_array_equal(law.stress(EVEN, strain, scheme), before)
 
 

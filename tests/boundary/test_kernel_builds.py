@@ -15,7 +15,7 @@ PROGRAM = """
 import sys
 import numpy as np
 import probation
-from probation import Change, _core
+from probation import Modification, _core
 even = np.concatenate([np.linspace(0.0, 20.0, 400), 20.0 + np.cumsum(np.linspace(0.01, 0.2, 100))])
 uneven = np.concatenate([[0.0], np.cumsum(np.random.default_rng(3).uniform(0.02, 0.04, 600))])
 rows = []
@@ -23,9 +23,9 @@ for time in (even, uneven):
     strain = 0.006 * time + 0.01 * np.sin(0.3 * time)
     for modes in (1, 6, 29, 50):
         law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5, modes=modes)
-        shifted = Change(relaxation_time_factor=np.exp(0.5 * np.sin(time)))
+        shifted = Modification(relaxation_time_factor=np.exp(0.5 * np.sin(time)))
         rows += [law.stress(time, strain, scheme) for scheme in ("be2", "sa2", "sa3")]
-        rows += [law.stress(time, strain, scheme, change=shifted) for scheme in ("be2", "sa2", "sa3")]
+        rows += [law.stress(time, strain, scheme, modification=shifted) for scheme in ("be2", "sa2", "sa3")]
         rows += [column for scheme in ("be2", "sa3") for column in law.sensitivity(time, strain, scheme)[1].T]
 np.savez(sys.argv[1], build=_core.kernel_build(), **{f"row{i}": row for i, row in enumerate(rows)})
 """

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import probation
-from probation import Change, SelfHeating
+from probation import Modification, SelfHeating
+from probation.law.modified import engine_change
 from probation.law.schemes import make_solver
 from reference import paper
 
@@ -35,10 +36,10 @@ def test_four_threads_give_what_one_gives(scheme):
 
 
 def test_feedbacks_and_sensitivities_in_threads_give_what_one_gives():
-    change = Change(feedbacks=(SelfHeating(1.0, 0.01, 0.02, 0.01),))
+    change = Modification(feedbacks=(SelfHeating(1.0, 0.01, 0.02, 0.01),))
 
     def solve(tau):
-        return law(tau).sensitivity(TIME[:301], STRAIN[:301], change=change)
+        return law(tau).sensitivity(TIME[:301], STRAIN[:301], modification=change)
 
     taus = [1.0, 3.0, 5.0, 7.0]
     alone = [solve(tau) for tau in taus]
@@ -53,23 +54,23 @@ def test_feedbacks_and_sensitivities_in_threads_give_what_one_gives():
 def test_the_interpreter_goes_on_during_a_call(call):
     """A call of some 0.1 s: with the lock held, no other thread would take a step before its end."""
     base = law(5.0)
-    change = Change(extra_modulus=np.ones(400), extra_relaxation_time=np.geomspace(1e-3, 1e3, 400))
+    change = Modification(extra_modulus=np.ones(400), extra_relaxation_time=np.geomspace(1e-3, 1e3, 400))
     n = {"stress": 201, "tangent": 1001, "strain_sensitivity": 401}[call]
     scheme = "cvode" if call == "stress" else "sa3"
     solver = make_solver(probation.StrainHistory(TIME[:n] ** 1.01, STRAIN[:n]).engine, scheme)
     done = threading.Event()
     out, columns = np.empty(n), np.empty((n, 40))
-    engine_change = change._engine()
+    changed = engine_change(change)
     directions = [probation.Direction(relaxed_stress=1.0)._engine()] * 40
 
     def work():
         began.append(clock.perf_counter())
         if call == "stress":
-            solver.stress(base.engine, engine_change, out)
+            solver.stress(base.engine, changed, out)
         elif call == "tangent":
-            solver.tangent(base.engine, engine_change, directions, out, columns)
+            solver.tangent(base.engine, changed, directions, out, columns)
         else:
-            solver.strain_sensitivity(base.engine, engine_change)
+            solver.strain_sensitivity(base.engine, changed)
         ended.append(clock.perf_counter())
         done.set()
 

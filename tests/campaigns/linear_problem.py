@@ -27,7 +27,7 @@ def bar(function=None, names=("modulus_MPa",), starts=(80.0,), lower=(0.0,), upp
     """True stress = modulus times true strain, or another function of strain and parameters."""
     chosen = function or (lambda strain, parameters: parameters[0] * strain)
     return CallableLaw(
-        lambda time, strain, parameters, alteration: chosen(strain, parameters), names, starts, lower, upper
+        lambda time, strain, parameters, modification: chosen(strain, parameters), names, starts, lower, upper
     )
 
 

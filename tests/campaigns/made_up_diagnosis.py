@@ -49,13 +49,13 @@ ALONE = ("rate_dependent_relaxation", "structural_softening", "damage", "machine
 def records(heating: float, copies: int = 1) -> tuple[RecordCurves, ...]:
     """Curves of the base law, refitted, and of the law that made the data, `heating` in °C per MPa of work."""
     rng = np.random.default_rng(7)
-    change = probation.Change(feedbacks=(probation.SelfHeating(heating, 4e-3, 0.03, 0.004),))
+    change = probation.Modification(feedbacks=(probation.SelfHeating(heating, 4e-3, 0.03, 0.004),))
     found = []
     for copy in range(copies):
         for name, (instants, strains) in CORNERS.items():
             time = np.linspace(0.0, instants[-1], COUNT)
             strain = np.interp(time, instants, strains)
-            truth = BASE.stress(time, strain, change=change)
+            truth = BASE.stress(time, strain, modification=change)
             data = truth + NOISE * rng.standard_normal(COUNT)
             label = name if copies == 1 else f"{name} #{copy + 1}"
             role = "held-out" if name in HELD_OUT else "identify"

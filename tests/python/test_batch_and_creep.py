@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Law, PowerLaw, Weissenberg, batch
+from probation import Law, Modification, PowerLaw, Weissenberg, batch
 from probation.law.creep import creep
 from probation.law.history import StrainHistory
 
@@ -73,7 +73,7 @@ def test_a_stress_may_be_written_over_its_own_times_or_strains(scheme):
 
 def test_sums_of_squares_are_those_of_the_stresses():
     history, data = StrainHistory(TIME, STRAIN), 0.3 * TIME
-    records = [batch.Observed(history, data), batch.Observed(history, data, Change(load_bearing_area=0.9))]
+    records = [batch.Observed(history, data), batch.Observed(history, data, Modification(load_bearing_area=0.9))]
     found = batch.sums_of_squares(LAW, SETS, records)
     stress = batch.stresses(LAW, SETS, history)
     assert_allclose(found[:, 0], ((stress - data) ** 2).sum(axis=1), rtol=1e-12)
@@ -160,4 +160,4 @@ def test_creep_refuses_what_it_cannot_do():
     with pytest.raises(probation.InputError, match="unrelaxed_modulus"):
         creep(Law(unrelaxed_modulus=0.0, tau_max=1.0, hardening_modulus=1.0), TIME, STRAIN)
     with pytest.raises(probation.InputError, match="feedbacks"):
-        creep(LAW, TIME, STRAIN, change=Change(feedbacks=(probation.StressActivation(10.0),)))
+        creep(LAW, TIME, STRAIN, modification=Modification(feedbacks=(probation.StressActivation(10.0),)))

@@ -71,7 +71,7 @@ def _bend(view):
 
 
 def test_a_law_that_raises_is_named_with_its_record_and_parameters():
-    def broken(time, true_strain, parameters, alteration):
+    def broken(time, true_strain, parameters, modification):
         if time[-1] < 50.0:
             raise ZeroDivisionError("float division by zero")
         return parameters[0] * true_strain

@@ -16,7 +16,6 @@ from scipy.integrate import quad
 
 import probation
 from probation.effects import catalogue
-from probation.effects.alteration import Alteration, RateShift
 from probation.effects.cause import cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.listing import catalogue_json, catalogue_table
@@ -26,6 +25,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.modification import Modification, RateShift
 from probation.published.experiments import twin_campaign
 from probation.records.record import Noise, Record
 
@@ -223,15 +223,15 @@ def test_several_effects_act_at_once_and_in_their_records():
 
 
 def test_factors_of_two_effects_multiply_and_a_rate_shift_is_given_once():
-    both = Alteration(hardening_factor=2.0, load_bearing_area=np.array([1.0, 0.5])).and_(
-        Alteration(hardening_factor=np.array([1.0, 3.0]), weight_exponent=0.1, extra_modulus=(1.0,))
+    both = Modification(hardening_factor=2.0, load_bearing_area=np.array([1.0, 0.5])).and_(
+        Modification(hardening_factor=np.array([1.0, 3.0]), weight_exponent=0.1, extra_modulus=(1.0,))
     )
     np.testing.assert_array_equal(both.hardening_factor, [2.0, 6.0])
     np.testing.assert_array_equal(both.load_bearing_area, [1.0, 0.5])
-    assert both.and_(both).extra_modulus == (1.0, 1.0)
-    assert both.notions == {"hardening_factor", "load_bearing_area", "weight_exponent", "extra_modulus"}
-    shift = Alteration(rate_shift=RateShift(0.1, 0.0, 1e-3))
-    with pytest.raises(probation.InputError, match="both effects give rate_shift"):
+    np.testing.assert_array_equal(both.and_(both).extra_modulus, [1.0, 1.0])
+    assert both.changed == {"hardening_factor", "load_bearing_area", "weight_exponent", "extra_modulus"}
+    shift = Modification(rate_shift=RateShift(0.1, 0.0, 1e-3))
+    with pytest.raises(probation.InputError, match="both modifications give rate_shift"):
         shift.and_(shift)
 
 

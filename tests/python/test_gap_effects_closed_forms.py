@@ -44,7 +44,7 @@ def predicted(law, record, name, form, values, substeps=1, scheme="be2", others=
 def bar(modulus=1000.0):
     """An elastic bar, true stress over true strain."""
     return CallableLaw(
-        lambda time, strain, parameters, alteration: parameters[0] * strain,
+        lambda time, strain, parameters, modification: parameters[0] * strain,
         ("modulus_MPa",),
         (modulus,),
         (0.0,),
@@ -370,7 +370,7 @@ def test_a_smooth_signal_is_delayed_to_the_third_order():
 def test_a_late_force_is_that_of_an_earlier_strain():
     """Nominal stress K t: the true stress is K (t - lag) e^(strain now)."""
     law = CallableLaw(
-        lambda time, strain, parameters, alteration: parameters[0] * time * np.exp(strain),
+        lambda time, strain, parameters, modification: parameters[0] * time * np.exp(strain),
         ("k",),
         (0.2,),
         (0.0,),

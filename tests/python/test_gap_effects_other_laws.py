@@ -152,7 +152,7 @@ def test_a_python_function_is_put_on_probation_by_the_same_machinery():
     np.testing.assert_allclose(slopes[:, 2], np.exp(view.true_strain), rtol=1e-9)
 
 
-def test_a_law_is_asked_only_for_what_it_understands():
+def test_a_law_is_asked_only_for_what_it_can_follow():
     bar = maxwell_bar()
     model = CampaignModel(bar, MODEL.views)
     screened = {column.cause.effect.name for column in screen(model, model.start, effects())}
@@ -178,12 +178,12 @@ def test_a_maxwell_bar_ages_and_is_damaged():
     [
         ({"starts": (1.0, 2.0)}, r"starts has 2 entries"),
         ({"starts": (-1.0,)}, r"k: found the start -1.0"),
-        ({"notions": frozenset({"colour"})}, r"notions: found \['colour'\]"),
+        ({"capabilities": frozenset({"colour"})}, r"capabilities: found \['colour'\]"),
     ],
 )
 def test_a_badly_described_function_is_refused(changed, message):
     described = {
-        "function": lambda time, strain, parameters, alteration: parameters[0] * strain,
+        "function": lambda time, strain, parameters, modification: parameters[0] * strain,
         "names": ("k",), "starts": (1.0,), "lower": (0.0,), "upper": (9.0,),
     }  # fmt: skip
     with pytest.raises(probation.InputError, match=message):
@@ -191,6 +191,6 @@ def test_a_badly_described_function_is_refused(changed, message):
 
 
 def test_a_function_that_gives_no_stress_is_told_so():
-    law = CallableLaw(lambda time, strain, parameters, alteration: strain[:5], ("k",), (1.0,), (0.0,), (9.0,))
+    law = CallableLaw(lambda time, strain, parameters, modification: strain[:5], ("k",), (1.0,), (0.0,), (9.0,))
     with pytest.raises(probation.InputError, match=r"function\(time, true_strain, …\) has 5 samples; expected 200"):
         law.stress(MODEL.views[0], law.start)

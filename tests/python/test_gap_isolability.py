@@ -36,7 +36,7 @@ def ramp(name, rate, strain=0.1, samples=SAMPLES):
 def elastic_model(*records):
     """Stress = E strain, E = 1000 MPa."""
 
-    def stress(time, true_strain, parameters, alteration):
+    def stress(time, true_strain, parameters, modification):
         return parameters[0] * true_strain
 
     law = CallableLaw(stress, names=("modulus_MPa",), starts=(1000.0,), lower=(0.0,), upper=(1e5,))

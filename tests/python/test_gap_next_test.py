@@ -40,7 +40,7 @@ def two_ramps(law=None):
 def elastic_bar(*records):
     """Stress = 1000 MPa strain."""
     law = CallableLaw(
-        lambda time, true_strain, parameters, alteration: parameters[0] * true_strain,
+        lambda time, true_strain, parameters, modification: parameters[0] * true_strain,
         names=("modulus_MPa",),
         starts=(1000.0,),
         lower=(0.0,),

@@ -3,13 +3,14 @@
 import copy
 import pickle
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 
 import numpy as np
 import pytest
 
 import probation
-from probation import Change, Law, SelfHeating, Spectrum, StressActivation, Weissenberg
+from probation import Law, Modification, SelfHeating, Spectrum, StressActivation, Weissenberg
 
 BASE = {"unrelaxed_modulus": 3220.0, "hardening_modulus": 2.5}
 TIME, STRAIN = [0.0, 50.0, 100.0], [0.0, 0.25, 0.5]
@@ -52,7 +53,7 @@ def test_feedbacks_are_values():
     assert StressActivation(15.0) != "StressActivation(15.0)"
     assert repr(feedbacks[1]) == "SelfHeating(1.0, 0.0, 0.02, 0.01)"
     assert eval(repr(feedbacks[0]), {"StressActivation": StressActivation}) == feedbacks[0]
-    change = copy.deepcopy(Change(hardening_factor=[1.0, 2.0, 3.0], feedbacks=feedbacks))
+    change = copy.deepcopy(Modification(hardening_factor=[1.0, 2.0, 3.0], feedbacks=feedbacks))
     assert change.feedbacks == feedbacks
 
 
@@ -202,14 +203,14 @@ def test_substeps_are_steps_on_the_refined_history(scheme, rates):
     wave = 1.0 + 0.1 * np.sin(np.linspace(0.0, 3.0, len(WAVY_TIME)))
     rate = np.gradient(WAVY_STRAIN, WAVY_TIME) if rates else None
     history = probation.StrainHistory(WAVY_TIME, WAVY_STRAIN, strain_rate=rate, jumps=None)
-    change = probation.Change(relaxation_time_factor=wave)
+    change = probation.Modification(relaxation_time_factor=wave)
     fine = history.refined(4)
-    finer = probation.Change(relaxation_time_factor=np.interp(fine.time, WAVY_TIME, wave))
-    expected = law.sensitivity(fine, scheme=scheme(), change=finer)
-    stress, sensitivity = law.sensitivity(history, scheme=scheme(substeps=4), change=change)
+    finer = probation.Modification(relaxation_time_factor=np.interp(fine.time, WAVY_TIME, wave))
+    expected = law.sensitivity(fine, scheme=scheme(), modification=finer)
+    stress, sensitivity = law.sensitivity(history, scheme=scheme(substeps=4), modification=change)
     np.testing.assert_allclose(stress, expected[0][::4], rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(sensitivity, expected[1][::4], rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(law.stress(history, scheme=scheme(substeps=4), change=change), stress, rtol=1e-12)
+    np.testing.assert_allclose(law.stress(history, scheme=scheme(substeps=4), modification=change), stress, rtol=1e-12)
 
 
 def test_substeps_bring_the_scheme_to_the_exact_answer():
@@ -227,3 +228,82 @@ def test_an_answer_follows_its_input_alone_whatever_was_computed_before(scheme):
     steps_that_fill_the_tables = np.cumsum(np.sort(np.random.default_rng(2).uniform(0.08, 0.35, 4000)))
     law.stress(steps_that_fill_the_tables, 1e-4 * steps_that_fill_the_tables, scheme)
     assert (law.stress(time, strain, scheme) == before).all()
+
+
+MODIFIED = {
+    "rate shift": probation.Modification(rate_shift=probation.RateShift(0.4, 0.1, 5e-3)),
+    "weights": probation.Modification(weight_exponent=-0.2),
+    "start": probation.Modification(
+        initial_stress=probation.InitialStress(4.0, 0.1), hardening_factor=1.5, added_relaxed_stress=0.7
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ["constant", "companion"])
+def test_a_rate_shift_is_another_companion_relation(name):
+    law = LAWS[name]
+
+    def shifted(rate):
+        base = law.tau_max if law.companion is None else law.companion.relaxation_time(rate)
+        return base * (rate / 5e-3) ** -0.4
+
+    other = replace(law, tau_max=None, companion=probation.RateFunction(shifted, between=(1e-4, 1e-1)))
+    modification = probation.Modification(rate_shift=probation.RateShift(0.4, 0.0, 5e-3))
+    strain = [0.0, 0.1, 0.5]
+    found = law.stress(TIME, strain, modification=modification)
+    np.testing.assert_allclose(found, other.stress(TIME, strain), rtol=1e-3)
+    assert not np.allclose(found, law.stress(TIME, strain), rtol=1e-2)
+
+
+def test_a_weight_exponent_is_another_spectrum_of_the_same_sum():
+    law = LAWS["constant"]
+    ratio, weight = law.spectrum.relaxation_ratio, law.spectrum.modal_weight
+    steeper = weight * ratio**-0.2
+    other = replace(law, spectrum=Spectrum(ratio, steeper * weight.sum() / steeper.sum()))
+    found = law.stress(TIME, STRAIN, modification=MODIFIED["weights"])
+    np.testing.assert_allclose(found, other.stress(TIME, STRAIN), rtol=1e-12)
+
+
+@laws
+def test_a_start_under_stress_is_carried_by_the_modes_that_have_not_relaxed(law):
+    strain = [0.1, 0.25, 0.5]
+    weight, held = law.spectrum.modal_weight, law.spectrum.modal_weight * np.exp(-0.1 / law.spectrum.relaxation_ratio)
+    relaxed = 1.5 * law.hardening_modulus * float(probation.haward_thackray_strain(strain)[0]) + 0.7
+    modal = probation.Modification(
+        initial_modal_stress=relaxed * weight + 4.0 * held / held.sum(), hardening_factor=1.5, added_relaxed_stress=0.7
+    )
+    expected = law.stress(TIME, strain, modification=modal)
+    np.testing.assert_allclose(law.stress(TIME, strain, modification=MODIFIED["start"]), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("asked", MODIFIED)
+def test_sensitivities_of_a_modified_law_are_its_slopes(asked):
+    law, modification = LAWS["constant"], MODIFIED[asked]
+    strain = [0.1, 0.25, 0.5]  # a start whose relaxed stress follows G
+    stress, found = law.sensitivity(TIME, strain, modification=modification)
+    np.testing.assert_allclose(stress, law.stress(TIME, strain, modification=modification), rtol=1e-13)
+    for index, value in enumerate(law.parameters):
+        step = np.zeros(3)
+        step[index] = 1e-5 * value
+        up, down = (law.with_parameters(law.parameters + sign * step) for sign in (1.0, -1.0))
+        rise = up.stress(TIME, strain, modification=modification) - down.stress(TIME, strain, modification=modification)
+        np.testing.assert_allclose(found[:, index], rise / (2.0 * step[index]), rtol=1e-6, atol=1e-8)
+
+
+def test_a_start_under_stress_is_refused_where_it_cannot_follow():
+    start = MODIFIED["start"]
+    law = LAWS["constant"]
+    for call in (
+        lambda: law.strain_sensitivity(TIME, STRAIN, modification=start),
+        lambda: law.sensitivity(TIME, STRAIN, modification=start, directions=[probation.Direction(relaxed_stress=1.0)]),
+        lambda: probation.batch.stresses(
+            law, [law.parameters], probation.StrainHistory(TIME, STRAIN), modification=start
+        ),
+        lambda: probation.creep(law, TIME, STRAIN, modification=start),
+    ):
+        with pytest.raises(probation.InputError, match=r"modification: found initial_stress, which .* cannot follow"):
+            call()
+    with pytest.raises(probation.InputError, match="a record starts once"):
+        probation.Modification(initial_stress=probation.InitialStress(1.0), initial_modal_stress=[1.0])
+    with pytest.raises(probation.InputError, match="modification is 3; a Modification is needed"):
+        law.stress(TIME, STRAIN, modification=3)

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import probation
-from probation import Change, SelfHeating, StressActivation
+from probation import Modification, SelfHeating, StressActivation
 from reference import literal, paper
 
 E_U, TAU, G = paper.E_U, paper.TAU_MAX, paper.G
@@ -184,7 +184,7 @@ def test_one_mode_held_decays_exponentially(scheme):
     """From an initial modal stress of 7 MPa at G = 0: 7 exp(-t / 2)."""
     time = np.linspace(0.0, 5.0, 501)
     base = probation.Law(unrelaxed_modulus=100.0, tau_max=2.0, hardening_modulus=0.0, modes=1)
-    found = base.stress(time, np.zeros(501), scheme, change=Change(initial_modal_stress=[7.0]))
+    found = base.stress(time, np.zeros(501), scheme, modification=Modification(initial_modal_stress=[7.0]))
     assert_allclose(found, 7.0 * np.exp(-time / 2.0), rtol=0.0, atol=5e-5 if scheme == "be2" else 1e-8)
 
 
@@ -194,28 +194,28 @@ def test_a_hold_with_a_companion_relation_relaxes_at_the_floors_time():
     time = np.linspace(0.0, 1e5, 2001)
     start = np.array([5.0])
     for scheme in ("sa2", "sa3", "exact", "cvode"):
-        found = base.stress(time, np.zeros(2001), scheme, change=Change(initial_modal_stress=start))
+        found = base.stress(time, np.zeros(2001), scheme, modification=Modification(initial_modal_stress=start))
         assert_allclose(found, 5.0 * np.exp(-time / 42200.0), rtol=0.0, atol=1e-7)
 
 
 # Every field of a change, against CVODE (and the exact solution where it has one)
 
 FIELDS = {
-    "relaxation time": lambda w: Change(relaxation_time_factor=w),
-    "modulus": lambda w: Change(unrelaxed_modulus_factor=w),
-    "hardening": lambda w: Change(hardening_factor=w),
-    "added stress": lambda w: Change(added_relaxed_stress=3.0 * w),
-    "area": lambda w: Change(load_bearing_area=w),
-    "initial stress": lambda w: Change(initial_modal_stress=np.linspace(0.5, -0.2, 12)),
-    "extra modes": lambda w: Change(extra_modulus=[400.0, 30.0], extra_relaxation_time=[0.7, 50.0]),
-    "number": lambda w: Change(0.7, 1.1, 1.2, 0.5, 0.9),
-    "all": lambda w: Change(
+    "relaxation time": lambda w: Modification(relaxation_time_factor=w),
+    "modulus": lambda w: Modification(unrelaxed_modulus_factor=w),
+    "hardening": lambda w: Modification(hardening_factor=w),
+    "added stress": lambda w: Modification(added_relaxed_stress=3.0 * w),
+    "area": lambda w: Modification(load_bearing_area=w),
+    "initial stress": lambda w: Modification(initial_modal_stress=np.linspace(0.5, -0.2, 12)),
+    "extra modes": lambda w: Modification(extra_modulus=[400.0, 30.0], extra_relaxation_time=[0.7, 50.0]),
+    "number": lambda w: Modification(0.7, 1.1, 1.2, 0.5, 0.9),
+    "all": lambda w: Modification(
         w, w[::-1], w, 2.0 * w, w, np.linspace(0.5, -0.2, 12), [400.0, 30.0], [0.7, 50.0],
         (SelfHeating(1.0, 0.01, 0.02, 0.01),),
     ),
-    "activation": lambda w: Change(feedbacks=(StressActivation(20.0),)),
-    "heating": lambda w: Change(feedbacks=(SelfHeating(1.0, 0.02, 0.03, 0.01),)),
-    "both": lambda w: Change(feedbacks=(StressActivation(20.0), SelfHeating(1.0, 0.02, 0.03, 0.01))),
+    "activation": lambda w: Modification(feedbacks=(StressActivation(20.0),)),
+    "heating": lambda w: Modification(feedbacks=(SelfHeating(1.0, 0.02, 0.03, 0.01),)),
+    "both": lambda w: Modification(feedbacks=(StressActivation(20.0), SelfHeating(1.0, 0.02, 0.03, 0.01))),
 }  # fmt: skip
 
 
@@ -229,7 +229,9 @@ def changed_run(field, scheme, n, companion):
         relation = probation.Weissenberg(*paper.WEISSENBERG)
         base = law(modes=12, decades=4.0, tau_max=None, alpha=1.0, companion=relation)
     tight = probation.CVODE(relative_tolerance=1e-11, absolute_tolerance=1e-11) if scheme == "cvode" else scheme
-    stress = base.stress(probation.StrainHistory(time, strain, jumps=[16.0]), scheme=tight, change=FIELDS[field](wave))
+    stress = base.stress(
+        probation.StrainHistory(time, strain, jumps=[16.0]), scheme=tight, modification=FIELDS[field](wave)
+    )
     return stress[:: n // 32]
 
 
@@ -276,8 +278,8 @@ def test_feedbacks_are_solved_within_the_step(field, scheme, order):
 @pytest.mark.parametrize("scheme", ["be2", "sa2", "sa3", "cvode"])
 def test_a_feedback_that_does_nothing_changes_nothing(scheme):
     time, strain = several_segments()
-    idle = Change(feedbacks=(StressActivation(1e9), SelfHeating(0.0, 0.0, 1.0, 1.0)))
-    found, plain = (law(modes=12).stress(time, strain, scheme, change=c) for c in (idle, None))
+    idle = Modification(feedbacks=(StressActivation(1e9), SelfHeating(0.0, 0.0, 1.0, 1.0)))
+    found, plain = (law(modes=12).stress(time, strain, scheme, modification=c) for c in (idle, None))
     # A step of a microsecond before one of 17 s: SA3's parabola multiplies the rounding of the first by 1.7e7.
     rounding = {"cvode": 1e-5, "sa3": 1e-6}.get(scheme, 1e-9)
     assert_allclose(found, plain, rtol=1e-11, atol=rounding)
@@ -285,8 +287,10 @@ def test_a_feedback_that_does_nothing_changes_nothing(scheme):
 
 def test_two_changes_at_once_are_those_of_either():
     """Factors multiply, stresses add, modes and feedbacks stand side by side."""
-    one = Change(relaxation_time_factor=2.0, added_relaxed_stress=1.0, extra_modulus=3.0, extra_relaxation_time=4.0)
-    two = Change(
+    one = Modification(
+        relaxation_time_factor=2.0, added_relaxed_stress=1.0, extra_modulus=3.0, extra_relaxation_time=4.0
+    )
+    two = Modification(
         relaxation_time_factor=[3.0, 4.0], added_relaxed_stress=[1.0, 2.0], extra_modulus=[5.0],
         extra_relaxation_time=[6.0], load_bearing_area=0.5, feedbacks=(StressActivation(7.0),),
     )  # fmt: skip

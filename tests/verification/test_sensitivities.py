@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import probation
-from probation import Change, Direction, PowerActivation, SelfHeating, StrainHistory, StressActivation
+from probation import Direction, Modification, PowerActivation, SelfHeating, StrainHistory, StressActivation
 from reference import literal, paper
 
 SCHEMES = ("be2", "sa2", "sa3")
@@ -79,11 +79,11 @@ companions = pytest.mark.parametrize("companion", [False, True], ids=["constant"
 @histories
 def test_parameters_are_differentiated(scheme, feedback, companion, history):
     time, strain, options, _ = history
-    base, change = law(companion), Change(feedbacks=feedback)
-    stress, found = base.sensitivity(StrainHistory(time, strain, **options), scheme=scheme, change=change)
+    base, change = law(companion), Modification(feedbacks=feedback)
+    stress, found = base.sensitivity(StrainHistory(time, strain, **options), scheme=scheme, modification=change)
     assert_allclose(
         stress,
-        base.stress(StrainHistory(time, strain, **options), scheme=scheme, change=change),
+        base.stress(StrainHistory(time, strain, **options), scheme=scheme, modification=change),
         rtol=1e-12,
         atol=1e-12,
     )
@@ -91,7 +91,7 @@ def test_parameters_are_differentiated(scheme, feedback, companion, history):
         value = getattr(base, name)
         expected = central(
             lambda d, name=name, value=value: replace(base, **{name: value + d}).stress(
-                StrainHistory(time, strain, **options), scheme=scheme, change=change
+                StrainHistory(time, strain, **options), scheme=scheme, modification=change
             ),
             1e-5 * value,
         )
@@ -107,13 +107,13 @@ def test_every_strain_sample_is_differentiated(scheme, feedback, companion, hist
     """With rates of its own the history's rates stay, but for the secant on one side of a jump."""
     time, strain, options, rates = history
     options = options | ({"strain_rate": rates} if given_rate else {})
-    base, change = law(companion), Change(feedbacks=feedback)
-    found = base.strain_sensitivity(StrainHistory(time, strain, **options), scheme=scheme, change=change)
+    base, change = law(companion), Modification(feedbacks=feedback)
+    found = base.strain_sensitivity(StrainHistory(time, strain, **options), scheme=scheme, modification=change)
     for k in range(0, len(time), 3):
         unit = np.eye(len(time))[k]
         expected = central(
             lambda d, unit=unit: base.stress(
-                StrainHistory(time, strain + d * unit, **options), scheme=scheme, change=change
+                StrainHistory(time, strain + d * unit, **options), scheme=scheme, modification=change
             ),
             2e-7,
         )
@@ -140,17 +140,17 @@ def test_no_stress_answers_to_a_later_strain(scheme, companion, history):
 def test_given_rates_are_differentiated(scheme, companion, feedback, history):
     time, strain, options, rates = history
     rng = np.random.default_rng(3)
-    base, change = law(companion), Change(feedbacks=feedback)
+    base, change = law(companion), Modification(feedbacks=feedback)
     towards = rng.standard_normal(len(time)) * 1e-3
     _, found = base.sensitivity(
         StrainHistory(time, strain, strain_rate=rates, **options),
         scheme=scheme,
-        change=change,
+        modification=change,
         directions=[Direction(strain_rate=towards)],
     )
     expected = central(
         lambda d: base.stress(
-            StrainHistory(time, strain, strain_rate=rates + d * towards, **options), scheme=scheme, change=change
+            StrainHistory(time, strain, strain_rate=rates + d * towards, **options), scheme=scheme, modification=change
         ),
         1e-4,
     )
@@ -227,9 +227,9 @@ def changes(n, modes=10):
     }
     start = 0.2 + 0.1 * np.random.default_rng(5).uniform(-1.0, 1.0, modes)
     return {
-        "plain": Change(**extra),
-        "sampled": Change(**sampled),
-        "given start": Change(**sampled, initial_modal_stress=start),
+        "plain": Modification(**extra),
+        "sampled": Modification(**sampled),
+        "given start": Modification(**sampled, initial_modal_stress=start),
     }
 
 
@@ -244,12 +244,12 @@ def test_every_field_of_a_direction_is_differentiated(scheme, feedback, companio
     base, change = law(companion), replace(changes(n)[changed], feedbacks=feedback)
     for name, direction in directions(n).items():
         _, found = base.sensitivity(
-            StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[direction]
+            StrainHistory(time, strain, **options), scheme=scheme, modification=change, directions=[direction]
         )
 
         def stress(d, direction=direction):
             moved_law, moved_change = moved(base, change, direction, d, strain[0])
-            return moved_law.stress(StrainHistory(time, strain, **options), scheme=scheme, change=moved_change)
+            return moved_law.stress(StrainHistory(time, strain, **options), scheme=scheme, modification=moved_change)
 
         try:
             agree(found[:, 0], central(stress, 1e-5), 3e-6)
@@ -268,7 +268,7 @@ def test_directions_add_up(scheme, start, feedback):
     alone = [fields[name] for name in vars(every) if name in fields]
     change = replace(changes(len(time))["plain"], initial_modal_stress=start, feedbacks=feedback)
     _, found = law(True).sensitivity(
-        StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[every, *alone]
+        StrainHistory(time, strain, **options), scheme=scheme, modification=change, directions=[every, *alone]
     )
     scale = np.abs(found).max()
     assert_allclose(found[:, 0], found[:, 1:].sum(axis=1), rtol=0.0, atol=1e-11 * scale)
@@ -283,14 +283,14 @@ def test_a_mode_of_weight_zero_has_a_tangent(scheme, feedback, start):
     strain = strain + 0.3
     base = law(False, spectrum=probation.Spectrum([0.01, 0.1, 1.0], [0.5, 0.0, 0.5]))
     change, direction = (
-        Change(initial_modal_stress=start, feedbacks=feedback),
+        Modification(initial_modal_stress=start, feedbacks=feedback),
         Direction(modal_weight=[0.0, 1.0, 0.0]),
     )
     _, found = base.sensitivity(
-        StrainHistory(time, strain, **options), scheme=scheme, change=change, directions=[direction]
+        StrainHistory(time, strain, **options), scheme=scheme, modification=change, directions=[direction]
     )
     f = [
-        law.stress(StrainHistory(time, strain, **options), scheme=scheme, change=changed)
+        law.stress(StrainHistory(time, strain, **options), scheme=scheme, modification=changed)
         for law, changed in (moved(base, change, direction, d, strain[0]) for d in (0.0, 1e-4, 2e-4))
     ]
     agree(found[:, 0], (4.0 * f[1] - f[2] - 3.0 * f[0]) / 2e-4, 2e-6)
@@ -302,10 +302,10 @@ def test_a_start_that_is_not_relaxed_in_a_mode_of_weight_zero_has_none(feedback,
     time, strain, _, _ = HISTORIES["smooth"]
     base = law(False, spectrum=probation.Spectrum([0.01, 0.1, 1.0], [0.5, 0.0, 0.5]))
     start = [1.0, 1.0, 1.0]
-    change = Change(initial_modal_stress=start if given else None, feedbacks=feedback)
+    change = Modification(initial_modal_stress=start if given else None, feedbacks=feedback)
     direction = Direction(relaxed_stress=1.0) if given else Direction(initial_modal_stress=start)
     with pytest.raises(probation.InputError, match=r"initial_modal_stress\[1\].*weight 0"):
-        base.sensitivity(time, strain, change=change, directions=[direction])
+        base.sensitivity(time, strain, modification=change, directions=[direction])
 
 
 @feedbacks
@@ -327,14 +327,18 @@ def test_a_start_that_is_not_relaxed_in_a_mode_of_weight_zero_has_none(feedback,
 def test_a_direction_that_does_not_fit_is_named(feedback, wrong, message):
     time, strain, _, _ = HISTORIES["smooth"]
     with pytest.raises(probation.InputError, match=message):
-        law(False).sensitivity(time, strain, change=Change(feedbacks=feedback), directions=[Direction(**wrong)])
+        law(False).sensitivity(
+            time, strain, modification=Modification(feedbacks=feedback), directions=[Direction(**wrong)]
+        )
 
 
 def test_a_feedback_parameter_that_is_not_there_is_named():
     time, strain, _, _ = HISTORIES["smooth"]
-    change = Change(feedbacks=FEEDBACKS["both"])
+    change = Modification(feedbacks=FEEDBACKS["both"])
     with pytest.raises(probation.InputError, match=r"feedback_parameter is 1; that feedback has 1"):
-        law(False).sensitivity(time, strain, change=change, directions=[Direction(feedback=0, feedback_parameter=1)])
+        law(False).sensitivity(
+            time, strain, modification=change, directions=[Direction(feedback=0, feedback_parameter=1)]
+        )
 
 
 @schemes
@@ -348,7 +352,7 @@ def test_feedback_parameters_are_differentiated(scheme, companion, history, para
     values = np.array([15.0, 2.0, 0.01, 0.03, 0.01])
 
     def change(v):
-        return Change(
+        return Modification(
             feedbacks=(StressActivation(v[0]), SelfHeating(*v[1:])),
             extra_modulus=[50.0],
             extra_relaxation_time=[4.0],
@@ -357,12 +361,14 @@ def test_feedback_parameters_are_differentiated(scheme, companion, history, para
     where = (0, 0) if parameter == 0 else (1, parameter - 1)
     direction = Direction(feedback=where[0], feedback_parameter=where[1])
     _, found = base.sensitivity(
-        StrainHistory(time, strain, **options), scheme=scheme, change=change(values), directions=[direction]
+        StrainHistory(time, strain, **options), scheme=scheme, modification=change(values), directions=[direction]
     )
     step = 1e-4 * values[parameter]
     moved = np.eye(5)[parameter]
     expected = central(
-        lambda d: base.stress(StrainHistory(time, strain, **options), scheme=scheme, change=change(values + d * moved)),
+        lambda d: base.stress(
+            StrainHistory(time, strain, **options), scheme=scheme, modification=change(values + d * moved)
+        ),
         step,
     )
     agree(found[:, 0], expected, 3e-6)

@@ -12,9 +12,10 @@ from probation._arrays import FloatArray
 from probation.calibration.forms import FORMS, NAMEABLE, Form
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
-from probation.law.change import Change, Direction
 from probation.law.companion import Companion, from_settings
+from probation.law.direction import Direction
 from probation.law.history import as_history
+from probation.law.modification import Modification
 from probation.law.schemes import as_scheme
 from probation.law.settings import COMPANION_FORMS, CompanionSettings
 from probation.results.data import named_in
@@ -127,7 +128,7 @@ class CalibratedCompanion:
         true_strain: ArrayLike | None = None,
         scheme: Scheme | SchemeName = "be2",
         *,
-        change: Change | None = None,
+        modification: Modification | None = None,
         scatter: bool = True,
     ) -> FloatArray:
         """What the uncertainty of the relation does to a predicted stress, as a factor L of its covariance L Lᵀ.
@@ -139,7 +140,7 @@ class CalibratedCompanion:
         ----------
         law : Law
             With this companion relation; any alpha.
-        time, true_strain, scheme, change
+        time, true_strain, scheme, modification
             As in `Law.sensitivity`.
         scatter : bool
             Whether the record is a new test, which scatters around the relation as a whole: one more column.
@@ -172,7 +173,7 @@ class CalibratedCompanion:
         ]
         if scatter and self.log_scatter > 0.0:
             directions.append(Direction(log_relaxation_time=self.log_scatter))
-        return law.sensitivity(history, scheme=scheme, directions=directions, change=change)[1]
+        return law.sensitivity(history, scheme=scheme, directions=directions, modification=modification)[1]
 
     def prediction_se(
         self,
@@ -181,7 +182,7 @@ class CalibratedCompanion:
         true_strain: ArrayLike | None = None,
         scheme: Scheme | SchemeName = "be2",
         *,
-        change: Change | None = None,
+        modification: Modification | None = None,
         scatter: bool = True,
     ) -> FloatArray:
         """Standard error of a predicted stress that the uncertainty of the relation brings; see `prediction_factor`.
@@ -190,7 +191,7 @@ class CalibratedCompanion:
         -------
         ndarray, shape (n_times,) [MPa]
         """
-        factor = self.prediction_factor(law, time, true_strain, scheme, change=change, scatter=scatter)
+        factor = self.prediction_factor(law, time, true_strain, scheme, modification=modification, scatter=scatter)
         return np.asarray(np.sqrt(np.sum(factor**2, axis=1)))
 
     def settings(self) -> CompanionSettings:

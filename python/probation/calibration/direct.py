@@ -19,7 +19,7 @@ from probation.errors import InputError
 from probation.identify.covariance import covariance
 from probation.identify.problem import Problem, RecordProblem
 from probation.identify.variable_projection import search, time_bounds
-from probation.law.change import Direction
+from probation.law.direction import Direction
 from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
 from probation.records.record import Noise

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._complaint import suggestion
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.registry import effects
 from probation.errors import InputError
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -30,10 +30,10 @@ def _crosshead_slack(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(np.log1p(seen))
 
 
-def _other_material(view: RecordView, values: Values) -> Alteration:
+def _other_material(view: RecordView, values: Values) -> Modification:
     """Other constants of the base law."""
     modulus, time, hardening = (np.full(1, np.exp(value)) for value in values)
-    return Alteration(unrelaxed_modulus_factor=modulus, relaxation_time_factor=time, hardening_factor=hardening)
+    return Modification(unrelaxed_modulus_factor=modulus, relaxation_time_factor=time, hardening_factor=hardening)
 
 
 def _logarithm(name: str) -> EffectParameter:
@@ -54,7 +54,7 @@ MATERIAL = Effect(
         Form(
             "constants",
             (_logarithm("unrelaxed_modulus"), _logarithm("relaxation_time"), _logarithm("hardening_modulus")),
-            law_change=_other_material,
+            modification=_other_material,
         ),
     ),
 )

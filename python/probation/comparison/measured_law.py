@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.effects.alteration import Alteration
     from probation.effects.record_view import RecordView
     from probation.inference.modal_law import DnlrLaw
+    from probation.law.modification import Modification
 
 KNOTS = 24
 """Intervals of a branch along which the reference is followed."""
@@ -135,19 +135,19 @@ class MeasuredLaw:
         return self.law.bounds
 
     @property
-    def understands(self) -> frozenset[str]:
+    def capabilities(self) -> frozenset[str]:
         """What the base law does."""
-        return self.law.understands
+        return self.law.capabilities
 
-    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
-        return np.asarray(self.law.stress(view, parameters, alteration) + self.carried_over(view))
+        return np.asarray(self.law.stress(view, parameters, modification) + self.carried_over(view))
 
     def sensitivity(
-        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """True stress (n,) [MPa] and no derivatives (n, 0); as in `GapLaw`."""
-        stress, slopes = self.law.sensitivity(view, parameters, alteration)
+        stress, slopes = self.law.sensitivity(view, parameters, modification)
         return stress + self.carried_over(view), slopes
 
     def carried_over(self, view: RecordView) -> FloatArray:

@@ -101,7 +101,7 @@ def effect_signals(
             wanted += [
                 (Cause(effect, form, records), values, usual)
                 for form in _placed_forms(effect)
-                if not model.missing_notions(Cause(effect, form))
+                if not model.missing_capabilities(Cause(effect, form))
                 for records, views in _places(model, effect, form)
                 for values, usual in _sizes_and_shapes(form, views)
             ]

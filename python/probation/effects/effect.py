@@ -14,8 +14,8 @@ from probation.errors import InputError
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.effects.alteration import Alteration
     from probation.effects.record_view import RecordView
+    from probation.law.modification import Modification
 
 Values: TypeAlias = "Sequence[float] | FloatArray"
 """A form's parameters in their own units, in the order of `Form.parameters`."""
@@ -24,7 +24,7 @@ Kind = Literal["material", "rig"]
 Placement = Literal["all", "one"]
 Sharp = Literal["line", "step"]
 
-LawChangeHook: TypeAlias = "Callable[[RecordView, Values], Alteration | None]"
+ModificationHook: TypeAlias = "Callable[[RecordView, Values], Modification | None]"
 StrainHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
 StressHook: TypeAlias = "Callable[[RecordView, Values, FloatArray], FloatArray]"
 StartsHook: TypeAlias = "Callable[[Sequence[RecordView], Sequence[FloatArray] | None], list[tuple[float, ...]]]"
@@ -124,8 +124,8 @@ class Form:
         Of the form: "gent".
     parameters : tuple of EffectParameter
         The first is the amplitude, 0 where the effect is absent; the others are shapes.
-    law_change : callable, optional
-        ``law_change(view, values)``: what changes in the law along a record, an `Alteration` (or None).
+    modification : callable, optional
+        ``modification(view, values)``: what changes in the law along a record, an `Modification` (or None).
     driving_strain : callable, optional
         ``driving_strain(view, values)``: the true strain that the specimen saw, shape (n,), given what was recorded.
     recorded_stress : callable, optional
@@ -150,7 +150,7 @@ class Form:
 
     name: str
     parameters: tuple[EffectParameter, ...]
-    law_change: LawChangeHook | None = None
+    modification: ModificationHook | None = None
     driving_strain: StrainHook | None = None
     recorded_stress: StressHook | None = None
     converts: bool = True
@@ -168,9 +168,9 @@ class Form:
         names = [parameter.name for parameter in self.parameters]
         if len(set(names)) < len(names):
             raise InputError(f"form {self.name!r}: found a parameter twice among {', '.join(names)}")
-        if self.law_change is None and self.driving_strain is None and self.recorded_stress is None:
+        if self.modification is None and self.driving_strain is None and self.recorded_stress is None:
             raise InputError(
-                f"form {self.name!r}: found no hook, expected law_change, driving_strain or recorded_stress"
+                f"form {self.name!r}: found no hook, expected modification, driving_strain or recorded_stress"
             )
         if self.threshold and self.starts is None:
             raise InputError(f"form {self.name!r}: a threshold needs starts that give the amplitude")
@@ -191,7 +191,7 @@ class Form:
     @property
     def needs_solve(self) -> bool:
         """Whether the law has to be solved anew when a parameter changes."""
-        return self.law_change is not None or self.driving_strain is not None
+        return self.modification is not None or self.driving_strain is not None
 
     def shapes_at(
         self, views: Sequence[RecordView], residuals: Sequence[FloatArray] | None = None

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -19,9 +19,9 @@ HARDENING_LOSS_PER_DEGREE = 0.005
 """-d ln G / dT [1/°C], polyethylene."""
 
 
-def warmed(rise: FloatArray) -> Alteration:
+def warmed(rise: FloatArray) -> Modification:
     """The law at a temperature above the usual one by `rise` (n,) [°C]."""
-    return Alteration(
+    return Modification(
         relaxation_time_factor=np.exp(-SOFTENING_PER_DEGREE * rise),
         hardening_factor=np.exp(-HARDENING_LOSS_PER_DEGREE * rise),
     )

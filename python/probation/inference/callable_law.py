@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from probation._arrays import as_samples
-from probation.effects.alteration import NOTIONS, Alteration
 from probation.effects.maxwell_element import maxwell_element
 from probation.errors import InputError
+from probation.law.modification import CAPABILITIES, Modification
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -20,10 +20,10 @@ _STEP = 1e-5
 
 
 class StressFunction(Protocol):
-    """``function(time, true_strain, parameters, alteration)`` gives the true stress, shape (n,) [MPa]."""
+    """``function(time, true_strain, parameters, modification)`` gives the true stress, shape (n,) [MPa]."""
 
     def __call__(
-        self, time: FloatArray, true_strain: FloatArray, parameters: FloatArray, alteration: Alteration
+        self, time: FloatArray, true_strain: FloatArray, parameters: FloatArray, modification: Modification
     ) -> FloatArray:
         """True stress along a strain history."""
 
@@ -35,14 +35,14 @@ class CallableLaw:
     Parameters
     ----------
     function : callable
-        ``function(time, true_strain, parameters, alteration)``: true stress, shape (n,) [MPa]. Called from several
+        ``function(time, true_strain, parameters, modification)``: true stress, shape (n,) [MPa]. Called from several
         threads.
     names : tuple of str
         Of its parameters, with units.
     starts, lower, upper : tuple of float
         One each per parameter.
-    notions : frozenset of str
-        Which fields of `Alteration` the function follows; with none, only faults of the rig can be diagnosed.
+    capabilities : frozenset of str
+        Which fields of `Modification` the function follows; with none, only faults of the rig can be diagnosed.
 
     Raises
     ------
@@ -51,7 +51,7 @@ class CallableLaw:
 
     Examples
     --------
-    >>> def elastic(time, true_strain, parameters, alteration):
+    >>> def elastic(time, true_strain, parameters, modification):
     ...     return parameters[0] * true_strain
     >>> bar = CallableLaw(elastic, names=("modulus_MPa",), starts=(1000.0,), lower=(0.0,), upper=(1e5,))
     """
@@ -61,7 +61,7 @@ class CallableLaw:
     starts: tuple[float, ...]
     lower: tuple[float, ...]
     upper: tuple[float, ...]
-    notions: frozenset[str] = field(default_factory=frozenset)
+    capabilities: frozenset[str] = field(default_factory=frozenset)
 
     def __post_init__(self) -> None:
         for given in ("starts", "lower", "upper"):
@@ -70,8 +70,10 @@ class CallableLaw:
         for name, start, low, high in zip(self.names, self.starts, self.lower, self.upper, strict=True):
             if not low <= start <= high:
                 raise InputError(f"{name}: found the start {start}, expected one between {low} and {high}")
-        if unknown := self.notions - NOTIONS:
-            raise InputError(f"notions: found {sorted(unknown)}, expected some of {', '.join(sorted(NOTIONS))}")
+        if unknown := self.capabilities - CAPABILITIES:
+            raise InputError(
+                f"capabilities: found {sorted(unknown)}, expected some of {', '.join(sorted(CAPABILITIES))}"
+            )
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
@@ -88,12 +90,7 @@ class CallableLaw:
         """Lower and upper bounds, each of shape (n_parameters,)."""
         return np.array(self.lower), np.array(self.upper)
 
-    @property
-    def understands(self) -> frozenset[str]:
-        """Which fields of `Alteration` the function follows."""
-        return self.notions
-
-    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa].
 
         Raises
@@ -101,11 +98,11 @@ class CallableLaw:
         InputError
             If the function gives something else.
         """
-        found = self.function(view.time, view.true_strain, parameters, alteration or Alteration())
+        found = self.function(view.time, view.true_strain, parameters, modification or Modification())
         return as_samples(found, "function(time, true_strain, …)", len(view))
 
     def sensitivity(
-        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """True stress (n,) [MPa] and its derivatives (n, n_parameters)."""
         columns = np.empty((len(view), len(parameters)))
@@ -113,9 +110,9 @@ class CallableLaw:
             step = _STEP * (abs(value) or abs(start) or 1.0)
             up, down = parameters.copy(), parameters.copy()
             up[index], down[index] = value + step, value - step
-            difference = self.stress(view, up, alteration) - self.stress(view, down, alteration)
+            difference = self.stress(view, up, modification) - self.stress(view, down, modification)
             columns[:, index] = difference / (2.0 * step)
-        return self.stress(view, parameters, alteration), columns
+        return self.stress(view, parameters, modification), columns
 
 
 def maxwell_bar(modulus: float = 1000.0, relaxation_time: float = 10.0) -> CallableLaw:
@@ -132,16 +129,18 @@ def maxwell_bar(modulus: float = 1000.0, relaxation_time: float = 10.0) -> Calla
         starts=(modulus, relaxation_time),
         lower=(0.0, 1e-6),
         upper=(1e7, 1e9),
-        notions=frozenset({"unrelaxed_modulus_factor", "load_bearing_area"}),
+        capabilities=frozenset({"unrelaxed_modulus_factor", "load_bearing_area"}),
     )
 
 
-def _maxwell(time: FloatArray, true_strain: FloatArray, parameters: FloatArray, alteration: Alteration) -> FloatArray:
+def _maxwell(
+    time: FloatArray, true_strain: FloatArray, parameters: FloatArray, modification: Modification
+) -> FloatArray:
     modulus, relaxation_time = parameters
     strain = true_strain - true_strain[0]
-    factor = alteration.unrelaxed_modulus_factor
+    factor = modification.unrelaxed_modulus_factor
     if factor is not None:  # int factor de, trapezoidal
         factors = np.broadcast_to(np.asarray(factor, dtype=np.float64), strain.shape)
         strain = np.append(0.0, np.cumsum(0.5 * (factors[1:] + factors[:-1]) * np.diff(strain)))
-    area = 1.0 if alteration.load_bearing_area is None else np.asarray(alteration.load_bearing_area)
+    area = 1.0 if modification.load_bearing_area is None else np.asarray(modification.load_bearing_area)
     return np.asarray(area * modulus * maxwell_element(time, strain, float(relaxation_time)))

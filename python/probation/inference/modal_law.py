@@ -10,10 +10,11 @@ import numpy as np
 
 from probation import _core
 from probation._complaint import suggestion
-from probation.effects.alteration import NOTIONS, Alteration
 from probation.errors import InputError
 from probation.inference.parameter import outside_name
 from probation.law.modal import Law
+from probation.law.modification import CAPABILITIES
+from probation.law.modified import UNCHANGED, ModifiedLaw, engine_law_of, modified, parameter_directions
 from probation.law.schemes import make_solver
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
+    from probation.law.modification import Modification
 
 _BOUNDS = {
     "unrelaxed_modulus": (1e-6, 1e7),
@@ -28,7 +30,6 @@ _BOUNDS = {
     "alpha": (1e-4, 1e4),
     "hardening_modulus": (0.0, 1e5),
 }
-_SAMPLED = ("relaxation_time_factor", "unrelaxed_modulus_factor", "hardening_factor", "load_bearing_area")
 
 
 class DnlrLaw:
@@ -77,39 +78,31 @@ class DnlrLaw:
         return ends[:, 0].copy(), ends[:, 1].copy()
 
     @property
-    def understands(self) -> frozenset[str]:
-        """All that an alteration can say."""
-        return NOTIONS
+    def capabilities(self) -> frozenset[str]:
+        """All that a modification can change."""
+        return CAPABILITIES
 
     def law_at(self, parameters: FloatArray) -> Law:
         """The base law with these values of its identified parameters."""
         return self.law.with_parameters(self._all(parameters))
 
-    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
-        values = self._all(parameters)
-        law = self._engine_law(values, alteration)
+        law, change = self._modified(view, parameters, modification)
         stress = np.empty(len(view))
-        self._solver(view).stress(law, self._change(law, view, alteration), stress)
+        self._solver(view).stress(law, change, stress)
         return stress
 
     def sensitivity(
-        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """True stress (n,) [MPa] and its derivatives (n, n_parameters); as in `GapLaw`."""
-        values = self._all(parameters)
-        law = self._engine_law(values, alteration)
-        change = self._change(law, view, alteration)
-        directions = _core.parameter_directions(law, change, view.history)
-        if alteration is not None and alteration.initial_stress is not None:
-            # The relaxed part of the start follows G.
-            relaxed = view.haward_thackray_strain[0] * np.append(change.hardening_factor, 1.0)[0]
-            directions[2].initial_modal_stress = law.spectrum.modal_weight * relaxed
-        stress, tangent = np.empty(len(view)), np.empty((len(view), 3))
+        made = self._modified(view, parameters, modification)
+        directions = parameter_directions(made, modification, view.history)
         if not self._free.all():
             directions = [each for each, free in zip(directions, self._free, strict=True) if free]
-            tangent = np.empty((len(view), len(directions)))
-        self._solver(view).tangent(law, change, directions, stress, tangent)
+        stress, tangent = np.empty(len(view)), np.empty((len(view), len(directions)))
+        self._solver(view).tangent(made.law, made.change, directions, stress, tangent)
         return stress, tangent
 
     def _all(self, parameters: FloatArray) -> FloatArray:
@@ -126,38 +119,9 @@ class DnlrLaw:
             solver = kept[view] = make_solver(view.history, view.scheme)
         return solver
 
-    def _engine_law(self, values: FloatArray, alteration: Alteration | None) -> _core.Law:
-        modulus, time, hardening = values.tolist()
-        companion, spectrum = self._companion, self._spectrum
-        if alteration is not None and alteration.rate_shift is not None:
-            shift = alteration.rate_shift
-            companion = _core.RateShift(companion, shift.reference_rate, shift.exponent, shift.curvature)
-        if alteration is not None and alteration.weight_exponent is not None:
-            ratio = spectrum.relaxation_ratio
-            weight = spectrum.modal_weight * ratio**alteration.weight_exponent
-            spectrum = _core.Spectrum(ratio, weight * (spectrum.modal_weight.sum() / weight.sum()))
-        # With a companion relation, its own or an effect's, tau_max = alpha companion(rate).
-        return _core.Law(
-            modulus, hardening, 0.0 if companion else time, time if companion else 1.0, companion, spectrum
-        )
-
-    @staticmethod
-    def _change(law: _core.Law, view: RecordView, alteration: Alteration | None) -> _core.LawChange:
-        change = _core.LawChange()
-        if alteration is None:
-            return change
-        for name in _SAMPLED:
-            if (samples := getattr(alteration, name)) is not None:
-                setattr(change, name, np.atleast_1d(np.asarray(samples, dtype=np.float64)))
-        if alteration.extra_modulus is not None and alteration.extra_relaxation_time is not None:
-            change.extra_modulus = np.array(alteration.extra_modulus)
-            change.extra_relaxation_time = np.array(alteration.extra_relaxation_time)
-        if alteration.feedbacks is not None:
-            change.feedbacks = list(alteration.feedbacks)
-        if (start := alteration.initial_stress) is not None:
-            weight = law.spectrum.modal_weight
-            carried = weight * np.exp(-start.cut / law.spectrum.relaxation_ratio)
-            relaxed = law.hardening_modulus * view.haward_thackray_strain[0]
-            relaxed *= np.append(change.hardening_factor, 1.0)[0]
-            change.initial_modal_stress = relaxed * weight + start.stress * carried / carried.sum()
-        return change
+    def _modified(self, view: RecordView, parameters: FloatArray, modification: Modification | None) -> ModifiedLaw:
+        values = self._all(parameters).tolist()
+        if modification is None:
+            return ModifiedLaw(engine_law_of(values, self._companion, self._spectrum), UNCHANGED)
+        initial = view.haward_thackray_strain[0]
+        return modified(values, self._companion, self._spectrum, modification, initial)

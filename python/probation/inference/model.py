@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._complaint import suggestion
-from probation.effects.alteration import ONCE, Alteration
 from probation.effects.cause import Cause
 from probation.errors import InputError
+from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ class CampaignModel:
             for record in each.records or ():
                 if record not in ids:
                     raise InputError(f"{each.effect.name}: found no record {record!r}; {suggestion(record, ids)}")
-            if missing := self.missing_notions(each):
+            if missing := self.missing_capabilities(each):
                 raise InputError(f"{each.effect.name}: the law does not understand {', '.join(sorted(missing))}")
         names = (*law.parameter_names, *(name for each in self.causes for name in each.parameter_names))
         if len(set(names)) < len(names):
@@ -196,12 +196,12 @@ class CampaignModel:
             views.append(replace(view, quiet_stress=predicted + between))
         return CampaignModel(self.law, views, self.causes)
 
-    def missing_notions(self, cause: Cause) -> frozenset[str]:
+    def missing_capabilities(self, cause: Cause) -> frozenset[str]:
         """What the law would have to understand to follow a cause; empty if it can."""
-        if cause.form.law_change is None:
+        if cause.form.modification is None:
             return frozenset()
-        altered = cause.form.law_change(self.views[0], cause.form.typical)
-        return frozenset() if altered is None else altered.notions - self.law.understands
+        modification = cause.form.modification(self.views[0], cause.form.typical)
+        return frozenset() if modification is None else modification.changed - self.law.capabilities
 
     def clashes(self, cause: Cause) -> bool:
         """Whether a cause changes what a law can change once only, and one of the model's does."""
@@ -209,10 +209,10 @@ class CampaignModel:
         return bool(self._once(cause) & taken)
 
     def _once(self, cause: Cause) -> frozenset[str]:
-        if cause.form.law_change is None:
+        if cause.form.modification is None:
             return frozenset()
-        altered = cause.form.law_change(self.views[0], cause.form.typical)
-        return frozenset() if altered is None else altered.notions & ONCE
+        modification = cause.form.modification(self.views[0], cause.form.typical)
+        return frozenset() if modification is None else modification.changed & ONCE
 
     def log_prior(self, parameters: FloatArray) -> float:
         """Log prior density of the causes' parameters, in their search coordinates; -inf outside the bounds."""
@@ -268,7 +268,7 @@ class CampaignModel:
         self, view: RecordView, base: FloatArray, causes: CauseValues, *, sensitivity: bool = False
     ) -> Specimen:
         """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel."""
-        seen, conversion, altered = view, None, None
+        seen, conversion, modification = view, None, None
         for each, values in causes:
             if each.form.driving_strain is None:
                 continue
@@ -277,9 +277,9 @@ class CampaignModel:
                 conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
             seen = seen.driven(strain)
         for each, values in causes:
-            if each.form.law_change is not None and (change := each.form.law_change(seen, values)) is not None:
-                altered = change if altered is None else altered.and_(change)
-        stress, slopes = self._solved(seen, base, altered, sensitivity)
+            if each.form.modification is not None and (change := each.form.modification(seen, values)) is not None:
+                modification = change if modification is None else modification.and_(change)
+        stress, slopes = self._solved(seen, base, modification, sensitivity)
         if conversion is not None:
             factor = np.exp(conversion)
             stress = factor * stress
@@ -299,11 +299,11 @@ class CampaignModel:
         return _as_recorded(view, here, specimen_stress)
 
     def _solved(
-        self, seen: RecordView, base: FloatArray, altered: Alteration | None, sensitivity: bool
+        self, seen: RecordView, base: FloatArray, modification: Modification | None, sensitivity: bool
     ) -> tuple[FloatArray, FloatArray | None]:
         if sensitivity:
-            return self.law.sensitivity(seen, base, altered)
-        return self.law.stress(seen, base, altered), None
+            return self.law.sensitivity(seen, base, modification)
+        return self.law.stress(seen, base, modification), None
 
     def _slope(
         self,

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.effects.alteration import Alteration
     from probation.effects.record_view import RecordView
+    from probation.law.modification import Modification
 
 
 class GapLaw(Protocol):
     """A law whose gap to reality is to be diagnosed: it predicts a record, says how that depends on its parameters,
-    and which alterations it understands.
+    and what it can follow (its capabilities).
 
     `DnlrLaw` is the engine's law; `probation.CallableLaw` makes one of a Python function. Methods are called from
     several threads at once.
@@ -31,13 +31,13 @@ class GapLaw(Protocol):
         """Lower and upper bounds, each of shape (n_parameters,)."""
 
     @property
-    def understands(self) -> frozenset[str]:
-        """Which fields of `Alteration` it can follow; effects that need others are left out for this law."""
+    def capabilities(self) -> frozenset[str]:
+        """Which fields of `Modification` it can follow; effects that need others are left out for this law."""
 
-    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, at the view's instants; shape (n,) [MPa]."""
 
     def sensitivity(
-        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """True stress (n,) [MPa] and its derivatives (n, n_parameters)."""

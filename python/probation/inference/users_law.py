@@ -9,9 +9,9 @@ from probation.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.effects.alteration import Alteration
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
+    from probation.law.modification import Modification
 
 
 @dataclass(frozen=True)
@@ -41,11 +41,11 @@ class UsersLaw:
         return self.law.bounds
 
     @property
-    def understands(self) -> frozenset[str]:
+    def capabilities(self) -> frozenset[str]:
         """As the law does."""
-        return self.law.understands
+        return self.law.capabilities
 
-    def stress(self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa].
 
         Raises
@@ -54,18 +54,18 @@ class UsersLaw:
             Where the law raises anything: it names the record and the parameters.
         """
         try:
-            return self.law.stress(view, parameters, alteration)
+            return self.law.stress(view, parameters, modification)
         except ConvergenceError:
             raise
         except Exception as error:
             raise self._named(error, view, parameters) from error
 
     def sensitivity(
-        self, view: RecordView, parameters: FloatArray, alteration: Alteration | None = None
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """True stress (n,) [MPa] and its derivatives (n, n_parameters); raises as `stress`."""
         try:
-            return self.law.sensitivity(view, parameters, alteration)
+            return self.law.sensitivity(view, parameters, modification)
         except ConvergenceError:
             raise
         except Exception as error:

@@ -6,15 +6,20 @@ from typing import TYPE_CHECKING
 
 from probation import _core
 from probation._arrays import FloatArray, as_samples, one_of
-from probation.law.change import Change, engine_change
 from probation.law.history import Jumps, jump_indices
+from probation.law.modified import refuse
 from probation.law.schemes import STARTS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from probation.law.modal import Law
+    from probation.law.modification import Modification
     from probation.law.schemes import Start
+
+_NOT_FOLLOWED = frozenset(
+    {"feedbacks", "extra_modulus", "extra_relaxation_time", "initial_modal_stress", "initial_stress"}
+)
 
 
 def creep(
@@ -22,7 +27,7 @@ def creep(
     time: ArrayLike,
     true_stress: ArrayLike,
     *,
-    change: Change | None = None,
+    modification: Modification | None = None,
     start: Start = "exponential",
     jumps: ArrayLike | Jumps | None = "auto",
 ) -> FloatArray:
@@ -39,8 +44,8 @@ def creep(
         Increasing.
     true_stress : array_like, shape (n_times,) [MPa]
         Its first value is applied at once to the relaxed specimen: the strain starts at true_stress[0] / E_u.
-    change : Change, optional
-        Without feedbacks and extra modes.
+    modification : Modification, optional
+        Without feedbacks, extra modes and a start under stress.
     start : {"exponential", "backward_euler"}
         First step, and the step after a jump.
     jumps : "auto", None or array_like of times [s]
@@ -61,4 +66,5 @@ def creep(
     stress = as_samples(true_stress, "true_stress", len(times))
     rule = getattr(_core.Start, one_of(start, "start", STARTS))
     at = jump_indices(jumps, times, stress)
-    return _core.creep_strain(law.engine, engine_change(change), times, stress, at, rule)
+    refuse(modification, _NOT_FOLLOWED, "creep")
+    return _core.creep_strain(*law._modified(modification), times, stress, at, rule)

@@ -19,9 +19,17 @@ from probation._arrays import (
     held_samples,
 )
 from probation.errors import InputError
-from probation.law.change import Change, Direction, engine_change
 from probation.law.companion import Companion
 from probation.law.history import AnyHistory, StrainHistory, as_history, history_arguments, is_history
+from probation.law.modified import (
+    UNCHANGED,
+    ModifiedLaw,
+    checked,
+    engine_law_of,
+    modified,
+    parameter_directions,
+    refuse,
+)
 from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
 
 if TYPE_CHECKING:
@@ -29,8 +37,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from probation.law.direction import Direction
+    from probation.law.modification import Modification
+
 ACCURACIES = (1e-5, 0.5)
 """Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
+
+_FOLLOWS_PARAMETERS = frozenset({"initial_stress"})
+"""A start that moves with G and the first strain, of which a direction says nothing; `initial_modal_stress` stays."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,15 +189,20 @@ class Law:
         return self._make_engine()
 
     def _make_engine(self) -> _core.Law:
+        return engine_law_of(*self._engine_parts())
+
+    def _engine_parts(self) -> tuple[list[float], _core.CompanionRelation | None, _core.Spectrum]:
         assert self.spectrum is not None
-        return _core.Law(
-            self.unrelaxed_modulus,
-            self.hardening_modulus,
-            0.0 if self.tau_max is None else self.tau_max,
-            1.0 if self.alpha is None else self.alpha,
-            None if self.companion is None else self.companion._engine(),
-            self.spectrum._engine(),
-        )
+        values = [self.__dict__[name] for name in self.parameter_names]
+        return values, None if self.companion is None else self.companion._engine(), self.spectrum._engine()
+
+    def _modified(self, modification: Modification | None, history: _core.History | None = None) -> ModifiedLaw:
+        if modification is None:
+            return ModifiedLaw(self.engine, UNCHANGED)
+        initial_strain = 0.0
+        if history is not None and checked(modification).initial_stress is not None:
+            initial_strain = float(history.haward_thackray_strain[0])
+        return modified(*self._engine_parts(), modification, initial_strain)
 
     @property
     def parameter_names(self) -> tuple[str, str, str]:
@@ -220,7 +239,7 @@ class Law:
         true_strain: ArrayLike | None = None,
         scheme: Scheme | SchemeName = "be2",
         *,
-        change: Change | None = None,
+        modification: Modification | None = None,
         out: FloatArray | None = None,
     ) -> FloatArray:
         """True stress along a strain history: ``stress(history)`` or ``stress(time, true_strain)``.
@@ -235,7 +254,7 @@ class Law:
         scheme : {"be2", "sa2", "sa3", "exact", "cvode"}, `BE2`, `SA2`, `SA3`, `Exact` or `CVODE`
             A name is the scheme with default options. be2 and sa2 have order 2, sa3 order 3 on smooth histories; exact
             and cvode integrate the piecewise-linear history.
-        change : Change, optional
+        modification : Modification, optional
             What an effect changes in the law along this record.
         out : ndarray, shape (n_times,), optional
             Where to write the stress.
@@ -253,24 +272,26 @@ class Law:
             `residual_norm`.
         """
         chosen = as_scheme(scheme)
-        if chosen.substeps == 1 and true_strain is not None:
-            changed = engine_change(change)
-            found = _core.stress_where_held(self.engine, changed, chosen.engine, out, time, true_strain)
+        starts_relaxed = modification is None or checked(modification).initial_stress is None
+        if chosen.substeps == 1 and true_strain is not None and starts_relaxed:
+            law, change = self._modified(modification)
+            found = _core.stress_where_held(law, change, chosen.engine, out, time, true_strain)
             if found is not None:  # None: the arrays have to be made ready first, or refused
                 return found
             if not is_history(time):
                 arguments = history_arguments(cast("ArrayLike", time), true_strain)
                 stress = as_output(out, arguments[0].shape)
-                _core.stress(self.engine, changed, chosen.engine, stress, *arguments)
+                _core.stress(law, change, chosen.engine, stress, *arguments)
                 return stress
         history = as_history(time, true_strain)
         stress = as_output(out, (len(history),))
-        solver, changed = _prepared(history, chosen, change)
+        solver, modification = _prepared(history, chosen, modification)
+        law, change = self._modified(modification, solver.history)
         if chosen.substeps == 1:
-            solver.stress(self.engine, changed, stress)
+            solver.stress(law, change, stress)
         else:
             fine = np.empty(len(solver.history))
-            solver.stress(self.engine, changed, fine)
+            solver.stress(law, change, fine)
             stress[:] = fine[:: chosen.substeps]
         return stress
 
@@ -281,13 +302,13 @@ class Law:
         scheme: Scheme | SchemeName = "be2",
         *,
         directions: Sequence[Direction] | None = None,
-        change: Change | None = None,
+        modification: Modification | None = None,
     ) -> tuple[FloatArray, FloatArray]:
         """True stress and its derivatives; be2, sa2 and sa3 only.
 
         Parameters
         ----------
-        time, true_strain, scheme, change
+        time, true_strain, scheme, modification
             As in `stress`.
         directions : sequence of Direction, optional
             What to differentiate along; the law's three `parameters` if left out. With them no substeps.
@@ -303,14 +324,16 @@ class Law:
             As `stress` does; also where a derivative is not finite.
         """
         chosen = as_scheme(scheme) if directions is None else at_samples(scheme)
-        solver, changed = _prepared(as_history(time, true_strain), chosen, change)
+        solver, modification = _prepared(as_history(time, true_strain), chosen, modification)
+        made = self._modified(modification, solver.history)
         if directions is None:
-            engine_directions = _core.parameter_directions(self.engine, changed, solver.history)
+            engine_directions = parameter_directions(made, modification, solver.history)
         else:
+            refuse(modification, _FOLLOWS_PARAMETERS, "a derivative along directions or strains")
             engine_directions = [each._engine() for each in directions]
         stress = np.empty(len(solver.history))
         sensitivity = np.empty((len(stress), len(engine_directions)))
-        solver.tangent(self.engine, changed, engine_directions, stress, sensitivity)
+        solver.tangent(made.law, made.change, engine_directions, stress, sensitivity)
         return stress[:: chosen.substeps], sensitivity[:: chosen.substeps]
 
     def strain_sensitivity(
@@ -319,7 +342,7 @@ class Law:
         true_strain: ArrayLike | None = None,
         scheme: Scheme | SchemeName = "be2",
         *,
-        change: Change | None = None,
+        modification: Modification | None = None,
     ) -> FloatArray:
         """Derivative of every stress with respect to every strain sample; be2, sa2 and sa3 only, without substeps.
 
@@ -337,18 +360,21 @@ class Law:
         InputError, ConvergenceError
             As `stress` does; also where a derivative is not finite.
         """
+        refuse(modification, _FOLLOWS_PARAMETERS, "a derivative along directions or strains")
         solver = make_solver(as_history(time, true_strain).engine, scheme)
-        return solver.strain_sensitivity(self.engine, engine_change(change))
+        return solver.strain_sensitivity(*self._modified(modification))
 
 
-def _prepared(history: StrainHistory, scheme: Scheme, change: Change | None) -> tuple[_core.Solver, _core.LawChange]:
-    """A solver with the substeps of the scheme between its samples, and the change at its instants."""
+def _prepared(
+    history: StrainHistory, scheme: Scheme, modification: Modification | None
+) -> tuple[_core.Solver, Modification | None]:
+    """A solver with the substeps of the scheme between its samples, and the modification at its instants."""
     if scheme.substeps == 1:
-        return make_solver(history.engine, scheme), engine_change(change)
+        return make_solver(history.engine, scheme), modification
     fine = history.refined(scheme.substeps)
-    if isinstance(change, Change):
-        change = change.at(fine.time, history.time)
-    return make_solver(fine.engine, replace(scheme, substeps=1)), engine_change(change)
+    if modification is not None:
+        modification = checked(modification).at(fine.time, history.time)
+    return make_solver(fine.engine, replace(scheme, substeps=1)), modification
 
 
 def engine_law(law: Law) -> _core.Law:

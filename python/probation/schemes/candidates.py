@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import ConvergenceError, InputError
-from probation.law.change import Change
 from probation.law.history import StrainHistory
+from probation.law.modified import UNCHANGED
 from probation.law.ramp import ramp_stress
 from probation.law.schemes import BE2, CVODE, SA2, SA3, Exact, make_solver
 
@@ -129,8 +129,8 @@ def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1
             ).engine,
             scheme,
         )
-        stress, change = np.empty(len(path.time)), Change()._engine()
-        time_us = _fastest(lambda: solver.stress(law.engine, change, stress))
+        stress = np.empty(len(path.time))
+        time_us = _fastest(lambda: solver.stress(law.engine, UNCHANGED, stress))
     except (ConvergenceError, InputError) as error:
         return Solve(None, failure=str(error))
     return Solve(stress, time_us, _statistics(solver) if isinstance(scheme, CVODE) else {})

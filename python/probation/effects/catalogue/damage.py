@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 _REASON = "voids and broken lamellae take some tenths of the section before failure"
 
 
-def _saturating(view: RecordView, values: Values) -> Alteration:
+def _saturating(view: RecordView, values: Values) -> Modification:
     """Area e^(-a (1 - e^(-e / e_c))), e the largest strain so far."""
-    return Alteration(load_bearing_area=np.exp(values[0] * np.expm1(-view.largest_strain / values[1])))
+    return Modification(load_bearing_area=np.exp(values[0] * np.expm1(-view.largest_strain / values[1])))
 
 
-def _growing(view: RecordView, values: Values) -> Alteration:
+def _growing(view: RecordView, values: Values) -> Modification:
     """Area exp(-a e^n), e the largest strain so far."""
-    return Alteration(load_bearing_area=np.exp(-values[0] * view.largest_strain ** values[1]))
+    return Modification(load_bearing_area=np.exp(-values[0] * view.largest_strain ** values[1]))
 
 
-def _about_a_strain(view: RecordView, values: Values) -> Alteration:
+def _about_a_strain(view: RecordView, values: Values) -> Modification:
     """Area e^(-a h), h = e^m / (e^m + e_c^m) (Hill), e the largest strain so far."""
     part = np.maximum(view.largest_strain, 0.0) / values[1]
-    return Alteration(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, 1e-9) ** -values[2])))
+    return Modification(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, 1e-9) ** -values[2])))
 
 
 EFFECT = Effect(
@@ -58,7 +58,7 @@ EFFECT = Effect(
                     reason="cavitation follows yield and ends when fibrils are formed",
                 ),
             ),
-            law_change=_saturating,
+            modification=_saturating,
         ),
         Form(
             "growing",
@@ -76,7 +76,7 @@ EFFECT = Effect(
                     reason="between steady growth (1) and acceleration to failure",
                 ),
             ),
-            law_change=_growing,
+            modification=_growing,
         ),
         Form(
             "about_a_strain",
@@ -105,7 +105,7 @@ EFFECT = Effect(
                     reason="nine tenths of it within a factor of three to ten of the strain",
                 ),
             ),
-            law_change=_about_a_strain,
+            modification=_about_a_strain,
         ),
     ),
 )

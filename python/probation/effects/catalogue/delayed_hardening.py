@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,16 +35,16 @@ def _lag(view: RecordView, time_constant: float) -> FloatArray:
     return np.divide(missing, strain, out=np.zeros(len(view)), where=np.abs(strain) > 1e-9)
 
 
-def _whole(view: RecordView, values: Values) -> Alteration | None:
+def _whole(view: RecordView, values: Values) -> Modification | None:
     """All of G e_HT lags by a first-order delay of a."""
     if values[0] <= 0.0:
         return None
-    return Alteration(hardening_factor=1.0 - _lag(view, values[0]))
+    return Modification(hardening_factor=1.0 - _lag(view, values[0]))
 
 
-def _part(view: RecordView, values: Values) -> Alteration:
+def _part(view: RecordView, values: Values) -> Modification:
     """The part a of G e_HT lags, the rest is there at once."""
-    return Alteration(hardening_factor=1.0 - values[0] * _lag(view, values[1]))
+    return Modification(hardening_factor=1.0 - values[0] * _lag(view, values[1]))
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -72,12 +72,12 @@ EFFECT = Effect(
                     "lag_s", "s", 0.0, 1e4, 20.0, "a strain of some hundredths at usual rates (1e-3 to 1e-2 1/s)"
                 ),
             ),
-            law_change=_whole,
+            modification=_whole,
         ),
         Form(
             "part",
             (EffectParameter("lagging_part", "", 0.0, 1.0, 0.3, "some tenths of the network"), _TIME),
-            law_change=_part,
+            modification=_part,
             starts=_starts,
         ),
     ),

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -26,21 +26,21 @@ _AMPLITUDE = EffectParameter(
 )
 
 
-def _gent(view: RecordView, values: Values) -> Alteration:
+def _gent(view: RecordView, values: Values) -> Modification:
     """Gent: G over 1 - a (I_1 - 3), a = 1 / J_m."""
     used = values[0] * view.first_invariant
     free = 1.0 - np.minimum(used, _LOCKED)
-    return Alteration(hardening_factor=1.0 / free + np.maximum(used - _LOCKED, 0.0) / free**2)
+    return Modification(hardening_factor=1.0 / free + np.maximum(used - _LOCKED, 0.0) / free**2)
 
 
-def _langevin(view: RecordView, values: Values) -> Alteration | None:
+def _langevin(view: RecordView, values: Values) -> Modification | None:
     """Eight chains of N = 1 / (5 a) links: G times L^-1(y) / 3y over its value at rest, y^2 = I_1 / 3N."""
     if values[0] <= 0.0:
         return None
     links = 1.0 / (5.0 * values[0])
     part = np.sqrt((view.first_invariant + 3.0) / (3.0 * links))
     at_rest = float(_stiffening(np.array([1.0 / np.sqrt(links)]))[0])
-    return Alteration(hardening_factor=_stiffening(part) / at_rest)
+    return Modification(hardening_factor=_stiffening(part) / at_rest)
 
 
 def _stiffening(part: FloatArray) -> FloatArray:
@@ -80,7 +80,7 @@ EFFECT = Effect(
     shows_in="records reaching large strains",
     kind="material",
     forms=(
-        Form("gent", (_AMPLITUDE,), law_change=_gent),
-        Form("langevin", (_AMPLITUDE,), law_change=_langevin),
+        Form("gent", (_AMPLITUDE,), modification=_gent),
+        Form("langevin", (_AMPLITUDE,), modification=_langevin),
     ),
 )

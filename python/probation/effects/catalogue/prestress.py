@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.effects.alteration import Alteration, InitialStress
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import InitialStress, Modification
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -15,14 +15,14 @@ _AMPLITUDE = EffectParameter(
 )
 
 
-def _fresh(view: RecordView, values: Values) -> Alteration:
+def _fresh(view: RecordView, values: Values) -> Modification:
     """As after a sudden stretch: every mode carries its weight's part."""
-    return Alteration(initial_stress=InitialStress(values[0]))
+    return Modification(initial_stress=InitialStress(values[0]))
 
 
-def _held(view: RecordView, values: Values) -> Alteration:
+def _held(view: RecordView, values: Values) -> Modification:
     """As after a dwell at that stretch: the fast modes have relaxed."""
-    return Alteration(initial_stress=InitialStress(values[0], values[1]))
+    return Modification(initial_stress=InitialStress(values[0], values[1]))
 
 
 EFFECT = Effect(
@@ -36,7 +36,7 @@ EFFECT = Effect(
     shows_in="the start of a record, for about the longest relaxation time",
     kind="rig",
     forms=(
-        Form("fresh", (_AMPLITUDE,), law_change=_fresh),
+        Form("fresh", (_AMPLITUDE,), modification=_fresh),
         Form(
             "held",
             (
@@ -53,7 +53,7 @@ EFFECT = Effect(
                     reason="seconds to minutes between clamping and starting",
                 ),
             ),
-            law_change=_held,
+            modification=_held,
         ),
     ),
 )

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -22,18 +22,18 @@ _EXPONENT = EffectParameter(
 )
 
 
-def _instant(view: RecordView, values: Values) -> Alteration:
+def _instant(view: RecordView, values: Values) -> Modification:
     """G (r / r_ref)^a with the rate of the instant."""
-    return Alteration(hardening_factor=np.exp(values[0] * view.log_rate))
+    return Modification(hardening_factor=np.exp(values[0] * view.log_rate))
 
 
-def _path(view: RecordView, values: Values) -> Alteration:
+def _path(view: RecordView, values: Values) -> Modification:
     """G as the network was built: the mean of ln(r / r_ref) over the strain path so far. A dwell changes nothing."""
     way = np.append(0.0, np.abs(np.diff(view.true_strain)))
     travelled = np.cumsum(way)
     weighted = np.cumsum(way * view.log_rate)
     mean = np.divide(weighted, travelled, out=np.full(len(view), view.log_rate[0]), where=travelled > 0.0)
-    return Alteration(hardening_factor=np.exp(values[0] * mean))
+    return Modification(hardening_factor=np.exp(values[0] * mean))
 
 
 EFFECT = Effect(
@@ -47,7 +47,7 @@ EFFECT = Effect(
     shows_in="records at different rates reaching large strains",
     kind="material",
     forms=(
-        Form("instant", (_EXPONENT,), law_change=_instant),
-        Form("path", (_EXPONENT,), law_change=_path),
+        Form("instant", (_EXPONENT,), modification=_instant),
+        Form("path", (_EXPONENT,), modification=_path),
     ),
 )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.effects.alteration import Alteration, RateShift
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification, RateShift
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -29,14 +29,14 @@ _CURVATURE = EffectParameter(
 )
 
 
-def _power(view: RecordView, values: Values) -> Alteration:
+def _power(view: RecordView, values: Values) -> Modification:
     """tau_max (r / r_ref)^(-a); where there is a companion relation, a changes its slope."""
-    return Alteration(rate_shift=RateShift(values[0], 0.0, view.reference_rate))
+    return Modification(rate_shift=RateShift(values[0], 0.0, view.reference_rate))
 
 
-def _weissenberg(view: RecordView, values: Values) -> Alteration:
+def _weissenberg(view: RecordView, values: Values) -> Modification:
     """The Weissenberg number is linear in log10 of the rate, eq. (11), where a = 1 - s / ln 10."""
-    return Alteration(rate_shift=RateShift(values[0], values[1], view.reference_rate))
+    return Modification(rate_shift=RateShift(values[0], values[1], view.reference_rate))
 
 
 EFFECT = Effect(
@@ -50,7 +50,7 @@ EFFECT = Effect(
     shows_in="records at different rates, or one whose rate changes (necking, jumps)",
     kind="material",
     forms=(
-        Form("power", (_EXPONENT,), law_change=_power),
-        Form("weissenberg", (_EXPONENT, _CURVATURE), law_change=_weissenberg),
+        Form("power", (_EXPONENT,), modification=_power),
+        Form("weissenberg", (_EXPONENT, _CURVATURE), modification=_weissenberg),
     ),
 )

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.warming import SOFTENING_PER_DEGREE
-from probation.law.change import SelfHeating
+from probation.law.modification import Modification, SelfHeating
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -42,10 +41,10 @@ _HARDENING_LOSS = EffectParameter(
 )
 
 
-def _warm(view: RecordView, values: Values) -> Alteration:
+def _warm(view: RecordView, values: Values) -> Modification:
     """Temperature T' = heating x plastic power - cooling T; tau_max e^(-0.1 T), G e^(-loss T)."""
     heating, cooling, hardening_loss = values
-    return Alteration(feedbacks=(SelfHeating(heating, cooling, SOFTENING_PER_DEGREE, hardening_loss),))
+    return Modification(feedbacks=(SelfHeating(heating, cooling, SOFTENING_PER_DEGREE, hardening_loss),))
 
 
 EFFECT = Effect(
@@ -58,5 +57,5 @@ EFFECT = Effect(
     source="Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193",
     shows_in="fast records at large strains, against slow ones that stay cool",
     kind="material",
-    forms=(Form("adiabatic_to_cooled", (_HEATING, _COOLING, _HARDENING_LOSS), law_change=_warm),),
+    forms=(Form("adiabatic_to_cooled", (_HEATING, _COOLING, _HARDENING_LOSS), modification=_warm),),
 )

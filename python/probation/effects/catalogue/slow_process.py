@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,9 +27,9 @@ _TIME = EffectParameter(
 )
 
 
-def _slow_mode(view: RecordView, values: Values) -> Alteration:
+def _slow_mode(view: RecordView, values: Values) -> Modification:
     """A Maxwell element beside the spectrum, whose time no rate shifts."""
-    return Alteration(extra_modulus=(values[0],), extra_relaxation_time=(values[1],))
+    return Modification(extra_modulus=(values[0],), extra_relaxation_time=(values[1],))
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -58,7 +58,7 @@ EFFECT = Effect(
                 ),
                 _TIME,
             ),
-            law_change=_slow_mode,
+            modification=_slow_mode,
             starts=_starts,
         ),
     ),

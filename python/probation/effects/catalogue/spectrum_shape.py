@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 
-def _weights(view: RecordView, values: Values) -> Alteration:
+def _weights(view: RecordView, values: Values) -> Modification:
     """p_j proportional to tau_j^(1/2 + a), sum 1."""
-    return Alteration(weight_exponent=values[0])
+    return Modification(weight_exponent=values[0])
 
 
 EFFECT = Effect(
@@ -39,7 +39,7 @@ EFFECT = Effect(
                     reason="measured spectra of polymers have slopes of 0.3 to 0.7 in log-log axes",
                 ),
             ),
-            law_change=_weights,
+            modification=_weights,
         ),
     ),
 )

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.law.change import PowerActivation, StressActivation
+from probation.law.modification import Modification, PowerActivation, StressActivation
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -37,19 +36,19 @@ _POWER = EffectParameter(
 )
 
 
-def _eyring(view: RecordView, values: Values) -> Alteration | None:
+def _eyring(view: RecordView, values: Values) -> Modification | None:
     """tau_max (s / s0) / sinh(s / s0) with a = (20 MPa / s0)^2 / 6, linear in a at first."""
     if values[0] <= 0.0:
         return None
-    return Alteration(feedbacks=(StressActivation(REFERENCE_STRESS / float(np.sqrt(6.0 * values[0]))),))
+    return Modification(feedbacks=(StressActivation(REFERENCE_STRESS / float(np.sqrt(6.0 * values[0]))),))
 
 
-def _power(view: RecordView, values: Values) -> Alteration | None:
+def _power(view: RecordView, values: Values) -> Modification | None:
     """tau_max over 1 + a (|s| / 20 MPa)^m."""
     if values[0] <= 0.0:
         return None
     activation = REFERENCE_STRESS * float(np.exp(-np.log(values[0]) / values[1]))
-    return Alteration(feedbacks=(PowerActivation(activation, values[1]),))
+    return Modification(feedbacks=(PowerActivation(activation, values[1]),))
 
 
 EFFECT = Effect(
@@ -63,7 +62,7 @@ EFFECT = Effect(
     shows_in="records whose stress covers a wide range: large strains, several rates, dwells",
     kind="material",
     forms=(
-        Form("eyring", (_AMPLITUDE,), law_change=_eyring),
-        Form("power", (_AMPLITUDE, _POWER), law_change=_power),
+        Form("eyring", (_AMPLITUDE,), modification=_eyring),
+        Form("power", (_AMPLITUDE, _POWER), modification=_power),
     ),
 )

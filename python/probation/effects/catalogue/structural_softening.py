@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -30,14 +30,14 @@ def _excess(view: RecordView, values: Values) -> FloatArray:
     return np.exp(values[0] * np.exp(-view.largest_strain / values[1]))
 
 
-def _times(view: RecordView, values: Values) -> Alteration:
+def _times(view: RecordView, values: Values) -> Modification:
     """tau_max exp(a e^(-e / e_s)), e the largest strain so far."""
-    return Alteration(relaxation_time_factor=_excess(view, values))
+    return Modification(relaxation_time_factor=_excess(view, values))
 
 
-def _modulus(view: RecordView, values: Values) -> Alteration:
+def _modulus(view: RecordView, values: Values) -> Modification:
     """E_u exp(a e^(-e / e_s)), e the largest strain so far."""
-    return Alteration(unrelaxed_modulus_factor=_excess(view, values))
+    return Modification(unrelaxed_modulus_factor=_excess(view, values))
 
 
 EFFECT = Effect(
@@ -59,7 +59,7 @@ EFFECT = Effect(
                 ),
                 _STRAIN,
             ),
-            law_change=_times,
+            modification=_times,
         ),
         Form(
             "modulus",
@@ -69,7 +69,7 @@ EFFECT = Effect(
                 ),
                 _STRAIN,
             ),
-            law_change=_modulus,
+            modification=_modulus,
         ),
     ),
 )

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.alteration import Alteration
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.warming import HARDENING_LOSS_PER_DEGREE, SOFTENING_PER_DEGREE, warmed
+from probation.law.modification import Modification
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 _REASON = "laboratories keep their temperature to 2 degrees"
 
 
-def _within_record(view: RecordView, values: Values) -> Alteration:
+def _within_record(view: RecordView, values: Values) -> Modification:
     """From nothing at the start of the record to a at its end."""
     return warmed(values[0] * view.elapsed / view.duration)
 
 
-def _test_to_test(view: RecordView, values: Values) -> Alteration:
+def _test_to_test(view: RecordView, values: Values) -> Modification:
     """From nothing in the first record to a in the last, in order of test."""
     return warmed(np.full(1, values[0] * view.index / max(view.count - 1, 1)))
 
 
-def _other_temperature(view: RecordView, values: Values) -> Alteration:
+def _other_temperature(view: RecordView, values: Values) -> Modification:
     """One record at another temperature than the others."""
     return warmed(np.full(1, values[0]))
 
@@ -46,18 +46,18 @@ EFFECT = Effect(
         Form(
             "within_record",
             (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
-            law_change=_within_record,
+            modification=_within_record,
         ),
         Form(
             "test_to_test",
             (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
-            law_change=_test_to_test,
+            modification=_test_to_test,
             placements=("all",),
         ),
         Form(
             "other_temperature",
             (EffectParameter("warmer_by_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
-            law_change=_other_temperature,
+            modification=_other_temperature,
             placements=("one",),
         ),
     ),
