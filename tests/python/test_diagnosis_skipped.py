@@ -80,10 +80,10 @@ def test_without_a_gap_it_is_listed_too(registered):
 def test_an_effect_whose_own_functions_fail_is_listed(registered):
     one = broken(ConvergenceError(FEEDBACK))
 
-    def law_change(view, values):
+    def modification(view, values):
         raise ConvergenceError(FEEDBACK)
 
-    registered(replace(one, forms=(replace(one.forms[0], law_change=law_change, recorded_stress=None),)))
+    registered(replace(one, forms=(replace(one.forms[0], modification=modification, recorded_stress=None),)))
     found = diagnosed(few_records(damage(0.05), names=("slow", "fast")), "damage", design=True)
     assert found.best.effects == ("damage",)
     assert ("broken",) in [each.effects for each in found.skipped]
@@ -101,9 +101,9 @@ def test_a_held_out_record_that_the_best_explanation_cannot_predict_is_named(reg
     def only_fitted(view, values):
         if view.id == "fast":
             raise ConvergenceError(FEEDBACK)
-        return known.form("growing").law_change(view, values)
+        return known.form("growing").modification(view, values)
 
-    registered(replace(known, name="broken", forms=(replace(known.form("growing"), law_change=only_fitted),)))
+    registered(replace(known, name="broken", forms=(replace(known.form("growing"), modification=only_fitted),)))
     found = diagnosed(few_records(damage(0.05), held_out=("fast",)), design=False)
     assert found.best.effects == ("broken",)
     (left_out,) = found.skipped

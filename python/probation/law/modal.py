@@ -274,7 +274,7 @@ class Law:
         chosen = as_scheme(scheme)
         starts_relaxed = modification is None or checked(modification).initial_stress is None
         if chosen.substeps == 1 and true_strain is not None and starts_relaxed:
-            law, change = self._modified(modification)
+            law, change = (self.engine, UNCHANGED) if modification is None else self._modified(modification)
             found = _core.stress_where_held(law, change, chosen.engine, out, time, true_strain)
             if found is not None:  # None: the arrays have to be made ready first, or refused
                 return found
