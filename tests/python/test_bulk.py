@@ -14,8 +14,9 @@ from numpy.testing import assert_allclose
 import probation
 from probation import BulkIdentification, Law, PowerLaw, Record, StrainHistory, Weissenberg, bulk, identify_many
 from probation.identify.covariance import covariance
-from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, first_guess
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 from probation.law.schemes import make_solver
 from probation.smoothing.excitation import excite
 
@@ -38,7 +39,7 @@ def by_scipy(law, time, strain, stress, scheme, held=(False, False, False)):
     record = Record("a", time, strain, stress, control="other")
     prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme)
     prepared = replace(prepared, solver=make_solver(StrainHistory(time, strain).engine, scheme), noise=1.0)
-    problem = Problem(law, [prepared], held)
+    problem = Problem.of(law, [prepared], held)
     limits = dict.fromkeys(law.parameter_names, (0.0, np.inf))
     best = by_least_squares(problem, first_guess(problem, limits), limits)
     residual, jacobian = problem.residual_and_jacobian(best)

@@ -78,7 +78,7 @@ def test_a_quick_search_ends_within_a_tenth_of_the_optimum():
     """Of the objective: far less than noise does to it."""
     _, _, objective = scipys(data(4.0))
     found = refitted(data(4.0), fading(), most_steps=15, settled=0.02)
-    penalty = found.coordinates.penalty(found.coordinates.of(found.parameters))
+    penalty = found.coordinates.prior.penalty(found.coordinates.of(found.parameters))
     assert objective <= found.chi_square + penalty + 1e-9 < objective + 0.1
 
 

@@ -11,11 +11,12 @@ from probation import Campaign, Law, Noise, Record, fit
 from probation.identify import strain_noise as strain_noise_module
 from probation.identify import weighting as weighting_module
 from probation.identify.bias import bias_of
-from probation.identify.noise_model import NoiseModel
-from probation.identify.problem import Problem, RecordProblem
-from probation.identify.weighting import Weighted, residual_and_jacobian
+from probation.inference.problem import Problem
+from probation.inference.record_noise import RecordNoise
+from probation.inference.record_problem import RecordProblem
 from probation.inference.strain_noise import StrainNoise
 from probation.law.settings import LawSettings
+from probation.noise.ar1 import NoiseModel
 from probation.published.experiments import experiment_3
 from probation.smoothing.excitation import excite
 
@@ -94,17 +95,17 @@ def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evalua
     """d/d theta of r^T Sigma(theta)^-1 r by central differences."""
     record = ramp_record(strain_noise=1e-3, samples=100)
     prepared = RecordProblem.prepare(record, excite(record, method), "sa3")
-    problem = Problem(LAW, [prepared], (False, False, False))
-    weighted = Weighted(LAW, (StrainNoise.of(prepared.excitation, prepared.scheme, prepared.substeps),))
-    problem.noises = [problem.noises[0].with_carried(weighted.strain[0].carried(LAW))]
+    strain = StrainNoise.of(prepared.excitation, prepared.scheme, prepared.substeps)
+    problem = Problem.of(LAW, [prepared], (False, False, False))
+    problem = problem.with_noises([RecordNoise(problem.noises[0].stress, strain)])
     away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
-    residual, jacobian = residual_and_jacobian(problem, away, weighted)
+    residual, jacobian = problem.residual_and_jacobian(away)
     for index in range(3):
         sides = []
         for sign in (1.0, -1.0):
             moved = away.parameters
             moved[index] *= 1.0 + sign * 1e-4
-            there = residual_and_jacobian(problem, away.with_parameters(moved), weighted)[0]
+            there = problem.residual(away.with_parameters(moved))
             sides.append(there @ there)
         slope = (sides[0] - sides[1]) / (2e-4 * away.parameters[index])
         assert 2.0 * residual @ jacobian[:, index] == pytest.approx(slope, rel=2e-3)

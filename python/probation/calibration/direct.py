@@ -10,15 +10,16 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from probation import _core
 from probation._arrays import FloatArray
 from probation.calibration.calibrated import CalibratedCompanion, seen_rates
 from probation.errors import InputError
 from probation.identify.covariance import covariance
-from probation.identify.problem import Problem, RecordProblem
 from probation.identify.variable_projection import search, time_bounds
+from probation.inference.least_squares import Bounds, minimise
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 from probation.law.direction import Direction
 from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
@@ -38,10 +39,14 @@ if TYPE_CHECKING:
 Hardening = Literal["by-record", "shared"]
 HARDENINGS: tuple[Hardening, ...] = ("by-record", "shared")
 
-_REFUSED = 1e6  # whitened residual where the relation gives no positive time: the search turns back
-
 ENOUGH_SAMPLES = 1000
 """Samples of a record that tell a relation from another; more of them tell the noise better."""
+
+FINE, MOST_STEPS = 1e-6, 40
+"""Step [standard errors] at which the search for a relation ends, and the most steps that it takes."""
+
+LONGEST_STEP = 2.0
+"""Largest change of ln tau_max in one step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,9 +202,9 @@ class DirectProblem:
         for values in start:
             try:
                 trial = _Search(self, form, calibrated, values)
+                ended = trial.run() if len(start) > 1 else values
             except InputError:
                 continue
-            ended = trial.run() if len(start) > 1 else values
             cost = trial.cost(ended)
             if found is None or cost < found[0]:
                 found = cost, ended
@@ -234,35 +239,32 @@ class _Search:
         return relation
 
     def run(self) -> FloatArray:
-        def residual(log_times: FloatArray) -> FloatArray:
-            return self._state(self.parameters(log_times))[0]
-
-        def jacobian(log_times: FloatArray) -> FloatArray:
-            return self._projected(self.parameters(log_times))
-
         low, high = np.log(self.problem.time_bounds())
-        found = least_squares(
-            residual,
-            np.clip(self.start, low + 1e-6, high - 1e-6),
-            jac=jacobian,
-            bounds=(low, high),
-            ftol=1e-10,
-            xtol=1e-9,
-            gtol=1e-12,
-            max_nfev=40,
+        count = len(self.start)
+        found = minimise(
+            self,
+            self.start,
+            bounds=Bounds(np.full(count, low), np.full(count, high)),
+            tolerance=FINE,
+            longest_step=LONGEST_STEP,
+            most_steps=MOST_STEPS,
         )
         return self.parameters(found.x)
+
+    def residual(self, log_times: FloatArray) -> FloatArray:
+        """Weighted fit residual with the best moduli at ln tau_max of the anchors, shape (n_samples,)."""
+        return self._state(self.parameters(log_times))[0]
+
+    def tangent(self, log_times: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same, and its derivatives along ln tau_max of the anchors, shape (n_samples, n_anchors)."""
+        values = self.parameters(log_times)
+        return self._state(values)[0], self._projected(values)
 
     def _state(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Weighted residual, linear parameters (E_u, G's), and the Jacobian along (E_u, G's, form's parameters)."""
         key = values.tobytes()
         if key not in self._cache:
-            try:
-                self._cache = {key: self._solved(self.relation_at(values))}
-            except InputError:
-                count = sum(len(each.record) for each in self.problem.records)
-                free = 1 + max(self.problem.moduli, 1) + len(values)
-                self._cache = {key: (np.full(count, _REFUSED), np.zeros(free - len(values)), np.zeros((count, free)))}
+            self._cache = {key: self._solved(self.relation_at(values))}
         return self._cache[key]
 
     def _solved(self, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -312,10 +314,7 @@ class _Search:
         design = jacobian[:, : len(linear)][:, self._free()[: len(linear)]]
         slopes = jacobian[:, len(linear) :]
         basis = np.linalg.qr(design)[0]
-        try:
-            inward = np.linalg.inv(self.form.log_gradient(self.relation_at(values), self.anchors))
-        except InputError:  # refused: the residual is flat there
-            inward = np.zeros((len(values), len(values)))
+        inward = np.linalg.inv(self.form.log_gradient(self.relation_at(values), self.anchors))
         return np.asarray((slopes - basis @ (basis.T @ slopes)) @ inward)
 
     def cost(self, values: FloatArray) -> float:
@@ -366,9 +365,9 @@ def _own_rms(each: RecordProblem, settings: LawSettings) -> float:
         spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
     )
     few = thinned(each, ENOUGH_SAMPLES)
-    alone = Problem(law, [few], (False, False, False))
+    alone = Problem.of(law, [few], (False, False, False))
     best = search(alone, time_bounds(alone))
-    return float(np.sqrt(np.mean((few.stress(best) - few.record.true_stress) ** 2)))
+    return float(np.sqrt(np.mean(few.residual(best) ** 2)))
 
 
 def thinned(each: RecordProblem, count: int) -> RecordProblem:

@@ -10,8 +10,8 @@ import numpy as np
 from probation.calibration.cross_validation import Score
 from probation.errors import InputError
 from probation.identify.covariance import covariance
-from probation.identify.problem import Problem
 from probation.identify.variable_projection import search
+from probation.inference.problem import Problem
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -76,11 +76,11 @@ def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: 
     each = problem.records[at]
     hardening = problem.held_hardening
     law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
-    alone = Problem(law, [each], (True, False, hardening is not None))
+    alone = Problem.of(law, [each], (True, False, hardening is not None))
     best = search(alone, _ALPHAS)
     residual, jacobian = alone.residual_and_jacobian(best)
     known = covariance(jacobian[:, alone.free], residual, [len(each.record)], best.parameters[alone.free])
-    rms = _rms(each.stress(best) - each.record.true_stress)
+    rms = _rms(each.residual(best))
     assert best.alpha is not None
     return RecordAlpha(float(np.log(best.alpha)), float(known.relative_error[0]), rms)
 
@@ -131,7 +131,7 @@ def _foretell(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> 
     each = problem.records[at]
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
-    error = each.stress(problem.law(relation, modulus, hardening)) - each.record.true_stress
+    error = each.residual(problem.law(relation, modulus, hardening))
     own = record_alpha(problem, at, relation, modulus)
     largest = float(np.max(np.abs(each.record.true_stress)))
     base = each.stress(problem.law(relation, modulus, 0.0))

@@ -10,13 +10,18 @@ from scipy.optimize import brentq
 
 from probation.calibration.rate_table import RateTable
 from probation.errors import InputError
+from probation.inference.least_squares import minimise
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.forms import Form
     from probation.law.companion import Companion
 
-_MOST_STEPS = 100
+_MOST_ROUNDS = 100
+"""Of the relation and the scatter around it, in turns."""
+
+FINE = 1e-8
+"""Step [standard errors] at which a regression ends."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,56 +124,52 @@ def measured(form: Form, rates: FloatArray, tau_max: FloatArray) -> tuple[FloatA
 
 
 def _least_squares(form: Form, table: RateTable, error: FloatArray | None) -> tuple[Companion, FloatArray]:
-    """Gauss-Newton with halved steps, and the derivative of its result with respect to each ln tau_max.
+    """The relation of least squares, and the derivative of its parameters with respect to each ln tau_max.
 
     Parameters
     ----------
     error : ndarray, shape (n,), or None
         Standard errors of ln tau_max; None for squares in the form's own measure.
     """
-    rates = table.rates
-    target = measured(form, rates, table.tau_max)[0]
+    squares = _Squares(form, table, error)
+    start = form.start(table.rates, table.tau_max)
+    try:
+        squares.relation(start)
+    except InputError:
+        raise InputError(
+            f"{table.source}: {form.name} gives no positive relaxation time at every rate of the table"
+        ) from None
+    found = minimise(squares, start, tolerance=FINE)
+    # d target / d ln tau_max: the measured value's own slope, or the weight.
+    inward = measured(form, table.rates, table.tau_max)[1] if error is None else 1.0 / error
+    return squares.relation(found.x), np.asarray(np.linalg.pinv(found.jacobian) * inward)
 
-    def relation_at(values: FloatArray) -> Companion | None:
-        try:
-            relation = form.relation(values, rates, table.range)
-            relation.relaxation_time(rates)
-        except InputError:
-            return None
+
+@dataclass(frozen=True, eq=False)
+class _Squares:
+    """What is to be least, along the parameters of a form; `InputError` where a relaxation time is not positive."""
+
+    form: Form
+    table: RateTable
+    error: FloatArray | None
+
+    def relation(self, values: FloatArray) -> Companion:
+        relation = self.form.relation(values, self.table.rates, self.table.range)
+        relation.relaxation_time(self.table.rates)
         return relation
 
-    def residual_of(relation: Companion) -> FloatArray:
+    def residual(self, values: FloatArray) -> FloatArray:
+        tau_max = self.relation(values).relaxation_time(self.table.rates)
+        if self.error is not None:
+            return np.asarray(np.log(tau_max / self.table.tau_max) / self.error)
+        target = measured(self.form, self.table.rates, self.table.tau_max)[0]
+        return measured(self.form, self.table.rates, tau_max)[0] - target
+
+    def tangent(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        relation, rates = self.relation(values), self.table.rates
         tau_max = relation.relaxation_time(rates)
-        if error is not None:
-            return np.asarray(np.log(tau_max / table.tau_max) / error)
-        return measured(form, rates, tau_max)[0] - target
-
-    def slopes_of(relation: Companion) -> FloatArray:
-        scale = measured(form, rates, relation.relaxation_time(rates))[1] if error is None else 1.0 / error
-        return form.log_gradient(relation, rates) * scale[:, None]
-
-    values = form.start(rates, table.tau_max)
-    relation = relation_at(values)
-    if relation is None:
-        raise InputError(f"{table.source}: {form.name} gives no positive relaxation time at every rate of the table")
-    for _ in range(_MOST_STEPS):
-        residual, slopes = residual_of(relation), slopes_of(relation)
-        size = np.linalg.norm(slopes, axis=0)
-        step = -np.linalg.lstsq(slopes / size, residual, rcond=None)[0] / size
-        part, cost = 1.0, float(residual @ residual)
-        moved = relation_at(values + step)
-        while part > 1e-6 and (moved is None or np.sum(residual_of(moved) ** 2) > cost):
-            part *= 0.5
-            moved = relation_at(values + part * step)
-        if moved is None or part <= 1e-6:
-            break
-        values, relation = values + part * step, moved
-        if np.all(np.abs(part * step) * size <= 1e-12 * (np.sqrt(cost) + np.linalg.norm(values * size))):
-            break
-    slopes = slopes_of(relation)
-    # d target / d ln tau_max: the measured value's own slope, or the weight.
-    inward = measured(form, rates, table.tau_max)[1] if error is None else 1.0 / error
-    return relation, np.asarray(np.linalg.pinv(slopes) * inward)
+        scale = measured(self.form, rates, tau_max)[1] if self.error is None else 1.0 / self.error
+        return self.residual(values), self.form.log_gradient(relation, rates) * scale[:, None]
 
 
 def excess_scatter(residual: FloatArray, error: FloatArray, degrees: int) -> float:
@@ -195,7 +196,7 @@ def excess_scatter(residual: FloatArray, error: FloatArray, degrees: int) -> flo
 def _fitted_scatter(form: Form, table: RateTable, error: FloatArray, degrees: int) -> float:
     """`excess_scatter` around the relation that is best with it."""
     scatter = 0.0
-    for _ in range(_MOST_STEPS if degrees else 0):
+    for _ in range(_MOST_ROUNDS if degrees else 0):
         relation, _ = _least_squares(form, table, np.hypot(error, scatter))
         before = scatter
         scatter = excess_scatter(np.log(relation.relaxation_time(table.rates) / table.tau_max), error, degrees)

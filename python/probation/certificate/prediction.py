@@ -9,7 +9,7 @@ import numpy as np
 
 from probation.certificate.trial import companion_factor, free_parameters
 from probation.identify.modelled_record import ModelledRecord
-from probation.identify.problem import RecordProblem
+from probation.inference.record_problem import RecordProblem
 from probation.law.schemes import scheme_of
 from probation.results.data import CURVE, from_curves
 from probation.smoothing.excitation import excite

@@ -84,15 +84,15 @@ class Tangent:
         """Of a refit."""
         coordinates = found.coordinates
         x = coordinates.of(found.parameters)
-        away = x - coordinates.centre
-        log_norm = found.model.log_prior(found.parameters) + 0.5 * float(coordinates.precision @ away**2)
+        away = x - coordinates.prior.centre
+        log_norm = found.model.log_prior(found.parameters) + 0.5 * float(coordinates.prior.precision @ away**2)
         return cls(
             found.residual,
             found.jacobian,
             away,
-            coordinates.precision,
-            x - coordinates.lower,
-            coordinates.upper - x,
+            coordinates.prior.precision,
+            x - coordinates.bounds.lower,
+            coordinates.bounds.upper - x,
             log_norm,
         )
 

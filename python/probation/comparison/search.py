@@ -190,21 +190,21 @@ class ChangeSearch:
         parameter, whitener = done.model.effect_parameters[0], Whitener(self._noises_of(done.model))
         coordinates = done.coordinates
         centre = float(coordinates.of(done.parameters)[0])
-        least = done.chi_square + coordinates.penalty(np.array([centre]))
+        least = done.chi_square + coordinates.prior.penalty(np.array([centre]))
         deviation = float(np.sqrt(Tangent.of(done).covariance[0, 0]))
 
         def excess(coordinate: float) -> float:
             x = np.array([coordinate])
             residual = whitener.residual(done.model.residual(coordinates.parameters(x)))
-            return float(residual @ residual) + coordinates.penalty(x) - least - LEVEL
+            return float(residual @ residual) + coordinates.prior.penalty(x) - least - LEVEL
 
         ends = []
-        for side, bound in ((-1.0, coordinates.lower[0]), (1.0, coordinates.upper[0])):
+        for side, bound in ((-1.0, coordinates.bounds.lower[0]), (1.0, coordinates.bounds.upper[0])):
             inside, step = centre, 2.0 * deviation
-            outside = float(np.clip(centre + side * step, coordinates.lower[0], coordinates.upper[0]))
+            outside = float(np.clip(centre + side * step, coordinates.bounds.lower[0], coordinates.bounds.upper[0]))
             while outside != bound and excess(outside) < 0.0 and step < FARTHEST * deviation:
                 inside, step = outside, 1.6 * step
-                outside = float(np.clip(centre + side * step, coordinates.lower[0], coordinates.upper[0]))
+                outside = float(np.clip(centre + side * step, coordinates.bounds.lower[0], coordinates.bounds.upper[0]))
             if outside == bound and excess(outside) < 0.0:
                 ends.append(float(bound))
             elif excess(inside) >= 0.0 or excess(outside) <= 0.0:  # no smooth valley: what the curvature says

@@ -67,7 +67,7 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
 def left_out_squares(found: Refit, whitened: Whitened) -> FloatArray:
     """|z_r|^2 of every record as the others predict it, shape (n_records,)."""
     coordinates = found.coordinates
-    prior = np.diag(coordinates.precision)
+    prior = np.diag(coordinates.prior.precision)
     normal = found.jacobian.T @ found.jacobian + prior
     squares = []
     for part in whitened.slices:

@@ -13,7 +13,7 @@ from probation.identify.covariance import correlation_lags
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.identify.noise_model import NoiseModel
+    from probation.noise.ar1 import NoiseModel
 
 STRONGEST = 0.9
 """Correlation from sample to sample from which on a residual is a wave, the law's bias, and no noise."""

@@ -22,13 +22,14 @@ from probation.records.noise import scatter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from probation.identify.noise_model import NoiseModel
-    from probation.identify.problem import Problem, RecordProblem
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
     from probation.identify.weighting import Weighted, Weighting
+    from probation.inference.problem import Problem
+    from probation.inference.record_problem import RecordProblem
     from probation.law.modal import Law
     from probation.law.schemes import Scheme
+    from probation.noise.ar1 import NoiseModel
     from probation.records.campaign import Campaign
 
 LIKELY_MODULI = (1e-3, 1e6)
@@ -37,7 +38,6 @@ LIKELY_MODULI = (1e-3, 1e6)
 
 def describe(
     campaign: Campaign,
-    problem: Problem,
     weighted: Weighted,
     scheme: Scheme,
     method: Method,
@@ -50,18 +50,17 @@ def describe(
     Parameters
     ----------
     campaign : Campaign
-    problem : Problem
-        Its noise models are those of the law.
     weighted : Weighted
-        The law, and how the residual was weighed.
+        The law, and the noise that it was found with.
     scheme : Scheme
     method, weighting, intervals : str
         As the fit was asked for.
     limits : mapping of str to (float, float)
         Bounds of the parameters.
     """
-    law = weighted.law
-    known, jacobian = known_of(problem, law, weighted)
+    problem, law = weighted.problem, weighted.law
+    known, jacobian = known_of(weighted)
+    noises = problem.noises_at(law)
     free, names, values = problem.free, law.parameter_names, law.parameters
     degrees = max(sum(problem.lengths) - len(free), 1)
     ends = ends_of(problem, law, limits)
@@ -71,7 +70,7 @@ def describe(
 
         quantile = float(stdtrit(degrees, 0.975))
         told = [int(i) for i in free if names[i] not in ends.withdrawn]
-        profiles = {names[i]: profile(problem, weighted, known, i, quantile, limits) for i in told}
+        profiles = {names[i]: profile(weighted, known, i, quantile, limits) for i in told}
     parameters: dict[str, Parameter] = {}
     warnings = list(campaign.warnings)
     for index, name in enumerate(names):
@@ -101,17 +100,16 @@ def describe(
         start=scheme.start,
         substeps=problem.records[0].substeps,
         method=method,
-        weighting=_used(weighting, problem, weighted),
+        weighting=_used(weighted),
         parameters=parameters,
         product=_product(known, problem, law, degrees, withdrawn=ends.product),
         names=tuple(names[i] for i in free),
         correlation=correlation(known.matrix),
         condition_number=known.condition_number,
         records={
-            each.record.id: _record_fit(each, law, noise)
-            for each, noise in zip(problem.records, problem.noises, strict=True)
+            each.record.id: _record_fit(each, law, noise) for each, noise in zip(problem.records, noises, strict=True)
         },
-        autocorrelated=known.correlated or any(noise.correlation > 0.0 for noise in problem.noises),
+        autocorrelated=known.correlated or any(noise.correlation > 0.0 for noise in noises),
         newey_west=known.correlated,
         scheme_error_MPa=largest_error,
         scheme_shift={names[index]: float(moved) for index, moved in zip(free, shift, strict=True)},
@@ -121,12 +119,13 @@ def describe(
     )
 
 
-def _used(weighting: Weighting, problem: Problem, weighted: Weighted) -> str:
-    if weighted.carries_strain_noise:
-        return "strain-noise-frozen" if weighted.frozen else "strain-noise"
+def _used(weighted: Weighted) -> str:
+    problem = weighted.problem
+    if problem.carries_strain_noise:
+        return "strain-noise" if problem.noise_moves else "strain-noise-frozen"
     if weighted.resampled is not None:
         return "plain, strain noise resampled"
-    return "autocorrelated" if any(noise.correlation > 0.0 for noise in problem.noises) else "plain"
+    return "autocorrelated" if any(noise.stress.correlation > 0.0 for noise in problem.noises) else "plain"
 
 
 def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:

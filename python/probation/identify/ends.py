@@ -14,7 +14,7 @@ from probation.inference.parameter import IDENTIFIABLE, SYMBOLS, UNITS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from probation.identify.problem import Problem
+    from probation.inference.problem import Problem
     from probation.law.modal import Law
 
 BEYOND = 100.0
@@ -68,7 +68,7 @@ def ends_of(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]
     end = "lower" if value <= low * EDGE else "upper" if value >= high / EDGE else ""
     if not end:
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
-    beyond = project(problem, value / BEYOND if end == "lower" else value * BEYOND)[0].parameters
+    beyond = project(problem.frozen_at(law), value / BEYOND if end == "lower" else value * BEYOND)[0].parameters
     moved = np.abs(beyond - values) > IDENTIFIABLE * np.abs(values)
     product = abs(beyond[0] * beyond[1] - values[0] * value) > IDENTIFIABLE * abs(values[0] * value)
     warnings.append(

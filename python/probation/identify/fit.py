@@ -11,19 +11,20 @@ from probation.errors import InputError
 from probation.identify.base_law import base_law
 from probation.identify.describe import describe
 from probation.identify.given import given
-from probation.identify.problem import Problem, RecordProblem
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
-from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, plainly, weigh
+from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, weigh
 from probation.inference.parameter import by_inside_name, outside_name
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 from probation.law.modal import Law
 from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
     from probation.records.campaign import Campaign
     from probation.smoothing.methods import Method as ExcitationMethod
@@ -99,8 +100,8 @@ def fit(
         prepared.append(RecordProblem.prepare(record, excite(record, excitation), chosen, steps))
         if progress:
             progress(0.3 * (index + 1) / len(campaign.identify))
-    problem = Problem(law, prepared, held)
-    if problem.held.all():
+    problem = Problem.of(law, prepared, held)
+    if all(problem.held):
         raise InputError(
             f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to "
             "identify; probation certify predicts with a law that is given"
@@ -108,15 +109,20 @@ def fit(
     searched = {**limits, law.parameter_names[1]: search_range(problem, limits)}
     adapting = substeps == "auto" and chosen.name != "sa3"
     told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
-    best = _least_squares(problem, prepared, method, searched, adapting, told)
-    weighted = plainly(problem, best)
+    plain = _least_squares(problem, method, searched, adapting, told)
+    weighted = plain
     if weighting != "plain":
-        weighted = weigh(problem, best, weighting, searched, excitation)
-        if adapting and weighted.carries_strain_noise:
-            weighted = _with_more_substeps(problem, weighted, weighting, searched, excitation)
+        weighted = weigh(plain.problem, plain.law, weighting, searched, excitation)
+        if adapting and weighted.problem.carries_strain_noise:
+            # The scheme's error weighs otherwise once the residual is whitened, and may need more substeps.
+            taken = weighted.problem.records[0].substeps
+            needed = needed_substeps(weighted, weighted.problem.records, taken)
+            if needed > taken:
+                finer = plain.problem.with_records(each.with_substeps(needed) for each in plain.problem.records)
+                weighted = weigh(finer, weighted.law, weighting, searched, excitation)
     if progress:
         progress(0.9)
-    found = describe(campaign, problem, weighted, chosen, method, weighting, limits, intervals)
+    found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
     if progress:
         progress(1.0)
     return found
@@ -139,43 +145,28 @@ def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Map
 
 def _least_squares(
     problem: Problem,
-    prepared: Sequence[RecordProblem],
     method: Method,
     limits: Mapping[str, tuple[float, float]],
     adapting: bool,
     progress: Callable[[float], None] | None,
-) -> Law:
+) -> Weighted:
     """The best law with white noise; `adapting` takes as many substeps as it needs."""
+    prepared = problem.records
     if adapting:  # a coarse record's best fit by the scheme may be far off, where its error says nothing
-        problem.records = tuple(each.reference() for each in prepared)
+        problem = problem.with_records(each.reference() for each in prepared)
     best = first_guess(problem, limits, progress)
     if len(prepared) > 1:
-        problem.reweigh(best)
+        problem = problem.reweighed(best)
         best = first_guess(problem, limits)
     if adapting:
-        needed = needed_substeps(problem, prepared, plainly(problem, best))
-        problem.records = tuple(each.with_substeps(needed) for each in prepared)
+        needed = needed_substeps(Weighted(problem, best), prepared)
+        problem = problem.with_records(each.with_substeps(needed) for each in prepared)
         best = first_guess(problem, limits, near=best)
     if method == "least-squares":
-        return by_least_squares(problem, best, limits)
-    return by_simplex(problem, best, limits) if method == "simplex" else best
-
-
-def _with_more_substeps(
-    problem: Problem,
-    weighted: Weighted,
-    weighting: Weighting,
-    limits: Mapping[str, tuple[float, float]],
-    excitation: ExcitationMethod,
-) -> Weighted:
-    """The scheme's error weighs otherwise once the residual is whitened, and may need more substeps."""
-    taken = problem.records[0].substeps
-    needed = needed_substeps(problem, problem.records, weighted, taken)
-    if needed <= taken:
-        return weighted
-    problem.records = tuple(each.with_substeps(needed) for each in problem.records)
-    problem.noises = list(problem.white)
-    return weigh(problem, weighted.law, weighting, limits, excitation)
+        best = by_least_squares(problem, best, limits)
+    elif method == "simplex":
+        best = by_simplex(problem, best, limits)
+    return Weighted(problem, best)
 
 
 def _limits(law: Law, bounds: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:

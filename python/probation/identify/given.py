@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 from probation.errors import InputError
 from probation.identify.base_law import base_law
 from probation.identify.describe import describe
-from probation.identify.problem import Problem, RecordProblem
-from probation.identify.weighting import plainly
+from probation.identify.weighting import Weighted
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 from probation.law.schemes import at_samples
 from probation.smoothing.excitation import excite
 
@@ -44,7 +45,6 @@ def given(
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
     chosen = at_samples(scheme)
     prepared = [RecordProblem.prepare(record, excite(record, excitation), chosen) for record in campaign.identify]
-    problem = Problem(law, prepared, held)
+    weighted = Weighted(Problem.of(law, prepared, held), law)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))
-    weighted = plainly(problem, law)
-    return describe(campaign, problem, weighted, chosen, "least-squares", "plain", limits, "standard-error")
+    return describe(campaign, weighted, chosen, "least-squares", "plain", limits, "standard-error")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -10,17 +9,17 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from probation.identify.search import search_range
+from probation.identify.search import by_least_squares, search_range
 from probation.identify.variable_projection import project, search
-from probation.identify.weighting import minimise, reevaluate, residual_and_jacobian
+from probation.identify.weighting import SMALL_STEP
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
     from probation.identify.covariance import Covariance
-    from probation.identify.problem import Problem
     from probation.identify.weighting import Weighted
+    from probation.inference.problem import Problem
     from probation.law.modal import Law
 
 Intervals = Literal["standard-error", "profile"]
@@ -67,7 +66,6 @@ class Profile:
 
 
 def profile(
-    problem: Problem,
     weighted: Weighted,
     known: Covariance,
     index: int,
@@ -82,17 +80,19 @@ def profile(
 
     Parameters
     ----------
-    problem, weighted, known
-        As the fit left them.
+    weighted : Weighted
+        The fit.
+    known : Covariance
+        Of its parameters.
     index : int
     quantile : float
         Of Student's t at 97.5 %.
     limits : mapping of str to (float, float)
     """
-    law = weighted.law
+    problem, law = weighted.problem, weighted.law
     name, value = law.parameter_names[index], float(law.parameters[index])
     position = int(np.flatnonzero(problem.free == index)[0])
-    residual, jacobian = residual_and_jacobian(problem, law, weighted)
+    residual, jacobian = problem.residual_and_jacobian(law)
     least = float(residual @ residual)
     scatter = least / max(len(residual) - len(problem.free), 1)
     error = known.standard_error(position)
@@ -102,8 +102,7 @@ def profile(
         size = np.linalg.norm(free, axis=0)
         plain = np.linalg.pinv((free / size).T @ (free / size))[position, position] / size[position] ** 2
         widened = max(error / float(np.sqrt(scatter * plain)), 1.0)
-    walk = _Walk(problem, weighted, index, limits)
-    sides = []
+        sides = []
     for sign in (-1.0, 1.0):
         step, at, there = FIRST_STEP * (error or 0.1 * abs(value) or 1.0), value, law
         points: list[tuple[float, float]] = []
@@ -111,7 +110,7 @@ def profile(
             at += sign * step
             if not limits[name][0] < at < limits[name][1]:
                 break
-            there, cost = walk.to(at, there)
+            there, cost = _best_beside(problem, index, at, there, limits)
             rise = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
             points.append((at, sign * rise))
             if rise > FARTHEST * quantile:
@@ -125,33 +124,23 @@ def profile(
         _end(values, root, -quantile, limits[name][0]),
         _end(values, root, quantile, limits[name][1]),
     )
-    reevaluate(problem, law, weighted)  # the walk left it elsewhere
     return Profile(name, value, values, root, quantile, ends)
 
 
-class _Walk:
-    """The least cost with one parameter held, from a law close by."""
-
-    def __init__(
-        self, problem: Problem, weighted: Weighted, index: int, limits: Mapping[str, tuple[float, float]]
-    ) -> None:
-        self.problem, self.weighted, self.index, self.limits = problem, weighted, index, limits
-
-    def to(self, value: float, near: Law) -> tuple[Law, float]:
-        parameters = near.parameters
-        parameters[self.index] = value
-        start = near.with_parameters(parameters)
-        if self.weighted.carries_strain_noise and not self.weighted.frozen:
-            law = minimise(self.problem, start, self.weighted, self.limits, fixed=self.index)
-            residual = residual_and_jacobian(self.problem, law, self.weighted)[0]
-            return law, float(residual @ residual)
-        held = copy(self.problem)
-        held.law, held.held = start, self.problem.held.copy()
-        held.held[self.index] = True
-        if self.index == 1:
-            return project(held, value)
-        law = search(held, search_range(held, self.limits), near=float(near.parameters[1]), tolerance=FINE_ENOUGH)
-        return law, float(np.sum(held.residual(law) ** 2))
+def _best_beside(
+    problem: Problem, index: int, value: float, near: Law, limits: Mapping[str, tuple[float, float]]
+) -> tuple[Law, float]:
+    """The law with one parameter at a value and the others at their best, from a law close by; and its cost."""
+    parameters = near.parameters
+    parameters[index] = value
+    held = problem.with_held(index, near.with_parameters(parameters))
+    if problem.noise_moves:
+        law = by_least_squares(held, held.law, limits, tolerance=SMALL_STEP)
+    elif index == 1:
+        return project(held, value)
+    else:
+        law = search(held, search_range(held, limits), near=float(near.parameters[1]), tolerance=FINE_ENOUGH)
+    return law, float(np.sum(held.residual(law) ** 2))
 
 
 def _end(values: FloatArray, root: FloatArray, level: float, beyond: float) -> float:

@@ -13,8 +13,9 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.identify.covariance import Covariance
-    from probation.identify.problem import Problem, RecordProblem
     from probation.identify.weighting import Weighted
+    from probation.inference.problem import Problem
+    from probation.inference.record_problem import RecordProblem
     from probation.law.modal import Law
 
 NEGLIGIBLE = 0.1
@@ -33,7 +34,7 @@ def scheme_error(
     """How far the scheme of `records` is from SA3 [MPa], and what that does to the parameters, in standard errors."""
     free = problem.free
     errors = [each.stress(law) - each.reference().stress(law) for each in records]
-    weighted = problem.whitened(errors)
+    weighted = problem.whitened(errors, law)
     size = np.where(law.parameters[free] != 0.0, np.abs(law.parameters[free]), 1.0)
     moved = -np.linalg.lstsq(jacobian[:, free] * size, weighted, rcond=1e-12)[0] * size
     deviation = np.sqrt(np.diag(known.matrix))
@@ -41,14 +42,22 @@ def scheme_error(
     return max(float(np.max(np.abs(error))) for error in errors), shift
 
 
-def needed_substeps(problem: Problem, records: Sequence[RecordProblem], weighted: Weighted, at_least: int = 1) -> int:
+def needed_substeps(weighted: Weighted, records: Sequence[RecordProblem], at_least: int = 1) -> int:
     """Steps from sample to sample that make the error of the scheme, of order 2, negligible for every parameter.
 
-    Best where `problem` is solved by SA3: the scheme's error in the fit residual would widen the standard errors that
+    Best where the fit is solved by SA3: the scheme's error in the fit residual would widen the standard errors that
     it is measured in.
+
+    Parameters
+    ----------
+    weighted : Weighted
+        The fit.
+    records : sequence of RecordProblem
+        By the scheme.
+    at_least : int
     """
-    law = weighted.law
-    known, jacobian = known_of(problem, law, weighted)
+    problem, law = weighted.problem, weighted.law
+    known, jacobian = known_of(weighted)
     most = max(MOST_SUBSTEPS, ENOUGH_INSTANTS // max(len(each.record) for each in records))
     steps = at_least
     while True:  # once would do, were the steps always short enough for the order to show

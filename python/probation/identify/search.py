@@ -1,26 +1,34 @@
-"""The three ways to the minimum: least squares with the engine's Jacobian, variable projection, simplex."""
+"""The three ways to the minimum: Gauss-Newton with the engine's sensitivities, variable projection, simplex."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import Bounds as Box
-from scipy.optimize import least_squares, minimize
+from scipy.optimize import Bounds as SimplexBox
+from scipy.optimize import minimize
 
 from probation.identify.variable_projection import search, time_bounds
+from probation.inference.least_squares import Bounds as Box
+from probation.inference.least_squares import minimise
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from probation._arrays import FloatArray
-    from probation.identify.problem import Problem
+    from probation.inference.problem import Problem
     from probation.law.modal import Law
 
 Bounds = tuple[float, float]
 
+FINE = 1e-6
+"""Step [standard errors] at which the search for a law ends: numbers that do not depend on where it began."""
+
+LONGEST_STEP = 0.7
+"""Largest change in one step, of the logarithm of tau_max and of a modulus over its start."""
+
 ZERO = 1e-8
-"""A modulus over its start below which a search has ended at 0."""
+"""A modulus over its start below which the simplex has ended at 0."""
 
 
 class _Scaled:
@@ -49,7 +57,7 @@ class _Scaled:
         return self.problem.law_at(np.where(self.is_time, np.exp(x), x) * self.size)
 
     def ended(self, x: FloatArray) -> Law:
-        """The law where a search ended; a modulus that a search from inside left just above 0 is 0."""
+        """The law where a search ended; a modulus that the simplex left just above 0 is 0."""
         return self.law(np.where(~self.is_time & (x < ZERO), self.lower, x))
 
     def slopes(self, x: FloatArray) -> FloatArray:
@@ -58,36 +66,59 @@ class _Scaled:
         return found
 
 
-def by_least_squares(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> Law:
-    """Trust-region Gauss-Newton (Levenberg-Marquardt with bounds, scipy) with the engine's sensitivities."""
+def by_least_squares(
+    problem: Problem,
+    start: Law,
+    bounds: Mapping[str, Bounds],
+    *,
+    tolerance: float = FINE,
+    held: int | None = None,
+) -> Law:
+    """The law of least cost near a start, by Gauss-Newton with the engine's sensitivities.
+
+    Where the noise moves with the law, so does the Sigma of the cost.
+
+    Parameters
+    ----------
+    problem : Problem
+    start : Law
+    bounds : mapping of str to (float, float)
+    tolerance : float
+        Step [standard errors] at which the search ends.
+    held : int, optional
+        A parameter that does not move, by its number in `law.parameters`; others that do not are the problem's own.
+    """
+    if held is not None:
+        problem = problem.with_held(held, start)
+    if not problem.free.size:
+        return start
     scaled = _Scaled(problem, start, bounds)
-    cache: dict[bytes, tuple[FloatArray, FloatArray]] = {}
-
-    def both(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        key = x.tobytes()
-        if key not in cache:
-            cache.clear()
-            cache[key] = problem.residual_and_jacobian(scaled.law(x))
-        return cache[key]
-
-    def residual(x: FloatArray) -> FloatArray:
-        return both(x)[0]
-
-    def jacobian(x: FloatArray) -> FloatArray:
-        slopes: FloatArray = both(x)[1][:, problem.free] * scaled.slopes(x)
-        return slopes
-
-    found = least_squares(
-        residual,
+    found = minimise(
+        _Cost(problem, scaled),
         scaled.start,
-        jac=jacobian,
-        bounds=(scaled.lower, scaled.upper),
-        x_scale="jac",
-        ftol=1e-14,
-        xtol=1e-12,
-        gtol=1e-12,
+        bounds=Box(scaled.lower, scaled.upper),
+        tolerance=tolerance,
+        longest_step=LONGEST_STEP,
     )
-    return scaled.ended(found.x)
+    return scaled.law(found.x)
+
+
+class _Cost:
+    """The whitened residual along search coordinates; residual and derivatives come from one solve."""
+
+    def __init__(self, problem: Problem, scaled: _Scaled) -> None:
+        self.problem, self.scaled = problem, scaled
+        self._kept: tuple[bytes, FloatArray, FloatArray] | None = None
+
+    def residual(self, x: FloatArray) -> FloatArray:
+        return self.tangent(x)[0]
+
+    def tangent(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        key = x.tobytes()
+        if self._kept is None or self._kept[0] != key:
+            residual, jacobian = self.problem.residual_and_jacobian(self.scaled.law(x))
+            self._kept = key, residual, jacobian[:, self.problem.free] * self.scaled.slopes(x)
+        return self._kept[1:]
 
 
 def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> Law:
@@ -104,7 +135,7 @@ def by_simplex(problem: Problem, start: Law, bounds: Mapping[str, Bounds]) -> La
             cost,
             found,
             method="Nelder-Mead",
-            bounds=Box(scaled.lower, scaled.upper),
+            bounds=SimplexBox(scaled.lower, scaled.upper),
             options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 4000, "adaptive": True},
         )
         moved = float(np.max(np.abs(result.x - found)))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.identify.problem import RecordProblem
+    from probation.inference.record_problem import RecordProblem
     from probation.inference.strain_noise import StrainNoise
     from probation.law.modal import Law
     from probation.smoothing.methods import Method as ExcitationMethod
@@ -81,5 +81,4 @@ def carried_at_end(problem: RecordProblem, law: Law) -> float:
 
 def left_over(problem: RecordProblem, law: Law) -> float:
     """What scatters a record around the law [MPa]: its noise, or its bias."""
-    residual = problem.stress(law) - problem.record.true_stress
-    return max(problem.noise, float(np.sqrt(np.mean(residual**2))))
+    return max(problem.noise, float(np.sqrt(np.mean(problem.residual(law) ** 2))))

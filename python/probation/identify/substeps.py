@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.identify.problem import LEAST_NOISE
+from probation.inference.record_problem import LEAST_NOISE
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:

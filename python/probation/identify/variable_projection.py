@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.identify.problem import Problem
+    from probation.inference.problem import Problem
     from probation.law.modal import Law
 
 POINTS = 41
@@ -27,7 +27,8 @@ EDGE = 1.05
 def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
     """The best law at one tau_max (or alpha), and its cost.
 
-    The stress is E_u u + G v with unit solves u and v. Where either best fit would be negative it is zero.
+    The stress is E_u u + G v with unit solves u and v, where the noise does not move with the law. Where either best
+    fit would be negative it is zero.
 
     Returns
     -------
@@ -39,9 +40,9 @@ def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
     base[1] = nonlinear
     law = problem.law.with_parameters(base)
     _, jacobian = problem.residual_and_jacobian(law)
-    data = problem.data()
+    data = problem.data(law)
     columns = jacobian[:, [0, 2]]
-    held = problem.held[[0, 2]]
+    held = np.array([problem.held[0], problem.held[2]])
     values = base[[0, 2]]
     target = data - columns[:, held] @ values[held]
     if not held.all():

@@ -44,20 +44,20 @@ class Linearised:
         model, coordinates = found.model, found.coordinates
         x = coordinates.of(found.parameters)
         jacobian, residual = found.jacobian, found.residual
-        gradient = jacobian.T @ residual + coordinates.precision * (x - coordinates.centre)
+        gradient = jacobian.T @ residual + coordinates.prior.precision * (x - coordinates.prior.centre)
         effects = np.arange(len(x)) >= model.base_count
-        free = ~(coordinates.pushed_out(x, gradient) & effects)
+        free = ~(coordinates.bounds.pushed_out(x, gradient) & effects)
         inside = jacobian[:, free]
         # A flat prior ends at its bounds, or after a period: a wide normal one around x, cut there, stands in for it.
-        below, above = x - coordinates.lower, coordinates.upper - x
+        below, above = x - coordinates.bounds.lower, coordinates.bounds.upper - x
         period = np.append(np.zeros(model.base_count), [each.period for each in model.effect_parameters])
         below, above = (
             np.where(effects, np.where(period > 0.0, 0.5 * period, room), np.inf) for room in (below, above)
         )
-        flat = effects & (coordinates.precision == 0.0)
-        centre = np.where(flat, x, coordinates.centre)
-        precision = np.where(flat, (below + above) ** -2.0, coordinates.precision)
-        normal_part = -0.5 * coordinates.precision * (x - coordinates.centre) ** 2
+        flat = effects & (coordinates.prior.precision == 0.0)
+        centre = np.where(flat, x, coordinates.prior.centre)
+        precision = np.where(flat, (below + above) ** -2.0, coordinates.prior.precision)
+        normal_part = -0.5 * coordinates.prior.precision * (x - coordinates.prior.centre) ** 2
         # Beside the parameters stand the errors of their forms, standard normal; their integral is a marginal density.
         more = np.zeros((len(residual), 0)) if forms is None else forms
         count = more.shape[1]

@@ -1,14 +1,15 @@
-"""Law and effects fitted together: damped Gauss-Newton within bounds, priors of the effects included."""
+"""Law and effects fitted together, within bounds and with the priors of the effects."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.errors import ConvergenceError
-from probation.inference.unsolvable import UNSOLVABLE
+from probation.inference.least_squares import FIRST_DAMPING, Bounds, NormalPrior, minimise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 MOST_STEPS = 15
 SETTLED = 0.02
 """A step that would lower the objective by less than this ends a search: little beside what noise does to it."""
-
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e9
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +55,7 @@ class Refit:
     @property
     def at_bound(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Which parameters ended at their lower, and which at their upper bound; each of shape (p,)."""
-        return self.coordinates.at_bound(self.coordinates.of(self.parameters))
+        return self.coordinates.bounds.reached(self.coordinates.of(self.parameters))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,20 +67,16 @@ class Coordinates:
     size : ndarray, shape (p,)
         Unit of each coordinate; 1 for effects.
     log : ndarray of bool, shape (p,)
-    lower, upper : ndarray, shape (p,)
     ends : (ndarray, ndarray)
-        The same for the parameters themselves.
-    centre, precision : ndarray, shape (p,)
-        Normal prior of each coordinate; precision 0 where it is flat.
+        Lower and upper bounds of the parameters themselves.
+    prior : NormalPrior
+        Of the coordinates.
     """
 
     size: FloatArray
     log: NDArray[np.bool_]
-    lower: FloatArray
-    upper: FloatArray
     ends: tuple[FloatArray, FloatArray]
-    centre: FloatArray
-    precision: FloatArray
+    prior: NormalPrior
 
     @classmethod
     def of_model(cls, model: CampaignModel) -> Coordinates:
@@ -90,11 +85,14 @@ class Coordinates:
         start = np.abs(model.law.start)
         size = np.append(np.where(start > 0.0, start, 1.0), np.ones(len(known)))
         log = np.array([False] * base + [each.log for each in known], dtype=bool)
-        lower, upper = model.bounds
         centre = np.append(np.zeros(base), [each.to_search(each.centre) for each in known])
         scale = np.append(np.full(base, np.inf), [each.scale for each in known])
-        made = cls(size, log, lower, upper, (lower, upper), centre, 1.0 / scale**2)
-        return replace(made, lower=made.of(lower), upper=made.of(upper))
+        return cls(size, log, model.bounds, NormalPrior(centre, 1.0 / scale**2))
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """Of the coordinates."""
+        return Bounds(*(self.of(end) for end in self.ends))
 
     def of(self, parameters: FloatArray) -> FloatArray:
         """Coordinates of parameters."""
@@ -112,20 +110,6 @@ class Coordinates:
         """Derivatives of the parameters along their coordinates."""
         return np.asarray(np.where(self.log, parameters, self.size))
 
-    def at_bound(self, coordinates: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Which coordinates lie at their lower, and which at their upper bound."""
-        near = 1e-9 * np.maximum(1.0, np.abs(coordinates))
-        return np.asarray(coordinates <= self.lower + near), np.asarray(coordinates >= self.upper - near)
-
-    def pushed_out(self, coordinates: FloatArray, gradient: FloatArray) -> NDArray[np.bool_]:
-        """Which lie at a bound and would lower an objective of this gradient beyond it."""
-        low, high = self.at_bound(coordinates)
-        return np.asarray((low & (gradient > 0.0)) | (high & (gradient < 0.0)))
-
-    def penalty(self, coordinates: FloatArray) -> float:
-        """-2 log of the priors' normal parts."""
-        return float(self.precision @ (coordinates - self.centre) ** 2)
-
 
 def refit(
     model: CampaignModel,
@@ -136,9 +120,7 @@ def refit(
     settled: float = SETTLED,
     held: NDArray[np.bool_] | None = None,
 ) -> Refit:
-    """Minimise |L r|^2 + prior from a start, by Levenberg's and Marquardt's damping within the bounds.
-
-    A parameter that wants beyond its bound is held there for the step (active set).
+    """Minimise |L r|^2 + prior from a start (`least_squares.minimise`).
 
     Parameters
     ----------
@@ -159,76 +141,35 @@ def refit(
         If the law cannot be solved at the start.
     """
     coordinates = Coordinates.of_model(model)
-    x = np.clip(coordinates.of(np.asarray(start, dtype=np.float64)), coordinates.lower, coordinates.upper)
-    residual, jacobian = _tangent(model, x, coordinates, whitener)
-    if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
-        raise ConvergenceError(f"the law has no finite stress at the start of {', '.join(model.parameter_names)}")
-    cost = float(residual @ residual) + coordinates.penalty(x)
-    damping, steps = 1e-3, 0
-    while steps < most_steps:
-        moved = None
-        gradient = jacobian.T @ residual + coordinates.precision * (x - coordinates.centre)
-        free = ~coordinates.pushed_out(x, gradient)
-        if held is not None:
-            free &= ~held
-        normal = (jacobian[:, free].T @ jacobian[:, free]) + np.diag(coordinates.precision[free])
-        promise = np.inf
-        while free.any() and damping < MOST_DAMPING:
-            step = np.zeros(len(x))
-            step[free] = -_solve(normal, gradient[free], damping)
-            promise = -float(2.0 * gradient @ step) - float(step[free] @ normal @ step[free])
-            if promise < settled:
-                break
-            tried = np.clip(x + step, coordinates.lower, coordinates.upper)
-            moved = _moved(model, tried, coordinates, whitener, cost)
-            if moved is not None:
-                break
-            damping *= 5.0
-        if moved is None:
-            break
-        steps += 1
-        gained = cost - moved.cost
-        damping = max(damping / (10.0 if gained > 0.5 * promise else 2.0), LEAST_DAMPING)
-        x, cost, residual, jacobian = moved
-        if gained < settled:
-            break
-    return Refit(model, coordinates.parameters(x), residual, jacobian, coordinates, steps)
-
-
-class _Point(NamedTuple):
-    x: FloatArray
-    cost: float
-    residual: FloatArray
-    jacobian: FloatArray
-
-
-def _moved(
-    model: CampaignModel, x: FloatArray, coordinates: Coordinates, whitener: Whitener, cost: float
-) -> _Point | None:
-    """The problem at x; None where the objective is not below `cost`, or the law, or its derivative, cannot be had."""
     try:
-        residual = whitener.residual(model.residual(coordinates.parameters(x)))
-        lower = float(residual @ residual) + coordinates.penalty(x)
-        if not lower < cost:
-            return None
-        residual, jacobian = _tangent(model, x, coordinates, whitener)
-    except UNSOLVABLE:
-        return None
-    return _Point(x, lower, residual, jacobian) if np.isfinite(jacobian).all() else None
+        found = minimise(
+            _Objective(model, coordinates, whitener),
+            coordinates.of(np.asarray(start, dtype=np.float64)),
+            bounds=coordinates.bounds,
+            prior=coordinates.prior,
+            held=held,
+            settled=settled,
+            damping=FIRST_DAMPING,
+            most_steps=most_steps,
+        )
+    except ConvergenceError as error:
+        raise ConvergenceError(f"{', '.join(model.parameter_names)}: {error}") from None
+    parameters = coordinates.parameters(found.x)
+    return Refit(model, parameters, found.residual, found.jacobian, coordinates, found.steps)
 
 
-def _tangent(
-    model: CampaignModel, x: FloatArray, coordinates: Coordinates, whitener: Whitener
-) -> tuple[FloatArray, FloatArray]:
-    """Whitened residual, and its derivatives along the coordinates."""
-    parameters = coordinates.parameters(x)
-    raw, slopes = model.residual_and_jacobian(parameters)
-    return whitener.residual(raw), whitener.columns(slopes * coordinates.slopes(parameters))
+@dataclass(frozen=True, eq=False)
+class _Objective:
+    """Whitened residual of a model along its search coordinates."""
 
+    model: CampaignModel
+    coordinates: Coordinates
+    whitener: Whitener
 
-def _solve(normal: FloatArray, gradient: FloatArray, damping: float) -> FloatArray:
-    """(N + damping diag N) step = gradient, scaled to a unit diagonal first."""
-    size = np.sqrt(np.maximum(np.diag(normal), 1e-300))
-    scaled = normal / np.outer(size, size)
-    scaled[np.diag_indices_from(scaled)] += damping
-    return np.asarray(np.linalg.lstsq(scaled, gradient / size, rcond=1e-14)[0] / size)
+    def residual(self, x: FloatArray) -> FloatArray:
+        return self.whitener.residual(self.model.residual(self.coordinates.parameters(x)))
+
+    def tangent(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        parameters = self.coordinates.parameters(x)
+        raw, slopes = self.model.residual_and_jacobian(parameters)
+        return self.whitener.residual(raw), self.whitener.columns(slopes * self.coordinates.slopes(parameters))

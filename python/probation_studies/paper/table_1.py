@@ -9,8 +9,9 @@ import numpy as np
 
 from probation._arrays import FloatArray
 from probation.identify.bias import low_frequency
-from probation.identify.problem import Problem, RecordProblem
 from probation.identify.search import by_least_squares, by_simplex
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 from probation.law.modal import Law
 from probation.law.ramp import ramp_stress
 from probation.law.schemes import BE2, SA3, Start
@@ -307,7 +308,7 @@ def problem_of(record: Record, option: Option) -> Problem:
     prepared = RecordProblem.prepare(record, excitation, scheme)
     if option.scheme == "closed form":
         prepared = ClosedForm(**vars(prepared))
-    return Problem(START, [prepared], (False, False, False))
+    return Problem.of(START, [prepared], (False, False, False))
 
 
 def straight_line(record: Record) -> FloatArray:

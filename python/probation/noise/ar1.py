@@ -1,4 +1,4 @@
-"""What the noise of one record's fit residual looks like: white, AR(1), and strain noise propagated to the stress."""
+"""AR(1) noise of a fit residual, with strain noise propagated to the stress."""
 
 from __future__ import annotations
 
