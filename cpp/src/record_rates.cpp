@@ -17,14 +17,14 @@ const RecordRates::Fluidity& RecordRates::fluidity(const History& history, Schem
   const Index steps = history.steps();
   const double floor = relation->rate_floor();
   relation_ = nullptr;
+  Eigen::ArrayXd& begin = fluidity_.begin;
   Eigen::ArrayXd& end = fluidity_.end;
-  end = found.end;
-  history.see_companion_rates(end, floor);
-  relation->relaxation_times(end.data(), end.data(), static_cast<std::size_t>(steps));
+  begin = found.end;  // rates, until there are times: a refused time is named with its rate
+  history.see_companion_rates(begin, floor);
+  end.resize(steps);
+  relation->relaxation_times(begin.data(), end.data(), static_cast<std::size_t>(steps));
   end = end.inverse();
   // A step mostly begins at the rate at which the one before ended.
-  Eigen::ArrayXd& begin = fluidity_.begin;
-  begin.resize(steps);
   begin.tail(steps - 1) = end.head(steps - 1);
   const auto goes_on = [&](Index m) {
     return m > 0 && found.begin[m] == found.end[m - 1] && history.direction(m) == history.direction(m - 1);

@@ -121,6 +121,14 @@ def test_a_relation_that_cannot_be_is_refused(make, message):
         make()
 
 
+def test_a_time_that_cannot_be_is_named_with_its_rate():
+    law = probation.Law(
+        unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=probation.Weissenberg(0.00464, 0.0044)
+    )
+    with pytest.raises(probation.InputError, match=r"tau_max = -[\d.]+ s at a strain rate of 0\.05 1/s"):
+        law.stress([0.0, 1.0, 2.0], [0.0, 0.05, 0.1])
+
+
 SLOWED = 1e-6
 """A record whose times were read a million times too long: 1e-3 1/s becomes 1e-9, below the floor of 1e-7 1/s."""
 
