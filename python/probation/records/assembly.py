@@ -14,7 +14,7 @@ from probation.records.table import Table
 
 
 def assemble(
-    source: Source,
+    source: Source | None,
     profile: str,
     reading: Reading,
     table: Table,
@@ -25,8 +25,9 @@ def assemble(
     role: str = "identify",
     noise: Noise | None = None,
     start: str = "relaxed",
+    specimen_id: str | None = None,
 ) -> Record:
-    """Turn the columns of one specimen into a record.
+    """Turn the columns of one specimen into a record; `source` is None for what is in memory.
 
     Raises
     ------
@@ -44,10 +45,10 @@ def assemble(
         **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
         control=control,
         role=role,
-        specimen_id=None,  # a campaign says it
+        specimen_id=specimen_id,
         noise=noise or Noise(),
-        file=source.path,
-        sha256=source.sha256,
+        file=None if source is None else source.path,
+        sha256="" if source is None else source.sha256,
         warnings=(
             *found.warnings,
             *dimension_warning(reading, options, "area_mm2", area),

@@ -132,7 +132,7 @@ def _find(table: Table, label: str | int) -> Column:
 def _nothing_for(table: Table, group: tuple[str, ...]) -> InputError:
     """Complain that a quantity has no column, and point at the likeliest slip."""
     quantity = {"time": "time", "true_strain": "strain", "true_stress": "stress"}[group[0]]
-    if table.header_row is None:
+    if not table.headed:
         return bad_input(
             table.path,
             f"{len(table.columns)} columns without headings",

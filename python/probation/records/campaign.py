@@ -1,20 +1,23 @@
 """A campaign: the records of one material, and the base law that they put to the test."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import Unpack
+from typing import Any, Unpack
+
+from numpy.typing import ArrayLike
 
 from probation._complaint import quoted, suggestion
 from probation._text import printable
 from probation.errors import InputError
 from probation.law.settings import LawSettings
 from probation.records.campaign_file import load_campaign_file
+from probation.records.in_memory import records_from_arrays, records_from_frame
 from probation.records.options import ReadingKeys
 from probation.records.reading import read_records
-from probation.records.record import Record
+from probation.records.record import Noise, Record
 from probation.records.saving import save_campaign
 from probation.records.specimens import Specimens
 
@@ -121,6 +124,153 @@ class Campaign:
             raise InputError("found no files, expected at least one")
         records = [record for path in paths for record in read_records(path, control=control, **how)]
         return cls(name=name or Path(paths[0]).name.split(".")[0], records=tuple(records))
+
+    @classmethod
+    def from_arrays(
+        cls,
+        time: ArrayLike,
+        *,
+        true_strain: ArrayLike | None = None,
+        engineering_strain: ArrayLike | None = None,
+        stretch: ArrayLike | None = None,
+        displacement: ArrayLike | None = None,
+        true_stress: ArrayLike | None = None,
+        engineering_stress: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        strain_rate: ArrayLike | None = None,
+        transverse_strain: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        record: str | Iterable[object] = "record",
+        units: Mapping[str, str] | None = None,
+        specimen: Mapping[str, float] | Mapping[str, Mapping[str, float]] | None = None,
+        control: str | Mapping[str, str] = "other",
+        role: str | Mapping[str, str] = "identify",
+        specimen_id: str | Mapping[str, str] | None = None,
+        noise: Noise | Mapping[str, Noise] | None = None,
+        start: str | Mapping[str, str] = "relaxed",
+        name: str = "arrays",
+        law: LawSettings | None = None,
+        specimens: Specimens | None = None,
+    ) -> "Campaign":
+        """Take arrays as one record or several, by the checks and conversions that files go through.
+
+        Parameters
+        ----------
+        time : array_like, shape (n_times,) [s]
+        true_strain, engineering_strain, stretch, displacement : array_like, shape (n_times,) [-], [-], [-], [mm]
+            One of them. Of several the truest is taken, as from a file.
+        true_stress, engineering_stress, force : array_like, shape (n_times,) [MPa], [MPa], [N]
+            One of them.
+        strain_rate, transverse_strain, temperature : array_like, shape (n_times,) [1/s], [-], [°C], optional
+        record : str or sequence of str, length n_times
+            The record's id; or that of each sample, where the arrays hold several records one after the other.
+        units : mapping of str to str, optional
+            Unit of an argument that is in another one, such as ``{"force": "kN", "engineering_strain": "%"}``.
+        specimen : mapping of str to float, optional
+            For a force ``area_mm2``, or ``width_mm`` and ``thickness_mm``, or ``diameter_mm``; for a displacement
+            ``gauge_length_mm``. Or such a mapping for each record, by its id.
+        control, role, specimen_id, noise, start : optional
+            As in `Record` and campaign.toml, for all records, or mappings by the record's id. `noise` is a
+            `probation.Noise`.
+        name : str
+            Of the campaign.
+        law : LawSettings, optional
+        specimens : Specimens, optional
+
+        Returns
+        -------
+        Campaign
+
+        Raises
+        ------
+        InputError
+            At the first thing that is wrong, naming argument and row (counted from 1), what was found and what was
+            expected.
+        """
+        arrays: dict[str, Any] = {
+            "time": time,
+            "true_strain": true_strain,
+            "engineering_strain": engineering_strain,
+            "stretch": stretch,
+            "displacement": displacement,
+            "true_stress": true_stress,
+            "engineering_stress": engineering_stress,
+            "force": force,
+            "strain_rate": strain_rate,
+            "transverse_strain": transverse_strain,
+            "temperature": temperature,
+        }
+        records = records_from_arrays(
+            arrays,
+            record=record,
+            units=units,
+            specimen=specimen,
+            control=control,
+            role=role,
+            specimen_id=specimen_id,
+            noise=noise,
+            start=start,
+        )
+        return cls(name=name, records=records, law=law or LawSettings(), specimens=specimens or Specimens())
+
+    @classmethod
+    def from_dataframe(
+        cls,
+        frame: Any,
+        *,
+        record: str | None = None,
+        columns: Mapping[str, str | int] | None = None,
+        units: Mapping[str, str] | None = None,
+        specimen: Mapping[str, float] | Mapping[str, Mapping[str, float]] | None = None,
+        control: str | Mapping[str, str] = "other",
+        role: str | Mapping[str, str] = "identify",
+        specimen_id: str | Mapping[str, str] | None = None,
+        noise: Noise | Mapping[str, Noise] | None = None,
+        start: str | Mapping[str, str] = "relaxed",
+        name: str = "data frame",
+        law: LawSettings | None = None,
+        specimens: Specimens | None = None,
+    ) -> "Campaign":
+        """Take the columns of a data frame as one record or several, as those of a file.
+
+        Parameters
+        ----------
+        frame : data frame
+            Of pandas or polars, a mapping of names to arrays, a structured array: anything with named columns. Their
+            names are read as headings of files are: ``time_s``, ``"Force [kN]"``, ``engineering_strain``.
+        record : str, optional
+            The column that says which record a row belongs to. Left out, all rows are one record of the campaign's
+            name.
+        columns : mapping of str to (str or int), optional
+            Name (or position counted from 1) of the column for each role, as in `preview`; by default found by the
+            names.
+        units, specimen, control, role, specimen_id, noise, start, name, law, specimens
+            As in `from_arrays`; a unit that the column's name states need not be repeated.
+
+        Returns
+        -------
+        Campaign
+
+        Raises
+        ------
+        InputError
+            At the first thing that is wrong, naming column and row (counted from 1), what was found and what was
+            expected.
+        """
+        records = records_from_frame(
+            frame,
+            record=record,
+            name=name,
+            columns=columns,
+            units=units,
+            specimen=specimen,
+            control=control,
+            role=role,
+            specimen_id=specimen_id,
+            noise=noise,
+            start=start,
+        )
+        return cls(name=name, records=records, law=law or LawSettings(), specimens=specimens or Specimens())
 
     def save(self, folder: str | PathLike[str]) -> Path:
         """Write campaign.toml and one CSV per record, every digit kept.

@@ -63,6 +63,11 @@ class Table:
     decimal: str = "."
     roles: dict[str, str] = field(default_factory=dict)
 
+    @property
+    def headed(self) -> bool:
+        """Whether its columns have headings of their own."""
+        return self.header_row is not None
+
     def with_roles(self, roles: dict[str, str]) -> "Table":
         """Copy the table, with what its profile knows of the columns."""
         return replace(self, roles=roles)
