@@ -30,7 +30,7 @@ engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROB
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test fuzz bench fe blind lint format sanitize wheel clean
+.PHONY: help demo test docs pictures fuzz bench fe blind lint format sanitize wheel clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,6 +43,13 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 	@# A process per core, files kept together: what a file computes once, it computes once.
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
 	    --cov=probation --cov=probation_studies --cov-report=term:skip-covered --cov-fail-under=90
+
+docs: $(VENV)/.engine $(VENV)/.docs  ## build the site into build/docs/html; runs every tutorial, fails at a warning
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going --quiet -b html docs build/docs/html
+	@echo "docs: build/docs/html/index.html"
+
+pictures: $(VENV)/.engine  ## draw the README's pictures anew, into docs/pictures
+	@$(BIN)/python docs/pictures.py
 
 fuzz: $(VENV)/.engine-tests  ## read CASES=20000 damaged and hostile files (SEED=1) on all cores; keeps those that fail
 	@PYTHONPATH="$(CURDIR)/tests" $(BIN)/python -m fuzz --cases $(CASES) --seed $(SEED)
@@ -114,7 +121,7 @@ wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it need
 	@ls dist/*.whl
 
 clean:  ## remove everything that was made here, .venv too
-	rm -rf build dist $(VENV) compile_commands.json .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage
+	rm -rf build dist docs/built $(VENV) compile_commands.json .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(VENV)/.tools: pyproject.toml
@@ -137,6 +144,6 @@ $(VENV)/.engine-tests: $(VENV)/.tools $(CPP_FILES) $(CMAKE_FILES)
 	@$(call engine,ON,[test])
 	@touch $(VENV)/.engine $@
 
-$(VENV)/.lint $(VENV)/.bench $(VENV)/.wheel: $(VENV)/.%: $(VENV)/.tools
+$(VENV)/.lint $(VENV)/.bench $(VENV)/.docs $(VENV)/.wheel: $(VENV)/.%: $(VENV)/.tools
 	@$(call requirements,$*)
 	@touch $@

@@ -71,7 +71,8 @@ def test_a_parameter_is_held_by_the_same_name_everywhere():
 def _sources():
     for folder in ("python", "cpp", "tests", "bench", "docs"):
         for path in sorted((ROOT / folder).rglob("*")):
-            if path.suffix in {".py", ".pyi", ".md", ".cpp", ".hpp", ".h"} and ".dist-info" not in str(path):
+            made = ".dist-info" in str(path) or "built" in path.parts
+            if path.suffix in {".py", ".pyi", ".md", ".cpp", ".hpp", ".h"} and not made:
                 yield path
     yield ROOT / "README.md"
 

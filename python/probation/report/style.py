@@ -58,6 +58,7 @@ MATPLOTLIB: dict[str, object] = {
     "lines.linewidth": 1.4,
     "savefig.facecolor": "auto",
     "svg.fonttype": "none",
+    "svg.hashsalt": "probation",  # the same picture is the same file
     "text.color": COLOURS["ink"].light,
     "xtick.color": COLOURS["muted"].light,
     "xtick.labelcolor": COLOURS["ink"].light,

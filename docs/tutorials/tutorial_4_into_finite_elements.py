@@ -1,0 +1,137 @@
+"""
+Into finite elements
+====================
+
+*You have an identified law and want it in a finite-element code, with an error that you know.*
+
+There are two ways. A **format** that a code has already (Prony series, flow curves by rate) takes part of the law, at a
+cost that is stated. A **user material** takes all of it: the C++ point of this package behind the interface of Abaqus,
+CalculiX, MGIS or plain C.
+"""
+
+# %%
+# The law
+# -------
+#
+# Usually it comes from a fit: ``probation fit hdpe-2020/ --json fit.json``, then ``probation export fit.json …``. Here
+# we write it down.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import probation
+
+law = probation.Law(
+    unrelaxed_modulus=3220.0,
+    alpha=1.0,
+    hardening_modulus=1.8,
+    companion=probation.Weissenberg(0.00464, 0.0367),
+)
+
+# %%
+# Fewer modes
+# -----------
+#
+# The law has 50 modes, and each is a state variable at every integration point (six in three dimensions). Nine modes
+# keep the stress within a thousandth.
+
+modes, errors = [3, 4, 5, 6, 7, 9, 11], []
+for count in modes:
+    errors.append(probation.reduce_spectrum(modes=count).error)
+figure, axes = plt.subplots(figsize=(6.4, 2.8))
+axes.semilogy(modes, errors, "o-")
+axes.set(xlabel="modes kept", ylabel="relative error of the stress", title="What fewer modes cost")
+
+# %%
+# A file for a user material
+# --------------------------
+#
+# In a terminal: ``probation export fit.json --format abaqus-umat --modes 9 -o hdpe.inp``. The file is read back from
+# its own text and solved again; the error against the identified law is in its header.
+
+card = probation.export(law, "abaqus-umat", name="hdpe", modes=9)
+print(card.text[:2600])
+
+# %%
+# A file for a code without user materials
+# ----------------------------------------
+#
+# A Prony series is linear viscoelasticity: it has one relaxation spectrum, at one strain rate, and no hardening. The
+# header says what is lost. Whether that is enough for you depends on the strain that you expect.
+
+prony = probation.export(law, "abaqus-prony", name="hdpe", rate=0.005)
+print(prony.summary())
+
+# %%
+# Compare before you trust
+# ------------------------
+#
+# The stress of one element under the history that matters to you, by the exported modes and by the full law:
+
+history = probation.named_history("necking", grip_speed=0.08, samples=401)
+reduced = probation.Law(
+    unrelaxed_modulus=3220.0,
+    alpha=1.0,
+    hardening_modulus=1.8,
+    companion=probation.Weissenberg(0.00464, 0.0367),
+    spectrum=probation.reduce_spectrum(modes=9).spectrum,
+)
+driven = probation.StrainHistory(history.time, history.true_strain, strain_rate=history.strain_rate)
+full = law.stress(driven, scheme="sa3")
+short = reduced.stress(driven, scheme="sa3")
+figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1))
+top.plot(history.true_strain, full, label="50 modes")
+top.plot(history.true_strain, short, "--", label="9 modes")
+top.set_ylabel("true stress [MPa]")
+top.legend()
+bottom.plot(history.true_strain, short - full)
+bottom.set(xlabel="true strain [–]", ylabel="difference [MPa]")
+print(f"largest difference: {np.abs(short - full).max():.3f} MPa")
+
+# %%
+# The material point in three dimensions
+# --------------------------------------
+#
+# The point works at finite strain. Here it is driven in isochoric tension, one increment after another, and compared
+# with the law in one dimension. The same C++ is what Abaqus or CalculiX call.
+
+from probation.fe.point import MaterialPoint
+
+point = MaterialPoint.from_law(law, bulk_modulus=100 * 3220.0 / 3)
+state, axial = None, [0.0]
+for strain, dt in zip(history.true_strain[1:], np.diff(history.time), strict=True):
+    stretch = np.exp(strain)
+    gradient = np.diag([stretch, stretch**-0.5, stretch**-0.5])
+    piola, _, state = point.first_piola(gradient[np.newaxis], dt, state, with_tangent=False)
+    cauchy = piola[0] @ gradient.T
+    axial.append(cauchy[0, 0] - cauchy[1, 1])
+increments = law.stress(history.time, history.true_strain, scheme="sa2")
+print(f"three dimensions less one: {np.abs(np.array(axial) - increments).max():.1e} MPa")
+
+# %%
+# A bar that necks
+# ----------------
+#
+# With felupe (``pip install 'probation[fe]'``) the point drives a whole bar: a round specimen, a section 2 % smaller in
+# its middle, grips at constant speed. The mesh is coarse, so that this page is built in seconds.
+
+from probation.fe.bar import Bar
+from probation.fe.necking import neck
+
+bar = Bar(elements=(12, 1), centre_strain=1.2, largest_step=0.02)
+necking = neck(point, bar)
+figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.0))
+left.plot(necking.nominal_strain, necking.nominal_stress)
+left.set(xlabel="nominal strain [–]", ylabel="nominal stress [MPa]", title="What the machine sees")
+right.plot(*necking.outline, color="C0")
+right.plot(necking.outline[0], -necking.outline[1], color="C0")
+right.set(xlabel="along the bar [mm]", ylabel="radius [mm]", title="The bar at the end (half of it)")
+right.set_aspect("equal")
+
+# %%
+# Next
+# ----
+#
+# - Constants, state, tangents, increments, Abaqus, CalculiX and MGIS: :doc:`/finite-elements`.
+# - What each format errs by: :doc:`/export`.
+# - Check your own constants in the compiled routines: ``probation_point_check``.

@@ -1,0 +1,89 @@
+"""What the site is made of: two tutorials run here, `make docs` builds all; pictures of the README are up to date."""
+
+import contextlib
+import io
+import re
+import runpy
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+
+import probation
+from probation.cli import build_parser
+from probation.effects.registry import effects
+
+DOCS = Path(__file__).parents[2] / "docs"
+PICTURES = ("overview", "curves", "where", "which")
+
+
+@pytest.fixture(autouse=True)
+def no_figures_left():
+    yield
+    plt.close("all")
+
+
+def _run(name):
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed), plt.rc_context({"figure.max_open_warning": 0, "backend": "agg"}):
+        names = runpy.run_path(str(DOCS / "tutorials" / name))
+    return names, printed.getvalue()
+
+
+def test_the_first_tutorial_returns_the_truth_that_it_put_in():
+    names, printed = _run("tutorial_1_first_identification.py")
+    fit = names["fit"]
+    for name, true in (("unrelaxed_modulus", 3220.0), ("tau_max", 5.0), ("hardening_modulus", 2.0)):
+        assert abs(fit.parameters[name].value - true) < 2.0 * fit.parameters[name].se, name
+    assert "the law describes the records to within their noise" in printed
+    assert "times the noise" in names["misfit"].verdict
+
+
+def test_the_second_tutorial_certifies_one_law_and_names_what_changes_in_the_other():
+    names, _ = _run("tutorial_2_the_probation_test.py")
+    assert names["certificate"].verdict == "intrinsic"
+    assert names["failing"].verdict == "intrinsic_except"
+    assert names["failing"].reason.startswith("G changes")
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pictures")
+    runpy.run_path(str(DOCS / "pictures.py"))["draw"](folder)
+    return folder
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_of_the_readme_says_what_the_program_draws_today(drawn, name):
+    """Words and numbers in it; lines differ in their last digits from one processor to the next."""
+    today, stored = (
+        re.findall(r"<text[^>]*>([^<]*)", (folder / f"{name}.svg").read_text(encoding="utf-8"))
+        for folder in (drawn, DOCS / "pictures")
+    )
+    assert len(today) > 5
+    assert today == stored, "make pictures draws it anew"
+
+
+def test_no_image_is_stored_but_those_pictures():
+    stored = {
+        path.relative_to(DOCS).as_posix()
+        for path in DOCS.rglob("*")
+        if path.suffix in {".png", ".svg", ".jpg", ".gif", ".pdf"} and "built" not in path.parts
+    }
+    assert stored == {f"pictures/{name}.svg" for name in PICTURES}
+
+
+def test_the_generated_reference_holds_every_public_name_command_and_effect(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS / "extensions"))
+    sys.modules.pop("generated", None)
+    import generated  # noqa: PLC0415
+
+    names = set(re.findall(r"^   probation\.(\w+)$", generated.api_page(), re.MULTILINE))
+    assert names == set(probation.__all__) - {"__version__", "batch"}
+    helped = generated.commands_page()
+    assert all(f"## probation {name}\n" in helped for name in generated._subcommands(build_parser()))
+    page = generated.effects_page()
+    for effect in effects():
+        assert f"`{effect.name}`" in page
+        assert all(f"`{each.name}`" in page for form in effect.forms for each in form.parameters)
