@@ -7,7 +7,7 @@ short.
 import argparse
 import inspect
 import re
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ import numpy as np
 import probation
 from probation.cli import build_parser
 from probation.effects.cause import Cause
-from probation.effects.effect import Effect, EffectParameter
+from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
 from probation.exporting.formats import FORMATS
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
 GROUPS = {
-    "Files and records": ("Campaign", "Record", "Noise", "preview", "read_history"),
+    "Files and records": ("Campaign", "Record", "Specimens", "Noise", "preview", "read_history"),
     "The law": ("Law", "Spectrum", "haward_thackray_strain", "ramp_stress", "creep", "reduce_spectrum", "Reduction"),
     "Strain histories": ("StrainHistory", "ImposedHistory", "named_history", "excite", "Excitation"),
     "Schemes": ("BE2", "SA2", "SA3", "Exact", "CVODE", "crosscheck", "CrossCheck"),
@@ -40,7 +40,8 @@ GROUPS = {
     "Put on probation": ("certify", "Certificate"),
     "Diagnose": ("diagnose", "Diagnosis", "compare", "Comparison", "Reference", "CallableLaw"),
     "Plan tests": ("plan", "Plan"),
-    "What an effect changes in the law": ("Change", "SelfHeating", "StressActivation", "PowerActivation", "Direction"),
+    "What an effect changes in the law": ("Modification", "SelfHeating", "StressActivation", "PowerActivation", "RateShift",
+                                          "InitialStress", "Direction"),
     "Simulate and export": ("simulate", "Simulation", "export", "Export"),
     "Errors": ("InputError", "ConvergenceError"),
 }  # fmt: skip
@@ -157,14 +158,14 @@ def effects_page() -> str:
     return "\n".join(page)
 
 
-def _equation(form: object) -> str:
+def _equation(form: Form) -> str:
     """First paragraphs of the functions by which the form enters the law or the record."""
     said = []
-    for hook in ("law_change", "driving_strain", "recorded_stress"):
-        function = getattr(form, hook)
-        if text := inspect.getdoc(getattr(function, "func", function) or _equation) if function else None:
+    for field in fields(form):
+        function = getattr(form, field.name)
+        if field.name != "starts" and callable(function) and (text := inspect.getdoc(function)):
             said.append(" ".join(text.split("\n\n")[0].split()).replace("*", r"\*").replace("|", r"\|"))
-    return " ".join(text.rstrip(".") + "." for text in dict.fromkeys(said) if "Partial" not in text)
+    return " ".join(text.rstrip(".") + "." for text in dict.fromkeys(said))
 
 
 def _row(parameter: EffectParameter) -> str:

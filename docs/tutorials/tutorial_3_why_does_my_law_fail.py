@@ -27,7 +27,7 @@ from probation.report.residual_map import residual_map
 
 relation = probation.Weissenberg(0.00464, 0.0367)
 law = probation.Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=relation)
-warming = probation.Change(
+warming = probation.Modification(
     feedbacks=(probation.SelfHeating(heating=0.3, cooling_rate=0.004, softening=0.1, hardening_loss=0.004),)
 )
 tests = {
@@ -42,7 +42,7 @@ noise = np.random.default_rng(0)
 text = ['name = "warm"', "[law.companion]", 'form = "weissenberg"', "slope = 0.00464", "intercept = 0.0367"]
 for name, test in tests.items():
     history = probation.StrainHistory(test.time, test.true_strain, strain_rate=test.strain_rate)
-    stress = law.stress(history, scheme="sa3", change=warming) + noise.normal(0.0, 0.04, len(test.time))
+    stress = law.stress(history, scheme="sa3", modification=warming) + noise.normal(0.0, 0.04, len(test.time))
     table = np.column_stack([test.time, test.true_strain, stress])
     np.savetxt(folder / f"{name}.csv", table, delimiter=",", header="time_s,true_strain,true_stress_MPa", comments="")
     text += ["[[record]]", f'id = "{name}"', f'file = "{name}.csv"']

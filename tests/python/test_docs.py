@@ -47,6 +47,13 @@ def test_the_second_tutorial_certifies_one_law_and_names_what_changes_in_the_oth
     assert names["failing"].reason.startswith("G changes")
 
 
+def test_the_third_tutorial_finds_the_effect_that_it_put_in():
+    names, _ = _run("tutorial_3_why_does_my_law_fail.py")
+    diagnosis = names["diagnosis"]
+    assert diagnosis.best.effects == ("self_heating",)
+    assert diagnosis.shrink.held_out.after_MPa < 0.05
+
+
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pictures")
@@ -74,7 +81,7 @@ def test_no_image_is_stored_but_those_pictures():
     assert stored == {f"pictures/{name}.svg" for name in PICTURES}
 
 
-def test_the_generated_reference_holds_every_public_name_command_and_effect(monkeypatch):
+def test_the_generated_reference_holds_every_public_name_command_and_effect(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(DOCS / "extensions"))
     sys.modules.pop("generated", None)
     import generated  # noqa: PLC0415
@@ -87,3 +94,6 @@ def test_the_generated_reference_holds_every_public_name_command_and_effect(monk
     for effect in effects():
         assert f"`{effect.name}`" in page
         assert all(f"`{each.name}`" in page for form in effect.forms for each in form.parameters)
+    assert "Area e^(-a (1 - e^(-e / e_c)))" in page  # the equation of a form
+    generated.draw_effect(effects(["machine_compliance"])[0], tmp_path / "effect.svg")
+    assert (tmp_path / "effect.svg").stat().st_size > 10_000
