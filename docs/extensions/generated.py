@@ -40,8 +40,9 @@ GROUPS = {
     "Put on probation": ("certify", "Certificate"),
     "Diagnose": ("diagnose", "Diagnosis", "compare", "Comparison", "Reference", "CallableLaw"),
     "Plan tests": ("plan", "Plan"),
-    "What an effect changes in the law": ("Modification", "SelfHeating", "StressActivation", "PowerActivation", "RateShift",
-                                          "InitialStress", "Direction"),
+    "What an effect changes in the law": (
+        "Modification", "SelfHeating", "StressActivation", "PowerActivation", "RateShift", "InitialStress", "Direction",
+    ),
     "Simulate and export": ("simulate", "Simulation", "export", "Export"),
     "Errors": ("InputError", "ConvergenceError"),
 }  # fmt: skip
