@@ -61,7 +61,7 @@ def test_a_file_without_headings_asks_for_them_or_for_positions(refusal):
 
 
 def test_a_heading_that_stands_twice_must_be_chosen_by_position(refusal):
-    content = "\n".join(f"{line},{line}" for line in good().splitlines())
+    content = "\n".join(f"{line},{line.split(',')[0]}" for line in good().splitlines())
     assert "column 'time_s': found a second column for time" in refusal(content)
     assert "2 columns headed 'time_s' (positions 1 and 4)" in refusal(content, columns={"time": "time_s"})
 

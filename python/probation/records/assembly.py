@@ -51,7 +51,7 @@ def assemble(
         sha256="" if source is None else source.sha256,
         warnings=(
             *found.warnings,
-            *dimension_warning(reading, options, "area_mm2", area),
+            *dimension_warning(table, reading, options, "area_mm2", area),
             *_volume_warning(measure),
         ),
         profile=profile,

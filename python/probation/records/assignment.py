@@ -8,7 +8,16 @@ from probation._complaint import bad_input, likely, listed, quoted
 from probation.errors import InputError
 from probation.records.header import without_brackets
 from probation.records.options import ReadOptions
-from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, normalised, role_of
+from probation.records.roles import (
+    OPTIONAL_ROLES,
+    ROLES,
+    STRAIN_ROLES,
+    STRESS_ROLES,
+    VAGUE,
+    is_further,
+    normalised,
+    role_of,
+)
 from probation.records.table import Column, Table
 from probation.records.units import is_percent, measures
 
@@ -57,8 +66,11 @@ def _from_labels(table: Table, roles: Mapping[str, str]) -> dict[str, Column]:
 
 def _from_headings(table: Table) -> dict[str, Column]:
     implied: dict[str, Column] = {}
+    better = {role_of(column.name) for column in table.columns if not _is_further(column)}
     for column in table.columns:
         role = role_of(column.name)
+        if _is_further(column) and role in better:
+            continue
         if role in implied:
             raise bad_input(
                 table.path,
@@ -76,6 +88,11 @@ def _from_headings(table: Table) -> dict[str, Column]:
             if len(headed) == 1:
                 implied[role] = headed[0]
     return implied
+
+
+def _is_further(column: Column) -> bool:
+    role = role_of(column.name)
+    return role is not None and is_further(role, column.name)
 
 
 def is_role_of_unit(role: str, column: Column) -> bool:
@@ -141,7 +158,7 @@ def _nothing_for(table: Table, group: tuple[str, ...]) -> InputError:
             remedy="add them, or name columns by position: columns = { time = 1, true_strain = 2, … }",
         )
     labels = [column.label for column in table.columns]
-    vague = [column.label for column in table.columns if normalised(column.name) == quantity]
+    vague = [column.label for column in table.columns if normalised(column.name) in VAGUE.get(quantity, ())]
     remedy = (
         f"{quoted(vague[0])} may be true or engineering: say which, columns = {{ true_{quantity} = … }}"
         if vague

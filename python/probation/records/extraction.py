@@ -101,7 +101,7 @@ def extract(
         *_unit_warnings(columns, options),
         *_unstated_units(table, columns, raw.samples, options),
         *_roles_of_units(table, columns, options),
-        *dimension_warning(reading, options, "gauge_length_mm", length),
+        *dimension_warning(table, reading, options, "gauge_length_mm", length),
         *strain_doubts(role, column, samples[role], stated),
     )
     return Extraction(samples=samples, true_strain=true_strain, stretch=stretch, warnings=warnings)
@@ -115,7 +115,8 @@ def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, ro
     InputError
         If neither the user nor the profile gives it.
     """
-    value = options.specimen.get(key, reading.specimen.get(key))
+    stated = {**reading.specimen, **table.specimen, **options.specimen}
+    value = stated.get(key)
     if value is None:
         raise InputError(
             f"{table.path}: found a {role} but no {key}, expected specimen = {{ {key} = … }}; "
@@ -124,9 +125,11 @@ def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, ro
     return float(value)
 
 
-def dimension_warning(reading: Reading, options: ReadOptions, key: str, value: float | None) -> tuple[str, ...]:
+def dimension_warning(
+    table: Table, reading: Reading, options: ReadOptions, key: str, value: float | None
+) -> tuple[str, ...]:
     """Say so where a dimension in use is the profile's and not the user's."""
-    if value is None or key in options.specimen or key not in reading.specimen:
+    if value is None or key in {**table.specimen, **options.specimen} or key not in reading.specimen:
         return ()
     return (f"{key} = {value:g} is assumed by the profile; specimen = … replaces it",)
 

@@ -35,7 +35,9 @@ class Heading:
     first: int
 
 
-def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
+def find_heading(
+    grid: Grid, wanted: Collection[str] = (), known: Collection[str] = (), *, notes_below: bool = False
+) -> Heading:
     """Find the headings, whatever metadata stands above and units stand below them.
 
     The heading row is the one that names the wanted columns or, by the usual names, at least two
@@ -48,9 +50,13 @@ def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
     grid : Grid
     wanted : collection of str
         Labels that the user named.
+    known : collection of str
+        Names of quantities beside the usual ones, as `normalised`.
+    notes_below : bool
+        Whether rows of text may stand between the headings and the numbers.
     """
     rows = grid.rows[:_SEARCHED_ROWS]
-    header = _row_naming(rows, wanted)
+    header = _row_naming(rows, wanted, known)
     if header is None:
         first = _first_data_row(rows, 0)
         header = first - 1
@@ -60,21 +66,24 @@ def find_heading(grid: Grid, wanted: Collection[str] = ()) -> Heading:
             return Heading(columns=_numbered(len(rows[0])), row=None, first=first)
     units = next((at for at in range(header + 1, _first_data_row(rows, header + 1)) if _is_units_row(rows[at])), None)
     first = header + 1 if units is None else units + 1
+    if notes_below:
+        first = _first_data_row(rows, first)
     while first < len(rows) and not any(cell.strip() for cell in rows[first]):
         first += 1
     columns = _columns(rows[header], [] if units is None else rows[units])
     return Heading(columns=columns, row=header, first=first)
 
 
-def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str]) -> int | None:
+def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str], known: Collection[str]) -> int | None:
     for at, row in enumerate(rows):
         if _is_data_row(row):
             continue
         labels = {_one_line(cell) for cell in row}
         columns = _columns(row, [])
         named = sum(label in labels or any(label == c.name for c in columns) for label in wanted)
-        known = {role_of(column.name) for column in columns} - {None}
-        if named >= min(2, len(wanted)) > 0 or len(known) >= 2:
+        usual = {role_of(column.name) for column in columns} - {None}
+        beside = {normalised(column.name) for column in columns} & set(known)
+        if named >= min(2, len(wanted)) > 0 or len(usual) >= 2 or len(beside) >= 2:
             return at
     return None
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from probation.records.assignment import assign_columns
 from probation.records.options import ReadingKeys, ReadOptions, read_options
 from probation.records.profiles import Reading
+from probation.records.profiles.excel import recognises as is_workbook
 from probation.records.reading import assemble_all, chosen_tables, open_file
 from probation.records.record import Record
 from probation.records.table import Column, Table
@@ -44,6 +45,8 @@ class Preview(Summarised, Plotted):
     auxiliary : str
         What it holds instead.
     metadata : dict of str to str
+    specimen : dict of str to float
+        ``area_mm2`` and ``gauge_length_mm``, where the file states them.
     first_rows : tuple of tuple of str
         The first data cells, as they stand.
     rows : int
@@ -61,6 +64,7 @@ class Preview(Summarised, Plotted):
     records: tuple[Record, ...]
     auxiliary: str
     metadata: Mapping[str, str]
+    specimen: Mapping[str, float]
     first_rows: tuple[tuple[str, ...], ...]
     rows: int
 
@@ -90,7 +94,7 @@ def preview(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> Preview:
         path=path,
         profile=found.name,
         title=found.title,
-        encoding="" if found.name == "excel" else source.encoding,
+        encoding="" if is_workbook(source) else source.encoding,
         separator=reading.separator,
         decimal=table.decimal,
         header_row=table.header_row,
@@ -98,6 +102,7 @@ def preview(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> Preview:
         records=records,
         auxiliary=reading.auxiliary,
         metadata=reading.metadata,
+        specimen=table.specimen,
         first_rows=_first_rows(table),
         rows=len(table.rows),
     )

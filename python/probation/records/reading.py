@@ -1,5 +1,7 @@
 """Files to records: the one way in, for campaigns, previews and scripts."""
 
+from dataclasses import replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Unpack
@@ -9,6 +11,7 @@ from probation.errors import InputError
 from probation.records.assembly import assemble
 from probation.records.options import ReadingKeys, ReadOptions, read_options
 from probation.records.profiles import Profile, Reading, find_profile
+from probation.records.profiles.excel import recognises as is_workbook
 from probation.records.record import Noise, Record
 from probation.records.source import Source
 from probation.records.start import STARTS
@@ -51,14 +54,24 @@ def read_records(
     """
     path = Path(path)
     options = read_options(path, **how)
+    made = partial(assemble_all, control=control, role=role, noise=noise, start=start)
+    source, found, reading = _open_records(path, options, start)
+    if len(reading.like_sheets) < 2:
+        return made(source, found, reading, options, record_id=record_id)
+    records: list[Record] = []
+    for sheet in reading.like_sheets:
+        chosen = replace(options, sheet=sheet)
+        records += made(*_open_records(path, chosen, start), chosen, record_id=f"{record_id or _stem(path)}-{sheet}")
+    return tuple(records)
+
+
+def _open_records(path: Path, options: ReadOptions, start: str) -> tuple[Source, Profile, Reading]:
     source, found, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
     if start not in STARTS:
         raise InputError(f"{path}: start: found {start!r}; {suggestion(start, STARTS)}")
-    return assemble_all(
-        source, found, reading, options, record_id=record_id, control=control, role=role, noise=noise, start=start
-    )
+    return source, found, reading
 
 
 def read_record(
@@ -71,16 +84,26 @@ def read_record(
     start: str = "relaxed",
     **how: Unpack[ReadingKeys],
 ) -> Record:
-    """Read one specimen of a file; parameters as in `read_records`.
+    """Read one specimen of a file; parameters as in `read_records`. Of a workbook, one sheet is read.
 
     Raises
     ------
     InputError
         As `read_records`, and if the file holds several specimens and none is chosen.
     """
-    records = read_records(path, record_id=record_id, control=control, role=role, noise=noise, start=start, **how)
+    path = Path(path)
+    options = read_options(path, **how)
+    records = assemble_all(
+        *_open_records(path, options, start),
+        options,
+        record_id=record_id,
+        control=control,
+        role=role,
+        noise=noise,
+        start=start,
+    )
     if len(records) > 1:
-        raise several_specimens(Path(path), len(records))
+        raise several_specimens(path, len(records))
     return records[0]
 
 
@@ -98,9 +121,10 @@ def open_file(path: Path, options: ReadOptions) -> tuple[Source, Profile, Readin
     """Open a file, recognise it, and find its columns."""
     source = Source.open(path)
     profile = find_profile(source, options.profile)
-    if options.sheet is not None and profile.name != "excel":
+    if options.sheet is not None and not is_workbook(source):
         raise InputError(f"{path}: found sheet = {quoted(options.sheet)} for a text file, expected none; drop it")
-    return source, profile, profile.read(source, options)
+    reading = profile.read(source, options)
+    return source, find_profile(source, reading.machine) if reading.machine else profile, reading
 
 
 def assemble_all(
@@ -116,7 +140,7 @@ def assemble_all(
     start: str = "relaxed",
 ) -> tuple[Record, ...]:
     """Turn the specimens asked for into records, named after the file unless named."""
-    stem = record_id or source.path.name.split(".")[0] or source.path.name
+    stem = record_id or _stem(source.path)
     several = record_id is None and len(reading.tables) > 1
     return tuple(
         assemble(
@@ -133,6 +157,11 @@ def assemble_all(
         )
         for number, table in chosen_tables(source.path, reading, options.specimen_index)
     )
+
+
+def _stem(path: Path) -> str:
+    """The file's name without endings."""
+    return path.name.split(".")[0] or path.name
 
 
 def chosen_tables(path: Path, reading: Reading, specimen_index: int | None) -> list[tuple[int, Table]]:

@@ -16,37 +16,82 @@ class Role:
         What the unit must measure, with an example, for error messages.
     headings : frozenset of str
         Headings, in the form of `normalised`, that mean this role and nothing else.
+    further : frozenset of str
+        Those that mean it where no column is headed by one of `headings`: "Stroke" beside "Extension".
     """
 
     unit: str
     kind: str
     headings: frozenset[str]
+    further: frozenset[str]
 
 
-def _role(unit: str, kind: str, *headings: str) -> Role:
-    return Role(unit=unit, kind=kind, headings=frozenset(headings))
+def _role(unit: str, kind: str, *headings: str, further: tuple[str, ...] = ()) -> Role:
+    return Role(unit=unit, kind=kind, headings=frozenset(headings), further=frozenset(further))
 
 
 _STRAIN_UNIT = "a strain unit such as '-' or '%'"
 _STRESS_UNIT = "a stress unit such as 'MPa'"
 
 ROLES: dict[str, Role] = {
-    "time": _role("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
-    "true_strain": _role(
-        "dimensionless", _STRAIN_UNIT, "true_strain", "hencky_strain", "log_strain", "logarithmic_strain"
+    "time": _role(
+        *("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
+        further=("running_time", "total_time", "zeit", "prüfzeit", "pruefzeit", "temps", "durée", "temps_écoulé"),
     ),
-    "engineering_strain": _role("dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"),
+    "true_strain": _role(
+        *("dimensionless", _STRAIN_UNIT, "true_strain", "hencky_strain", "log_strain", "logarithmic_strain"),
+        further=("wahre_dehnung", "logarithmische_dehnung", "déformation_vraie", "deformation_vraie"),
+    ),
+    "engineering_strain": _role(
+        *("dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"),
+        further=(
+            *("tensile_strain", "axial_strain", "technische_dehnung", "nominelle_dehnung"),
+            *("déformation_nominale", "déformation_conventionnelle", "deformation_nominale"),
+        ),
+    ),
     "stretch": _role("dimensionless", _STRAIN_UNIT, "stretch", "stretch_ratio"),
     "displacement": _role(
-        "mm", "a length unit such as 'mm'", "displacement", "extension", "crosshead_displacement", "disp"
+        *("mm", "a length unit such as 'mm'", "displacement", "extension", "crosshead_displacement", "disp"),
+        further=(
+            *(
+                "stroke",
+                "crosshead",
+                "crosshead_travel",
+                "axial_displacement",
+                "tensile_extension",
+                "machine_extension",
+            ),
+            *("standardweg", "traversenweg", "kolbenweg", "weg", "verschiebung"),
+            *("déplacement", "deplacement", "déplacement_traverse", "course"),
+        ),
     ),
-    "true_stress": _role("MPa", _STRESS_UNIT, "true_stress", "cauchy_stress"),
-    "engineering_stress": _role("MPa", _STRESS_UNIT, "engineering_stress", "eng_stress", "nominal_stress"),
-    "force": _role("N", "a force unit such as 'N'", "force", "load"),
+    "true_stress": _role(
+        *("MPa", _STRESS_UNIT, "true_stress", "cauchy_stress"),
+        further=("wahre_spannung", "contrainte_vraie"),
+    ),
+    "engineering_stress": _role(
+        *("MPa", _STRESS_UNIT, "engineering_stress", "eng_stress", "nominal_stress"),
+        further=(
+            *("tensile_stress", "axial_stress", "technische_spannung", "zugspannung"),
+            *("contrainte_nominale", "contrainte_conventionnelle"),
+        ),
+    ),
+    "force": _role(
+        *("N", "a force unit such as 'N'", "force", "load"),
+        further=("axial_force", "axial_load", "kraft", "standardkraft", "prüfkraft", "pruefkraft", "effort", "charge"),
+    ),
     "strain_rate": _role("1/s", "a rate unit such as '1/s'", "strain_rate", "true_strain_rate"),
     "transverse_strain": _role("dimensionless", _STRAIN_UNIT, "transverse_strain", "true_transverse_strain"),
-    "temperature": _role("degC", "a temperature unit such as 'degC'", "temperature", "temp"),
+    "temperature": _role(
+        *("degC", "a temperature unit such as 'degC'", "temperature", "temp"),
+        further=("temperatur", "température"),
+    ),
 }
+VAGUE = {
+    "strain": ("strain", "dehnung", "déformation", "deformation", "elongation", "allongement", "strain_1"),
+    "stress": ("stress", "spannung", "contrainte"),
+}
+"""Headings, as `normalised`, that do not say whether a strain or a stress is true or engineering."""
 STRAIN_ROLES = ("true_strain", "engineering_strain", "stretch", "displacement")
 STRESS_ROLES = ("true_stress", "engineering_stress", "force")
 OPTIONAL_ROLES = ("strain_rate", "transverse_strain", "temperature")
@@ -68,7 +113,12 @@ def normalised(heading: str) -> str:
 def role_of(heading: str) -> str | None:
     """Tell the role that a heading without unit stands for, if it says so unmistakably."""
     folded = normalised(heading)
-    return next((name for name, role in ROLES.items() if folded in role.headings), None)
+    return next((name for name, role in ROLES.items() if folded in role.headings | role.further), None)
+
+
+def is_further(role: str, heading: str) -> bool:
+    """Tell whether a heading means the role only where no column is headed by a better one."""
+    return normalised(heading) in ROLES[role].further
 
 
 def split_suffix(folded: str) -> tuple[str, str] | None:

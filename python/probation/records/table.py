@@ -53,6 +53,8 @@ class Table:
     roles : dict of str to str
         Which label plays which role (``{"time": "Time (s)"}``) where the import profile knows;
         otherwise empty, and the headings decide.
+    specimen : dict of str to float
+        ``area_mm2`` and ``gauge_length_mm`` that the file states for this specimen.
     """
 
     path: Path
@@ -62,6 +64,7 @@ class Table:
     header_row: int | None
     decimal: str = "."
     roles: dict[str, str] = field(default_factory=dict)
+    specimen: dict[str, float] = field(default_factory=dict)
 
     @property
     def headed(self) -> bool:

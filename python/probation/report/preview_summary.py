@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from probation.records.preview import Preview
     from probation.records.record import Record
 
+_FACTS = 20  # shown of those above the headings
+
 _LABELS = {
     "time": ("time", "s"),
     "true_strain": ("true strain", ""),
@@ -28,9 +30,13 @@ _LABELS = {
 def preview_summary(shown: Preview) -> str:
     """All of it as text, the verdict first, with a plot of each record."""
     parts = [_verdict(shown), _layout(shown), _columns(shown)]
+    if shown.specimen:
+        stated = ", ".join(f"{key} = {value:.6g}" for key, value in sorted(shown.specimen.items()))
+        parts.append(f"specimen  {stated}, stated in the file")
     if shown.metadata:
-        facts = (printable(f"{key}: {text}") for key, text in shown.metadata.items())
-        parts.append("\n".join(["metadata", *(f"  {fact}" for fact in facts)]))
+        facts = [printable(f"{key}: {text}") for key, text in shown.metadata.items()]
+        more = [f"and {len(facts) - _FACTS} more"] if len(facts) > _FACTS else []
+        parts.append("\n".join(["metadata", *(f"  {fact}" for fact in (*facts[:_FACTS], *more))]))
     parts += [_describe(record) for record in shown.records]
     parts.append(_first_rows(shown))
     return "\n\n".join(parts)

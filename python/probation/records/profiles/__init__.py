@@ -2,6 +2,7 @@
 
 from probation._complaint import quoted, suggestion
 from probation.errors import InputError
+from probation.records.options import ReadOptions
 from probation.records.profiles import (
     delimited,
     etfe,
@@ -11,13 +12,27 @@ from probation.records.profiles import (
     silicone,
     vhb,
 )
+from probation.records.profiles.machine import Machine
+from probation.records.profiles.machines import MACHINES
 from probation.records.profiles.profile import Profile, Reading
 from probation.records.source import Source
 
 __all__ = ["PROFILES", "Profile", "Reading", "find_profile"]
 
+
+def _of(machine: Machine) -> Profile:
+    """A machine's files by name; left out, `excel` and `csv` recognise them by their cells."""
+
+    def read(source: Source, options: ReadOptions) -> Reading:
+        container = excel.PROFILE if excel.recognises(source) else delimited.PROFILE
+        return container.read(source, options)
+
+    return Profile(name=machine.name, title=machine.title, recognises=lambda source: False, read=read)
+
+
 # Asked in this order; the last one takes everything.
 PROFILES: tuple[Profile, ...] = (
+    *map(_of, MACHINES),
     excel.PROFILE,
     etfe.PROFILE,
     etfe_relaxation.PROFILE,

@@ -15,8 +15,8 @@ from probation.limits import INFLATED_BYTES, MEBIBYTE
 from probation.records.checks import MINIMUM_SAMPLES
 from probation.records.grid import Grid, check_extent
 from probation.records.options import ReadOptions
-from probation.records.profiles.delimited import table_from
 from probation.records.profiles.profile import Profile, Reading
+from probation.records.profiles.tables import read_tables
 from probation.records.source import Source
 from probation.records.table import Table
 from probation.records.units import is_percent
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from openpyxl.cell.cell import Cell, MergedCell
     from openpyxl.workbook import Workbook
 
+_HEADED_ROWS = 60
 _ZIP_MAGIC = b"PK\x03\x04"
 _PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a number format: text that is shown beside the number
 _OLD_EXCEL_MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -63,14 +64,25 @@ def _read(source: Source, options: ReadOptions) -> Reading:
         workbook.close()
     if not filled:
         raise bad_input(source.path, "an empty sheet", "a table with headings and at least ten rows")
-    name, (grid, percents) = next((sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES), filled[0])
+    long = [sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES]
+    name, (grid, percents) = (long or filled)[0]
+    reading = read_tables(source, grid, options)
+    like = tuple(other for other, (grid, _) in long if _is_headed_alike(grid, reading.tables[0]))
     ignored = [other for other, _ in filled if other != name]
     note = f"read sheet {quoted(name)} only; choose another with sheet = …: {', '.join(ignored)}"
-    return Reading(
-        tables=(_as_shown(table_from(source, grid, options), percents),),
-        separator=grid.separator,
+    return replace(
+        reading,
+        tables=tuple(_as_shown(table, percents) for table in reading.tables),
         warnings=(note,) if ignored else (),
+        like_sheets=like,
     )
+
+
+def _is_headed_alike(grid: Grid, table: Table) -> bool:
+    """The sheet has the headings of the table, so it is another specimen of the same test."""
+    headings = [column.label for column in table.columns if column.label]
+    rows = ([" ".join(cell.split()) for cell in row] for row in grid.rows[:_HEADED_ROWS])
+    return any(row[: len(headings)] == headings for row in rows)
 
 
 def _open(source: Source) -> "Workbook":

@@ -23,6 +23,10 @@ class Reading:
     metadata : dict of str to str
         What the file says about itself above the headings.
     warnings : tuple of str
+    machine : str
+        Name of the machine or program that wrote the file, where its tables are known; empty otherwise.
+    like_sheets : tuple of str
+        Of a workbook, the sheets that have the headings of the one that was read, itself included.
     auxiliary : str
         Empty for stress-strain records; otherwise what the file holds instead.
     """
@@ -32,6 +36,8 @@ class Reading:
     specimen: dict[str, float] = field(default_factory=dict)
     metadata: dict[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    machine: str = ""
+    like_sheets: tuple[str, ...] = ()
     auxiliary: str = ""
 
 

@@ -2,8 +2,8 @@
 
 from probation.records.grid import Grid, read_grid
 from probation.records.options import ReadOptions
-from probation.records.profiles.delimited import table_from
 from probation.records.profiles.profile import Profile, Reading
+from probation.records.profiles.tables import table_from
 from probation.records.source import Source
 
 _ROLES = {"time": "Time (s)", "true_strain": "True Strain", "true_stress": "True Stress (MPa)"}

@@ -6,8 +6,8 @@ them from here is a warning on every record; ``specimen = { … }`` replaces the
 
 from probation.records.grid import read_grid
 from probation.records.options import ReadOptions
-from probation.records.profiles.delimited import table_from
 from probation.records.profiles.profile import Profile, Reading
+from probation.records.profiles.tables import table_from
 from probation.records.source import Source
 
 _HEADINGS = "时间,位移,力"  # time, displacement, force
