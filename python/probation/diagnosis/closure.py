@@ -116,7 +116,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     total = float(count.sum())
     excess = float(before.sum() - floor.sum())
     # Sum of squares of correlated noise scatters as if there were fewer samples.
-    own = np.sqrt(2.0 * np.array([_square_inflation(piece.noise) for piece in pieces]) / count) * floor
+    own = np.sqrt(2.0 * np.array([piece.noise.square_inflation for piece in pieces]) / count) * floor
     error = float(np.sqrt(np.sum(own**2 + (level * floor) ** 2)))
     known = (
         float(np.sqrt(before.sum() / total)),
@@ -142,7 +142,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         # The same noise meets what there was of a gap and what is left of it, as far as they are alike.
         both = np.array([float(piece.before @ piece.after) for piece in pieces]) - floor
         alike = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
-        slow = np.array([_slow_inflation(piece.noise) for piece in pieces])
+        slow = np.array([piece.noise.slow_inflation for piece in pieces])
         common, first, apart = rng.standard_normal((3, DRAWS, len(pieces)))
         met = first, alike * first + np.sqrt(1.0 - alike**2) * apart
         drawn = [
@@ -177,15 +177,3 @@ def _interval(draws: FloatArray, value: float, resampled: int | None = None) -> 
         tail = float(ndtr(np.sqrt(resampled / (resampled - 1.0)) * stdtrit(resampled - 1, tail)))
     low, high = np.nanquantile(draws, [tail, 1.0 - tail])
     return float(min(low, value)), float(max(high, value))
-
-
-def _square_inflation(noise: NoiseModel) -> float:
-    """Variance of a mean square over that of as many independent samples: 1 + 2 sum of squared autocorrelations."""
-    phi, theta = noise.arma.phi, noise.arma.theta
-    first = (phi + theta) * (1.0 + phi * theta) / (1.0 + 2.0 * phi * theta + theta**2)
-    return 1.0 + 2.0 * first**2 / (1.0 - phi**2)
-
-
-def _slow_inflation(noise: NoiseModel) -> float:
-    """Variance of a product with something slow over that of as many independent samples (at least 1)."""
-    return float(max((noise.arma.long_run / max(noise.arma.deviation, 1e-300)) ** 2, 1.0))

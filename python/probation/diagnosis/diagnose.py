@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation._arrays import as_threads, one_of
 from probation.design.isolability import isolability
-from probation.detection.gap_test import GapTester
 from probation.detection.place_left_out import place_left_out
-from probation.detection.sharp_gap import with_sharp
 from probation.detection.where import locate
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
+from probation.diagnosis.held_out import HeldToAccount, all_but_one, made_worse
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import (
@@ -37,17 +37,21 @@ from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law, with_noise_beside
+from probation.inference.gap import find_gap, predictions
 from probation.inference.thinning import thin
+from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
 from probation.records.checks import require_signal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
+    from probation.detection.where import Where
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks
     from probation.effects.effect import Effect
+    from probation.inference.gap import Gap
     from probation.inference.protocol import GapLaw
     from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
@@ -115,36 +119,42 @@ def diagnose(
             progress(part)
 
     skipping = Skipping()
-    base = base_fit(campaign, plain_fit(campaign, scheme, hold)) if law is None else fit_law(law, campaign, scheme)
+
+    def based_on(chosen: Campaign) -> BaseFit:
+        own = base_fit(chosen, plain_fit(chosen, scheme, hold)) if law is None else fit_law(law, chosen, scheme)
+        return own.screened(considered, workers, skipping.screened)
+
+    fitted = based_on(campaign)
     told(0.1)
-    base = base.screened(considered, workers, skipping.screened)
+    gap = find_gap(fitted, considered, threads=workers, seed=seed)
     told(0.2)
-    gap = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
-    where = locate(base.whitened, seed=seed)
+    case = _case(campaign, fitted, gap, based_on, seed)
+    base, where, p_value = case.base, case.where, case.p_value
     told(0.35)
-    if gap.rejected:
-        base, found, weighed, judged, verdict = _explained(base, considered, gap.p_value, workers, seed, skipping, told)
+    if gap.exists:
+        base, found, weighed, judged, verdict = _explained(base, considered, p_value, workers, seed, skipping, told)
     else:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, len(considered), TEMPERED), gap.p_value)
+        weighed = given_no_gap(weigh(found, len(considered), TEMPERED), p_value)
         judged, verdict = {}, "no_gap"
-    if weighed[0].effects == (UNKNOWN,):
+    if weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
-    shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, skipping, seed=seed)
-    while gap.rejected and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
+    before = fitted.parameters if case.predicted_only else base.parameters
+    shrink, curves = shrink_of(base, before, weighed[0].hypothesis, where.located, skipping, seed=seed)
+    while gap.exists and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
         told_of = weighed[0].hypothesis
         weighed = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:
             verdict = "unexplained"
         if weighed[0].hypothesis is not told_of:
-            shrink, curves = shrink_of(base, weighed[0].hypothesis, campaign, where.located, skipping, seed=seed)
+            shrink, curves = shrink_of(base, before, weighed[0].hypothesis, where.located, skipping, seed=seed)
     chosen = answer_set(weighed)
-    if gap.rejected:
+    if gap.exists:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
-    acts = regions_of(best.hypothesis, base, gap.p_value) if best.hypothesis.causes and gap.rejected else ()
+    acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
     following = None
@@ -161,29 +171,73 @@ def diagnose(
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
-        verdict=verdict,
-        headline=headline(verdict, explanations, chosen, shrink.identify, len(base.model.views), gap.p_value),
+        verdict="not_predicted" if case.predicted_only else verdict,
+        headline=headline(
+            verdict,
+            explanations,
+            chosen,
+            shrink,
+            gap,
+            worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
+            judge=case.judge,
+        ),
         law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
         scheme=scheme,
-        base=base_parameters(base),
-        gap=gap,
-        rms_MPa=shrink.identify.before_MPa,
-        noise_MPa=shrink.identify.noise_MPa,
-        located=acts if localised and verdict == "explained" and acts else where.located,
+        base=base_parameters(fitted if case.predicted_only else base),
+        gap=gap.test,
+        held_out=gap.held_out,
+        size=gap.size,
+        judged_on=case.judge,
+        rms_MPa=fitted.misfit[0] if case.predicted_only else shrink.identify.before_MPa,
+        noise_MPa=fitted.misfit[1] if case.predicted_only else shrink.identify.noise_MPa,
+        located=acts if localised and verdict == "explained" and acts and not case.predicted_only else where.located,
         where=where,
         acts=acts,
-        signatures=signatures(base, best.hypothesis) if gap.rejected else (),
+        signatures=signatures(base, best.hypothesis) if gap.exists else (),
         explanations=explanations,
         answer_set=chosen,
         shrink=shrink,
         next_test=following,
         curves=curves,
-        warnings=(*thinned, *_warnings(base, gap.robust)),
+        warnings=(*thinned, *_warnings(base, gap.test.robust)),
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
         skipped=skipping.entries(found),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Case:
+    """What is to be explained.
+
+    Attributes
+    ----------
+    base : BaseFit
+        On the records that causes are fitted to.
+    where : Where
+    p_value : float
+        Of the gap.
+    predicted_only : bool
+        Whether only predicted records hold it.
+    judge : str or None
+        The record that is kept to judge by, then.
+    """
+
+    base: BaseFit
+    where: Where
+    p_value: float
+    predicted_only: bool = False
+    judge: str | None = None
+
+
+def _case(campaign: Campaign, fitted: BaseFit, gap: Gap, based_on: Callable[[Campaign], BaseFit], seed: int) -> _Case:
+    """The records that causes are fitted to: those of the base fit, or all but one where only predictions fail."""
+    if gap.in_fitted or not gap.in_held_out:
+        return _Case(fitted, locate(fitted.whitened, seed=seed), gap.test.p_value)
+    joint, judge = all_but_one(campaign, gap)
+    where = locate(_with_predictions(fitted), seed=seed)
+    return _Case(based_on(joint), where, gap.held_out_p_value, predicted_only=True, judge=judge)
 
 
 def _explained(
@@ -198,15 +252,18 @@ def _explained(
     """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
     base, found = _searched(base, considered, threads, skipping, lambda part: progress(0.35 + 0.45 * part))
     weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
-    left, judged = _judged(weighed, answer_set(weighed), base, seed)
-    if UNKNOWN not in weighed[0].effects and _another_acts(weighed[0], base, seed):
+    account = HeldToAccount(base, seed=seed)
+    weighed = account.ranked(weighed)
+    left, judged = _judged(weighed, answer_set(weighed), base, account, seed)
+    worse = account.worse(weighed[0].hypothesis)
+    if UNKNOWN not in weighed[0].effects and (worse or _another_acts(weighed[0], base, seed)):
         weighed = _with_unknown(weighed, judged)
     verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
     return base, found, weighed, judged, verdict
 
 
 def _judged(
-    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, seed: int
+    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, account: HeldToAccount, seed: int
 ) -> tuple[bool, dict[tuple[str, ...], Checks]]:
     """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
     left, found = False, {}
@@ -217,7 +274,9 @@ def _judged(
         if index == 0:
             left = after.rejected
         if each.hypothesis.causes:
-            found[each.effects] = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
+            made = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
+            refused = tuple(one.text for one in account.worse(each.hypothesis))
+            found[each.effects] = replace(made, notes=(*made.notes, *refused))
     return left, found
 
 
@@ -266,6 +325,12 @@ def _spikes_text(count: int) -> str:
     if count == 1:
         return "1 reading is an outlier and was left out"
     return f"{count} readings are outliers and were left out"
+
+
+def _with_predictions(base: BaseFit) -> Whitened:
+    """The fitted records and the others together, nothing of which is refitted to the latter."""
+    records, noises = predictions(base)
+    return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:

@@ -74,14 +74,8 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
 
     One at its bound has none.
     """
-    found, whitened = base.refit, base.whitened
-    solver = np.linalg.pinv(found.jacobian)
-    covariance = solver @ solver.T
-    for noise, part in zip(whitened.noises, whitened.slices, strict=True):
-        if noise.nuisance_drift is not None:
-            moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
-            covariance += moved @ moved.T
-    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * found.coordinates.slopes(found.parameters)
+    found = base.refit
+    deviation = np.sqrt(np.maximum(np.diag(base.covariance), 0.0))
     result = []
     ended = np.any(found.at_bound, axis=0)
     for name, value, error, stopped in zip(base.law.parameter_names, found.parameters, deviation, ended, strict=True):

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.diagnosis.closure import Closure
-    from probation.diagnosis.result import Explanation, Verdict
+    from probation.diagnosis.held_out import Worse
+    from probation.diagnosis.result import Explanation, Shrink, Verdict
+    from probation.inference.gap import Gap
 
 MOST_RIVALS = 3
 
@@ -38,39 +40,84 @@ def headline(
     verdict: Verdict,
     explanations: Sequence[Explanation],
     answer_set: Sequence[tuple[str, ...]],
-    identify: Closure,
-    record_count: int,
-    p_value: float,
+    shrink: Shrink,
+    gap: Gap,
+    *,
+    worse: Sequence[Worse] = (),
+    judge: str | None = None,
 ) -> str:
-    """One sentence a person can act on."""
-    best = explanations[0]
-    records = "the one record" if record_count == 1 else f"all {record_count} records"
+    """One sentence a person can act on.
+
+    Parameters
+    ----------
+    verdict : {"no_gap", "explained", "unexplained"}
+        Of the records that causes were fitted to.
+    explanations, answer_set, shrink, gap
+        What was found.
+    worse : sequence of Worse
+        Held-out records that the best explanation predicts worse than the base law.
+    judge : str, optional
+        The predicted record that no cause was fitted to, where others were.
+    """
+    identify, best = shrink.identify, explanations[0]
+    fitted = len(shrink.records) - len(gap.held_out)
+    records = "the one record" if fitted == 1 else f"all {fitted} records"
     if verdict == "no_gap":
+        also = " and predicts those held out" if gap.held_out else ""
         return (
-            f"No gap: the law describes {records} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {p_value:.2g})."
+            f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
+            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g})."
         )
-    place = f" in {listed(best.records, 'and')}" if _confined(best, record_count) else ""
+    found = _cause(
+        verdict, best, answer_set, identify, _confined(best, len(shrink.records) - (shrink.held_out is not None))
+    )
+    if worse:
+        found = f"{found}; {'; '.join(each.text for each in worse)}"
+    if gap.in_fitted:
+        missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
+        if verdict == "explained":
+            return f"{found[:1].upper()}{found[1:]}."
+        return f"{missed}{' and' if UNKNOWN in best.effects and len(best.effects) == 1 else ':'} {found}."
+    size = gap.held_out[gap.missed[0]]
+    others = f" and {len(gap.missed) - 1} more" if len(gap.missed) > 1 else ""
+    described = "the one record that was fitted" if fitted == 1 else f"the {fitted} records that were fitted"
+    missed = (
+        f"Not predicted: the law describes {described}, but misses {gap.missed[0]}{others}, which it only predicts, "
+        f"by {size.rms_MPa:.3g} MPa (noise and uncertainty of the parameters {size.expected_MPa:.2g} MPa)"
+    )
+    judged = shrink.records.get(judge) if judge is not None else None
+    if judged is not None and verdict == "explained":
+        found += f"; {judge}, kept apart, is predicted to {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
+    return f"{missed}; {found}."
+
+
+def _cause(
+    verdict: Verdict,
+    best: Explanation,
+    answer_set: Sequence[tuple[str, ...]],
+    identify: Closure,
+    confined: bool,
+) -> str:
+    """What explains the gap, or does not, without a full stop."""
+    place = f" in {listed(best.records, 'and')}" if confined else ""
     known = [name for name in best.effects if name != UNKNOWN]
     fall = (
         f"the misfit falls from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa, "
         f"the noise being {identify.noise_MPa:.2g} MPa"
     )
     if verdict == "unexplained":
-        gap = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if known:
             verb = "is" if len(known) == 1 else "are"
-            part = f"{titles(known)}{place} {verb} part of it ({fall})"
-            return f"{gap}: {part}, but something outside the catalogue is left."
-        return f"{gap} and nothing in the catalogue explains it."
+            return f"{titles(known)}{place} {verb} part of it ({fall}), but something outside the catalogue is left"
+        return "nothing in the catalogue explains it"
     verb, pronoun = ("explains", "it") if len(best.effects) == 1 else ("explain", "them")
-    sentence = f"{titles(best.effects).capitalize()}{place} {verb} the gap: with {pronoun} {fall}"
+    sentence = f"{titles(best.effects)}{place} {verb} the gap: with {pronoun} {fall}"
     rivals = [each for each in answer_set if each != best.effects]
     if rivals:
         shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}."
-    return f"{sentence} (probability {percent(best.probability)})."
+        return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
+    return f"{sentence} (probability {percent(best.probability)})"
 
 
 def _confined(best: Explanation, record_count: int) -> bool:

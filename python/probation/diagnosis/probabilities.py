@@ -139,7 +139,7 @@ def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighe
                 odds = UNSEEN * exp(log_prior(pair, len(names)) - log_prior(single.effects, len(names)))
                 found.append(Weighed(pair, odds * single.probability, single.hypothesis))
                 tried.add(pair)
-    return _normalised(found)
+    return normalised(found)
 
 
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
@@ -169,9 +169,9 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     """
     none = next(each for each in weighed if not each.effects)
     told = max(p_value, TINY) ** (1.0 - SHY) / SHY * none.probability
-    weighed = _normalised([replace(each, probability=told) if each is none else each for each in weighed])
+    weighed = normalised([replace(each, probability=told) if each is none else each for each in weighed])
     most = max(each.probability for each in weighed)
-    return _normalised([each if each.effects else replace(each, probability=most) for each in weighed])
+    return normalised([each if each.effects else replace(each, probability=most) for each in weighed])
 
 
 def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
@@ -194,7 +194,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     rest = 1.0 - none.probability
     if none.probability <= most or rest <= 0.0:
         return list(weighed)
-    return _normalised(
+    return normalised(
         [
             replace(each, probability=most if each is none else (1.0 - most) * each.probability / rest)
             for each in weighed
@@ -208,10 +208,11 @@ def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     moved = LEFT_OVER * best.probability
     known = next((each.probability for each in weighed if each.effects == beside), 0.0)
     changed = [replace(best, probability=best.probability - moved), Weighed(beside, known + moved, best.hypothesis)]
-    return _normalised([*changed, *(each for each in weighed[1:] if each.effects != beside)])
+    return normalised([*changed, *(each for each in weighed[1:] if each.effects != beside)])
 
 
-def _normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
+def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Probabilities over their sum, most probable first."""
     total = sum(each.probability for each in weighed)
     parts = [replace(each, probability=each.probability / total) for each in weighed]
     return sorted(parts, key=lambda each: (-each.probability, len(each.effects)))

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from probation.detection.where import Located, Where
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.skipped import Skipped
+    from probation.inference.gap import GapSize, HeldOutGap
 
-Verdict = Literal["no_gap", "explained", "unexplained"]
+Verdict = Literal["no_gap", "not_predicted", "explained", "unexplained"]
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
 
 UNKNOWN = "unknown"
@@ -191,7 +192,8 @@ class Diagnosis(Result, Stored):
     Attributes
     ----------
     campaign : str
-    verdict : {"no_gap", "explained", "unexplained"}
+    verdict : {"no_gap", "not_predicted", "explained", "unexplained"}
+        "not_predicted": the records that were fitted hold no gap, records that were only predicted do.
     headline : str
         One sentence a person can act on.
     law : str
@@ -199,6 +201,13 @@ class Diagnosis(Result, Stored):
     scheme : str
     base : tuple of BaseParameter
     gap : GapTest
+        Of the records that the base law was fitted to.
+    held_out : dict of str to HeldOutGap
+        Of every record that was only predicted.
+    size : GapSize
+        Of the gap where it is largest beside the stress.
+    judged_on : str or None
+        Where records were not predicted: the one that no cause was fitted to.
     rms_MPa, noise_MPa : float
         Of the base law's fit residual on the identify records.
     located : tuple of Located
@@ -250,6 +259,9 @@ class Diagnosis(Result, Stored):
     seed: int
     isolability: Isolability | None = None
     skipped: tuple[Skipped, ...] = ()
+    held_out: Mapping[str, HeldOutGap] = field(default_factory=dict)
+    size: GapSize | None = None
+    judged_on: str | None = None
 
     @property
     def best(self) -> Explanation:
@@ -278,7 +290,10 @@ class Diagnosis(Result, Stored):
                 "p_value_low_noise": self.gap.p_value_low_noise,
                 "p_value_high_noise": self.gap.p_value_high_noise,
                 "level": self.gap.level,
+                "size": None if self.size is None else self.size.to_dict(),
             },
+            "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
+            "judged_on": self.judged_on,
             "where": [_located(each) for each in self.located],
             "acts": [_located(each) for each in self.acts],
             "signatures": [

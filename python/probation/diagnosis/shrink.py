@@ -10,8 +10,6 @@ from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.inference.view_residual import residual_of
-from probation.noise.estimate import estimate_noise
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.spikes import without_spikes
 
@@ -23,14 +21,12 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.skipped import Skipping
     from probation.inference.base_fit import BaseFit
-    from probation.noise.model import NoiseModel
-    from probation.records.campaign import Campaign
 
 
 def shrink_of(
     base: BaseFit,
+    parameters: FloatArray,
     best: Hypothesis,
-    campaign: Campaign,
     located: Sequence[Located],
     skipping: Skipping,
     *,
@@ -41,9 +37,10 @@ def shrink_of(
     Parameters
     ----------
     base : BaseFit
+    parameters : ndarray, shape (n_base,)
+        Of the base law before the explanation.
     best : Hypothesis
         The explanation; the base law where no effect is needed.
-    campaign : Campaign
     located : sequence of Located
         Regions that are given their own closure.
     skipping : Skipping
@@ -52,10 +49,12 @@ def shrink_of(
     """
     rng = np.random.default_rng(seed)
     everywhere = CampaignModel(base.law, base.views)
-    before = everywhere.predict(base.parameters)
+    before = everywhere.predict(parameters)
     causes = best.refit.model.causes
     after = _predicted(everywhere.with_causes(causes), best.refit.parameters, before, skipping) if causes else before
-    noises = {noise.name: noise for noise in base.whitened.noises} | _noise_of_others(base, everywhere, campaign)
+    noises = {noise.name: noise for noise in base.whitened.noises} | {
+        noise.name: noise for noise in base.held_out_noises
+    }
     pieces = {
         view.id: Piece(
             without_spikes(before[view.id] - view.data, noises[view.id].spikes),
@@ -119,20 +118,6 @@ def _predicted(
         except UNSOLVABLE as error:
             skipping.part(f"the best explanation's prediction of {view.id}", error)
     return found
-
-
-def _noise_of_others(base: BaseFit, everywhere: CampaignModel, campaign: Campaign) -> dict[str, NoiseModel]:
-    """The noise of records that were not fitted, by what is rougher than any law's error."""
-    if len(base.views) == len(base.model.views):
-        return {}
-    raw, jacobian = everywhere.residual_and_jacobian(base.parameters)
-    known = {record.id: record for record in campaign.records}
-    residuals = [
-        residual_of(view, raw[part], jacobian[part], given_noise=known[view.id].noise.stress_MPa)
-        for view, part in everywhere.parts
-        if view.role != "identify"
-    ]
-    return {noise.name: noise for noise in estimate_noise(residuals)}
 
 
 def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:

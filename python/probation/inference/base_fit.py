@@ -60,7 +60,9 @@ class BaseFit:
     other_starts : tuple of ndarray, shape (n_base,)
         Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
     signals : tuple of Column
-        Of the effects that are considered, by `gap.screen`.
+        Of the effects that are considered, by `inference.screen`.
+    held_out : tuple of RecordResidual
+        The records that were not fitted, as these parameters predict them.
     """
 
     law: GapLaw
@@ -69,6 +71,7 @@ class BaseFit:
     whitened: Whitened
     other_starts: tuple[FloatArray, ...] = ()
     signals: tuple[Column, ...] = ()
+    held_out: tuple[RecordResidual, ...] = ()
 
     @property
     def model(self) -> CampaignModel:
@@ -79,6 +82,31 @@ class BaseFit:
     def parameters(self) -> FloatArray:
         """Shape (n_base,)."""
         return self.refit.parameters
+
+    @property
+    def misfit(self) -> tuple[float, float]:
+        """Root mean square of the identify records' residuals and of their noise [MPa]."""
+        errors = np.concatenate([self.whitened.clean(index) for index in range(len(self.whitened.records))])
+        floor = np.concatenate([noise.deviation for noise in self.whitened.noises])
+        return float(np.sqrt(np.mean(errors**2))), float(np.sqrt(np.mean(floor**2)))
+
+    @cached_property
+    def covariance(self) -> FloatArray:
+        """Of the parameters, by noise with all of its drift, shape (n_base, n_base)."""
+        found, whitened = self.refit, self.whitened
+        solver = np.linalg.pinv(found.jacobian)
+        covariance = solver @ solver.T
+        for noise, part in zip(whitened.noises, whitened.slices, strict=True):
+            if noise.nuisance_drift is not None:
+                moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
+                covariance += moved @ moved.T
+        slopes = found.coordinates.slopes(found.parameters)
+        return np.asarray(covariance * np.outer(slopes, slopes))
+
+    @cached_property
+    def held_out_noises(self) -> tuple[NoiseModel, ...]:
+        """The noise of the records that were not fitted, found on themselves."""
+        return _noises(self.held_out) if self.held_out else ()
 
     @cached_property
     def discrepancy(self) -> Discrepancy:
@@ -137,16 +165,20 @@ def fit_views(
     model = CampaignModel(law, [view for view in views if view.role == "identify"])
     parameters = law.start
     raw, jacobian = model.residual_and_jacobian(parameters)
-    residuals = [
-        residual_of(
-            view,
-            raw[part],
-            jacobian[part],
-            given_noise=known[view.id].noise.stress_MPa,
-            carried=propagated_noise(law, view, excitations[view.id], parameters),
-        )
-        for view, part in model.parts
-    ]
+
+    def residuals_of(model: CampaignModel, raw: FloatArray, jacobian: FloatArray) -> list[RecordResidual]:
+        return [
+            residual_of(
+                view,
+                raw[part],
+                jacobian[part],
+                given_noise=known[view.id].noise.stress_MPa,
+                carried=propagated_noise(law, view, excitations[view.id], parameters),
+            )
+            for view, part in model.parts
+        ]
+
+    residuals = residuals_of(model, raw, jacobian)
     for _ in range(ROUNDS):
         noises = _noises(residuals)
         found = refit(model, parameters, Whitener(noises), most_steps=12)
@@ -158,7 +190,13 @@ def fit_views(
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
     fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
-    return BaseFit(law, quiet, replace(found, model=fitted), Whitened.of(residuals, noises))
+    others = [view for view in quiet if view.role != "identify"]
+    held_out: list[RecordResidual] = []
+    if others:
+        rest = CampaignModel(law, others)
+        held_out = residuals_of(rest, *rest.residual_and_jacobian(parameters))
+    whitened = Whitened.of(residuals, noises)
+    return BaseFit(law, quiet, replace(found, model=fitted), whitened, held_out=tuple(held_out))
 
 
 def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:

@@ -82,6 +82,18 @@ class NoiseModel:
         """What sqrt(m) times the mean of m neighbouring samples scatters by, shape (n,) [MPa]."""
         return self.arma.long_run * self.profile
 
+    @property
+    def square_inflation(self) -> float:
+        """Variance of a mean square over that of as many independent samples: 1 + 2 sum of squared autocorrelations."""
+        phi, theta = self.arma.phi, self.arma.theta
+        first = (phi + theta) * (1.0 + phi * theta) / (1.0 + 2.0 * phi * theta + theta**2)
+        return 1.0 + 2.0 * first**2 / (1.0 - phi**2)
+
+    @property
+    def slow_inflation(self) -> float:
+        """Variance of a product with something slow over that of as many independent samples (at least 1)."""
+        return float(max((self.arma.long_run / max(self.arma.deviation, 1e-300)) ** 2, 1.0))
+
     def whiten(self, matrix: FloatArray) -> FloatArray:
         """Columns of `matrix` (n,) or (n, m) in coordinates in which the noise is white with unit variance."""
         values = np.asarray(matrix, dtype=np.float64)

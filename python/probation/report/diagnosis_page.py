@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _PLACES = 4
 _EXPLANATIONS = 20
-_MOOD: dict[str, Mood] = {"no_gap": "good", "explained": "neutral", "unexplained": "bad"}
+_MOOD: dict[str, Mood] = {"no_gap": "good", "not_predicted": "bad", "explained": "neutral", "unexplained": "bad"}
 
 
 def write_diagnosis_page(found: Diagnosis, path: Path) -> None:

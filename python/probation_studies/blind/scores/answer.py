@@ -118,7 +118,7 @@ def _read(diagnosis: Mapping[str, object]) -> Answer:
     if not probability or abs(sum(probability.values()) - 1.0) > _SUM_TOLERANCE:
         raise ValueError(f"probabilities that sum to {sum(probability.values())}")
     verdict = diagnosis["verdict"]
-    if verdict not in ("no_gap", "explained", "unexplained"):
+    if verdict not in ("no_gap", "not_predicted", "explained", "unexplained"):
         raise ValueError(f"verdict {verdict!r}")
     base = cast("Mapping[str, Mapping[str, object]]", diagnosis.get("base") or {})
     shrink = cast("Mapping[str, object]", diagnosis.get("shrink") or {})

@@ -1,0 +1,147 @@
+"""Records that were only predicted: which of them judges an explanation, and what it says of it.
+
+docs/diagnosis-method.md, section 10.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.probabilities import leading, normalised
+from probation.diagnosis.result import UNKNOWN
+from probation.inference.model import CampaignModel
+from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.spikes import without_spikes
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.probabilities import Weighed
+    from probation.inference.base_fit import BaseFit
+    from probation.inference.gap import Gap
+    from probation.records.campaign import Campaign
+
+PLAINLY = 4.0
+"""Standard deviations by which a record's misfit exceeds what an explanation, were it right, would make of it."""
+
+DRAWS = 400
+
+KEPT = 0.01
+"""Part of its probability that an explanation keeps which makes the prediction of a held-out record worse."""
+
+
+def all_but_one(campaign: Campaign, gap: Gap) -> tuple[Campaign, str | None]:
+    """The campaign with every record fitted but one held-out one, and the id of that one.
+
+    The record that is missed most is fitted, since it shows most of the gap; the next one judges. None is kept where
+    only one was held out.
+    """
+    others = [name for name in gap.held_out if name not in gap.missed]
+    ranked = [*gap.missed, *sorted(others, key=lambda name: gap.held_out[name].p_value)]
+    judge = ranked[1] if len(ranked) > 1 else None
+    records = [replace(each, role="held-out" if each.id == judge else "identify") for each in campaign.records]
+    return replace(campaign, records=tuple(records)), judge
+
+
+@dataclass(frozen=True)
+class Worse:
+    """A held-out record that an explanation predicts worse than the base law does.
+
+    Attributes
+    ----------
+    record : str
+    before_MPa, after_MPa : float
+        Root mean square of the prediction's error.
+    """
+
+    record: str
+    before_MPa: float  # noqa: N815 - as it leaves the program
+    after_MPa: float  # noqa: N815
+
+    @property
+    def text(self) -> str:
+        """Such as "grip2 is predicted worse with it: 0.5 MPa before, 1.2 MPa after"."""
+        return f"{self.record} is predicted worse with it: {self.before_MPa:.3g} MPa before, {self.after_MPa:.3g} after"
+
+
+def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple[Worse, ...]:
+    """Held-out records whose misfit an explanation raises by more than noise and its parameters' uncertainty can do.
+
+    With the change d of a prediction and the error e that is left, the misfit rises by (2 d e - d d)/n. Were the
+    explanation right, e would be noise and the error of its parameters: the misfit would fall by d d/n, give or take
+    2 sqrt(d S d)/n with the covariance S of both.
+
+    Parameters
+    ----------
+    hypothesis : Hypothesis
+    base : BaseFit
+    seed : int
+        Of the draws of the noise.
+    """
+    if not base.held_out or not hypothesis.causes:
+        return ()
+    rng = np.random.default_rng(seed)
+    found = hypothesis.refit
+    everywhere = CampaignModel(base.law, base.views)
+    explained = everywhere.with_causes(found.model.causes)
+    before = everywhere.residual(base.parameters)
+    try:
+        after, jacobian = explained.residual_and_jacobian(found.parameters)
+    except UNSOLVABLE:  # what cannot be predicted cannot judge; `shrink_of` takes note of it
+        return ()
+    spread, directions = np.linalg.eigh(hypothesis.evidence.covariance)
+    slopes = found.coordinates.slopes(found.parameters)
+    columns = (jacobian * slopes) @ (directions * np.sqrt(np.maximum(spread, 0.0)))
+    worse = []
+    for record, noise in zip(base.held_out, base.held_out_noises, strict=True):
+        rows = everywhere.rows(record.name)
+        first, last = (without_spikes(error[rows], noise.spikes) for error in (before, after))
+        change = last - first
+        count = len(change)
+        rise = float(np.mean(last**2 - first**2))
+        if rise <= 0.0:
+            continue
+        whole = replace(noise, carried=np.hstack([noise.carried, columns[rows]]))
+        scatter = 2.0 * float(np.std(whole.simulate(rng, DRAWS) @ change)) / count
+        if rise + float(np.mean(change**2)) > PLAINLY * scatter:
+            sizes = (float(np.sqrt(np.mean(error**2))) for error in (first, last))
+            worse.append(Worse(record.name, *sizes))
+    return tuple(worse)
+
+
+class HeldToAccount:
+    """Explanations judged by the records that were held out; each is predicted once.
+
+    Parameters
+    ----------
+    base : BaseFit
+    seed : int
+    """
+
+    def __init__(self, base: BaseFit, *, seed: int) -> None:
+        self._base, self._seed = base, seed
+        self._known: dict[int, tuple[Worse, ...]] = {}
+
+    def worse(self, hypothesis: Hypothesis) -> tuple[Worse, ...]:
+        """As `made_worse`."""
+        key = id(hypothesis)
+        if key not in self._known:
+            self._known[key] = made_worse(hypothesis, self._base, seed=self._seed)
+        return self._known[key]
+
+    def ranked(self, weighed: Sequence[Weighed]) -> list[Weighed]:
+        """The explanations with those of the answer set put back that make a held-out record worse.
+
+        They fall only if another known explanation of the answer set does not: what is far less probable is no rival.
+        """
+        known = [each for each in leading(weighed) if each.effects and UNKNOWN not in each.effects]
+        refuted = [id(each) for each in known if self.worse(each.hypothesis)]
+        if len(refuted) == len(known):
+            return list(weighed)
+        return normalised(
+            [replace(each, probability=KEPT * each.probability) if id(each) in refuted else each for each in weighed]
+        )

@@ -1,0 +1,226 @@
+"""Whether there is a gap, in records that were fitted and in records that were only predicted, and its size.
+
+One test for `fit`, `certify` and `diagnose` (docs/diagnosis-method.md, sections 2 and 10).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation.detection.gap_test import GapTest, GapTester
+from probation.detection.sharp_gap import with_sharp
+from probation.inference.candidate import WhitenedColumns
+from probation.inference.model import CampaignModel
+from probation.inference.screen import screen
+from probation.noise.whitener import Whitener
+from probation.noise.whitening import Whitened
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.effect import Effect
+    from probation.inference.base_fit import BaseFit
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+
+TWO_SIDED = 1.96
+"""Standard errors on either side of an estimate that hold 95 %."""
+
+
+@dataclass(frozen=True)
+class HeldOutGap:
+    """A record that was only predicted.
+
+    Attributes
+    ----------
+    rms_MPa : float
+        Of the prediction's error.
+    expected_MPa : float
+        Of what the noise and the uncertainty of the parameters make.
+    p_value : float
+        Of the gap test, both allowed for.
+    """
+
+    rms_MPa: float  # noqa: N815 - as it leaves the program
+    expected_MPa: float  # noqa: N815
+    p_value: float
+
+    def to_dict(self) -> dict[str, float]:
+        """As in `held_out_gap` of docs/formats.md."""
+        return {"rms_MPa": self.rms_MPa, "expected_MPa": self.expected_MPa, "p_value": self.p_value}
+
+
+@dataclass(frozen=True)
+class GapSize:
+    """How large the gap of one record is, the noise taken off.
+
+    Attributes
+    ----------
+    record : str
+    rms_MPa : float
+    interval_MPa : (float, float)
+        95 %.
+    stress_MPa : float
+        The largest of the record, to compare with.
+    """
+
+    record: str
+    rms_MPa: float  # noqa: N815
+    interval_MPa: tuple[float, float]  # noqa: N815
+    stress_MPa: float  # noqa: N815
+
+    @property
+    def relative(self) -> float:
+        """Over the largest stress of the record."""
+        return self.rms_MPa / max(self.stress_MPa, 1e-300)
+
+    @property
+    def relative_interval(self) -> tuple[float, float]:
+        """95 %."""
+        low, high = self.interval_MPa
+        return low / max(self.stress_MPa, 1e-300), high / max(self.stress_MPa, 1e-300)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `gap.size` of docs/formats.md."""
+        return {
+            "record": self.record,
+            "rms_MPa": self.rms_MPa,
+            "interval95_MPa": list(self.interval_MPa),
+            "relative": self.relative,
+            "relative_interval95": list(self.relative_interval),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """Whether a law departs from a campaign's records.
+
+    Attributes
+    ----------
+    test : GapTest
+        Of the records that were fitted.
+    held_out : dict of str to HeldOutGap
+        Of those that were not, by id.
+    sizes : dict of str to GapSize
+        Of every record.
+    """
+
+    test: GapTest
+    held_out: Mapping[str, HeldOutGap]
+    sizes: Mapping[str, GapSize]
+
+    @property
+    def in_fitted(self) -> bool:
+        """Whether the fitted records hold more than noise."""
+        return self.test.rejected
+
+    @property
+    def held_out_p_value(self) -> float:
+        """Of all predicted records together, by Bonferroni; 1 where there are none."""
+        return min((len(self.held_out) * each.p_value for each in self.held_out.values()), default=1.0)
+
+    @property
+    def in_held_out(self) -> bool:
+        """Whether a predicted record holds more than noise and the uncertainty of the parameters."""
+        return self.held_out_p_value < self.test.level
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a gap anywhere."""
+        return self.in_fitted or self.in_held_out
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """Ids of the predicted records that hold a gap, the least probable first."""
+        limit = self.test.level / max(len(self.held_out), 1)
+        ranked = sorted(self.held_out, key=lambda name: (self.held_out[name].p_value, -self.sizes[name].relative))
+        return tuple(name for name in ranked if self.held_out[name].p_value < limit)
+
+    @property
+    def size(self) -> GapSize:
+        """Of the record in which it is largest beside the stress: of those fitted, or of those missed if only they are.
+
+        Where there is no gap it is that of a fitted record, and what a gap might have that was not seen.
+        """
+        predicted_only = self.in_held_out and not self.in_fitted
+        names = self.missed if predicted_only else [name for name in self.sizes if name not in self.held_out]
+        return max((self.sizes[name] for name in names), key=lambda each: each.relative)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `gap` of docs/formats.md, for fits and certificates."""
+        return {
+            "fitted": self.in_fitted,
+            "held_out": self.in_held_out,
+            "p_value": self.test.p_value,
+            "size": self.size.to_dict(),
+        }
+
+
+def find_gap(base: BaseFit, effects: Sequence[Effect], *, threads: int = 2, seed: int = 0) -> Gap:
+    """Test a base fit on its records, and its predictions of those that were held out.
+
+    Parameters
+    ----------
+    base : BaseFit
+        With the signals of these effects, `BaseFit.screened`.
+    effects : sequence of Effect
+        Directions in which a gap is looked for, beside smooth waves and what is sharp.
+    threads, seed : int
+    """
+    test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
+    stress = {view.id: float(np.max(np.abs(view.data))) for view in base.views}
+    sizes = {
+        record.name: _size(base.whitened.clean(index), noise, stress[record.name])
+        for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
+    }
+    held_out = {}
+    for record, noise in zip(*predictions(base), strict=True):
+        whitened = Whitened.of([record], [noise])
+        view = next(view for view in base.views if view.id == record.name)
+        signals = screen(CampaignModel(base.law, [view]), base.parameters, effects, threads=threads)
+        columns = WhitenedColumns.of(signals, Whitener((noise,)), len(record))
+        found = with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
+        error = whitened.clean(0)
+        sizes[record.name] = _size(error, noise, stress[record.name])
+        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
+    return Gap(test, held_out, sizes)
+
+
+def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseModel, ...]]:
+    """The records that were not fitted, and their noise: the uncertainty of the parameters is part of it.
+
+    Nothing of such a record is refitted: its tangent is zero, and what the parameters do to it is propagated as the
+    strain's noise is.
+    """
+    spread, directions = np.linalg.eigh(base.covariance)
+    root = directions * np.sqrt(np.maximum(spread, 0.0))
+    records = tuple(replace(each, tangent=np.zeros((len(each), root.shape[0]))) for each in base.held_out)
+    noises = tuple(
+        replace(noise, carried=np.hstack([noise.carried, each.tangent @ root]))
+        for each, noise in zip(base.held_out, base.held_out_noises, strict=True)
+    )
+    return records, noises
+
+
+def _size(error: FloatArray, noise: NoiseModel, stress: float) -> GapSize:
+    """Of what is left of a record's error, shape (n,) [MPa], when its noise is taken off."""
+    count = len(error)
+    floor = noise.deviation**2
+    gap = float(np.mean(error**2 - floor))
+    rough = float(np.mean(floor - np.sum(noise.carried**2, axis=1)))
+    level = noise.level_variance + noise.shape_variance
+    # Of the noise's own mean square, of its level, and of its product with the gap.
+    variance = rough**2 * (2.0 * noise.square_inflation / count + level)
+    variance += 4.0 * max(gap, 0.0) * rough * noise.slow_inflation / count
+    variance += 2.0 * float(np.sum((noise.carried.T @ noise.carried) ** 2)) / count**2
+    variance += 4.0 * float(np.sum((noise.carried.T @ error) ** 2)) / count**2
+    low, high = (np.sqrt(max(gap + side * TWO_SIDED * np.sqrt(variance), 0.0)) for side in (-1.0, 1.0))
+    return GapSize(noise.name, float(np.sqrt(max(gap, 0.0))), (float(low), float(high)), stress)
+
+
+def _rms(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
