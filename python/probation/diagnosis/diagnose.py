@@ -46,10 +46,11 @@ from probation.records.checks import require_signal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
+    from probation.design.isolability import Isolability
     from probation.detection.where import Where
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
-    from probation.diagnosis.result import Checks
+    from probation.diagnosis.result import Checks, NextTest
     from probation.effects.effect import Effect
     from probation.inference.gap import Gap
     from probation.inference.protocol import GapLaw
@@ -157,17 +158,9 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
-    following = None
-    if design and is_stretched(base):
-        following = skipping.tried(
-            "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=workers, seed=seed)
-        )
-    apart = None
+    following, apart = None, None
     if design:
-        apart = skipping.tried(
-            "what these tests can discriminate",
-            lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=workers),
-        )
+        following, apart = _designed(base, considered, weighed, chosen, found, skipping, workers, seed)
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
@@ -260,6 +253,29 @@ def _explained(
         weighed = _with_unknown(weighed, judged)
     verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
     return base, found, weighed, judged, verdict
+
+
+def _designed(
+    base: BaseFit,
+    considered: tuple[Effect, ...],
+    weighed: Sequence[Weighed],
+    chosen: Sequence[tuple[str, ...]],
+    found: Sequence[Hypothesis],
+    skipping: Skipping,
+    threads: int,
+    seed: int,
+) -> tuple[NextTest | None, Isolability | None]:
+    """The next test, and what these tests can discriminate."""
+    following = None
+    if is_stretched(base):
+        following = skipping.tried(
+            "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=threads, seed=seed)
+        )
+    apart = skipping.tried(
+        "what these tests can discriminate",
+        lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=threads),
+    )
+    return following, apart
 
 
 def _judged(

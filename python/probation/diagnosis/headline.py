@@ -72,12 +72,12 @@ def headline(
         verdict, best, answer_set, identify, _confined(best, len(shrink.records) - (shrink.held_out is not None))
     )
     if worse:
-        found = f"{found}; {'; '.join(each.text for each in worse)}"
+        found = _refused(best, identify, worse)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
             return f"{found[:1].upper()}{found[1:]}."
-        return f"{missed}{' and' if UNKNOWN in best.effects and len(best.effects) == 1 else ':'} {found}."
+        return f"{missed}{' and' if found.startswith('nothing') else ':'} {found}."
     size = gap.held_out[gap.missed[0]]
     others = f" and {len(gap.missed) - 1} more" if len(gap.missed) > 1 else ""
     described = "the one record that was fitted" if fitted == 1 else f"the {fitted} records that were fitted"
@@ -118,6 +118,15 @@ def _cause(
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
     return f"{sentence} (probability {percent(best.probability)})"
+
+
+def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> str:
+    """Of an explanation that the records which were held out speak against."""
+    known = titles([name for name in best.effects if name != UNKNOWN])
+    return (
+        f"nothing in the catalogue explains it; with {known} the misfit would fall from {identify.before_MPa:.3g} to "
+        f"{identify.after_MPa:.3g} MPa, but {' and '.join(each.text for each in worse)}"
+    )
 
 
 def _confined(best: Explanation, record_count: int) -> bool:

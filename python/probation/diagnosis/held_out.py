@@ -1,6 +1,6 @@
 """Records that were only predicted: which of them judges an explanation, and what it says of it.
 
-docs/diagnosis-method.md, section 10.
+docs/diagnosis-method.md, section 11.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ class Worse:
 
     @property
     def text(self) -> str:
-        """Such as "grip2 is predicted worse with it: 0.5 MPa before, 1.2 MPa after"."""
-        return f"{self.record} is predicted worse with it: {self.before_MPa:.3g} MPa before, {self.after_MPa:.3g} after"
+        """Such as "grip2 is predicted worse with it (1.2 instead of 0.5 MPa)"."""
+        return f"{self.record} is predicted worse with it ({self.after_MPa:.3g} instead of {self.before_MPa:.3g} MPa)"
 
 
 def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple[Worse, ...]:

@@ -1,6 +1,6 @@
 """Whether there is a gap, in records that were fitted and in records that were only predicted, and its size.
 
-One test for `fit`, `certify` and `diagnose` (docs/diagnosis-method.md, sections 2 and 10).
+One test for `fit`, `certify` and `diagnose` (docs/diagnosis-method.md, sections 2 and 11).
 """
 
 from __future__ import annotations

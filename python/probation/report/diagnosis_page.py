@@ -9,7 +9,15 @@ from probation.effects.registry import effects as known_effects
 from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
 from probation.report.diagnosis_summary import gap_text, next_test_text, signs
-from probation.report.diagnosis_tables import base_table, leading, mended_by, shrink_table, where_table, which_table
+from probation.report.diagnosis_tables import (
+    base_table,
+    held_out_table,
+    leading,
+    mended_by,
+    shrink_table,
+    where_table,
+    which_table,
+)
 from probation.report.diagnosis_words import closed, explanation_name, name_of, span_text
 from probation.report.isolability_figure import isolability_figure
 from probation.report.isolability_page import HOW_TO_READ_THE_MAP
@@ -106,6 +114,9 @@ def _where(found: Diagnosis) -> Section:
         "the whole squared gap.",
         picture(residual_map(found), caption),
     ]
+    if found.held_out:
+        parts.append(held_out_table(found))
+        parts.append("Expected is what the noise and the uncertainty of the parameters make of a prediction's error.")
     if found.located:
         parts.append(where_table(found)[0])
         parts.append(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.report.diagnosis_tables import MOST, mended_by, shrink_table, where_table, which_table
+from probation.report.diagnosis_tables import MOST, held_out_table, mended_by, shrink_table, where_table, which_table
 from probation.report.skipped_words import MOST as MOST_SKIPPED
 from probation.report.skipped_words import skipped_lines
 from probation.wording import percentage
@@ -34,6 +34,8 @@ def summary(found: Diagnosis) -> str:
         The first line holds the campaign and the headline, however long.
     """
     parts = [f"{found.campaign}: {found.headline}", _gap(found)]
+    if found.held_out:
+        parts.append(_shown(held_out_table(found), ""))
     if found.located:
         parts.append(_shown(*where_table(found, MOST)))
     parts.append("\n".join(_sentence(line) for line in _signs(found)))

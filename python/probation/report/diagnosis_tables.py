@@ -59,6 +59,17 @@ def where_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     return Table(headings, tuple(rows[:kept]), caption), _rest([each.share for each in found.located[kept:]], "region")
 
 
+def held_out_table(found: Diagnosis) -> Table:
+    """The base law's predictions of records that it was not fitted to."""
+    names = short_ids([*found.curves, *found.held_out])
+    rows = tuple(
+        (names[record], f"{each.rms_MPa:.3g}", f"{each.expected_MPa:.3g}", p_text(each.p_value))
+        for record, each in found.held_out.items()
+    )
+    caption = "What was only predicted (p: how often noise and the uncertainty of the parameters alone would do it)"
+    return Table(("record", "rms error [MPa]", "expected [MPa]", "p"), rows, caption)
+
+
 def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """Explanations, the most probable first; a star marks those that the data cannot tell from the best."""
     shown = list(found.explanations)
