@@ -42,6 +42,20 @@ def test_the_readme_shows_what_the_demonstration_prints(folder):
         assert any(each.startswith(line.removesuffix("…").rstrip()) for each in printed), line
 
 
+def test_the_lines_of_the_readme_print_what_it_shows(folder, tmp_path, monkeypatch, capsys):
+    """On what the demonstration wrote; the shown text is folded, and cut at …"""
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    lines = readme.split("```python\n")[1].split("```")[0]
+    shown = readme.split("```text\n")[2].split("```")[0]
+    assert "probation-demo/" in lines
+    monkeypatch.chdir(tmp_path)
+    exec(lines.replace("probation-demo", str(folder)), {})
+    printed = " ".join(capsys.readouterr().out.split())
+    assert shown.count("…") == 1
+    assert printed.startswith(" ".join(shown.split("…")[0].split()))
+    assert (tmp_path / "diagnosis.html").exists()
+
+
 def test_the_page_of_the_demonstration_holds_every_step(folder):
     html = (folder / "report.html").read_text(encoding="utf-8")
     assert all(step.title in html for step in STEPS)
