@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.errors import ConvergenceError
 from probation.inference.least_squares import FIRST_DAMPING, Bounds, NormalPrior, minimise
 
 if TYPE_CHECKING:
@@ -141,19 +140,16 @@ def refit(
         If the law cannot be solved at the start.
     """
     coordinates = Coordinates.of_model(model)
-    try:
-        found = minimise(
-            _Objective(model, coordinates, whitener),
-            coordinates.of(np.asarray(start, dtype=np.float64)),
-            bounds=coordinates.bounds,
-            prior=coordinates.prior,
-            held=held,
-            settled=settled,
-            damping=FIRST_DAMPING,
-            most_steps=most_steps,
-        )
-    except ConvergenceError as error:
-        raise ConvergenceError(f"{', '.join(model.parameter_names)}: {error}") from None
+    found = minimise(
+        _Objective(model, coordinates, whitener),
+        coordinates.of(np.asarray(start, dtype=np.float64)),
+        bounds=coordinates.bounds,
+        prior=coordinates.prior,
+        held=held,
+        settled=settled,
+        damping=FIRST_DAMPING,
+        most_steps=most_steps,
+    )
     parameters = coordinates.parameters(found.x)
     return Refit(model, parameters, found.residual, found.jacobian, coordinates, found.steps)
 
