@@ -14,7 +14,7 @@ from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, as_scheme
 from probation.provenance import samples_sha256
 from probation.results.reading import answer_in
-from probation.results.rendering import Plotted, rendered
+from probation.results.rendering import InOneLine, Plotted, rendered
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -24,7 +24,7 @@ SCHEMA = "probation.simulation/1"
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation(Plotted):
+class Simulation(Plotted, InOneLine):
     """A simulated test.
 
     `plot` draws stress over strain, and both over time.

@@ -96,6 +96,10 @@ def test_only_the_studies_import_the_public_names():
     assert not [where for own, other, where in crossings() if other == "probation" and own.startswith("probation.")]
 
 
+def is_one_line(result):
+    return result.__repr__.__qualname__.startswith("InOneLine.")
+
+
 @pytest.mark.parametrize("name", RENDERERS)
 def test_a_result_offers_what_the_table_of_renderers_has_and_nothing_else(name):
     module, _, kind = f"probation.{name}".rpartition(".")
@@ -103,19 +107,23 @@ def test_a_result_offers_what_the_table_of_renderers_has_and_nothing_else(name):
         pytest.importorskip("xarray")
     result = getattr(__import__(module, fromlist=[kind]), kind)
     offered = {what for what in ("summary", "plot", "report") if hasattr(result, what)}
-    assert offered == set(RENDERERS[name]) - {"verdict"}
+    assert offered == set(RENDERERS[name]) - {"verdict", "card", "line"}
+    assert set(RENDERERS[name]) & {"card", "line"} <= {
+        "card" * hasattr(result, "_repr_html_"),
+        "line" * is_one_line(result),
+    }
     assert all(callable(renderer(result, what)) for what in RENDERERS[name])
 
 
 def test_every_result_stands_in_the_table_of_renderers():
-    bases = {"Summarised", "Plotted", "Reported", "Result"}
+    bases = {"Displayed", "InOneLine", "Summarised", "Plotted", "Reported", "Result"}
     found = set()
     for path in (SOURCES / "probation").glob("**/*.py"):
         module = ".".join(path.relative_to(SOURCES / "probation").with_suffix("").parts)
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.ClassDef) and bases & {getattr(base, "id", "") for base in node.bases}:
                 found.add(f"{module}.{node.name}")
-    assert found - {"results.rendering.Result"} == set(RENDERERS)
+    assert {each for each in found if not each.startswith("results.rendering.")} == set(RENDERERS)
 
 
 def test_a_fit_loads_no_report_and_its_summary_no_matplotlib():

@@ -31,6 +31,7 @@ from probation.law.modified import (
     refuse,
 )
 from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
+from probation.results.rendering import Displayed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -106,7 +107,7 @@ def _log_spaced(modes: int, decades: float) -> Spectrum:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
+class Law(Displayed):
     r"""The modal (DNLR) law.
 
     .. math::

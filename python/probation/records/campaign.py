@@ -20,10 +20,11 @@ from probation.records.reading import read_records
 from probation.records.record import Noise, Record
 from probation.records.saving import save_campaign
 from probation.records.specimens import Specimens
+from probation.results.rendering import InOneLine
 
 
 @dataclass(frozen=True)
-class Campaign:
+class Campaign(InOneLine):
     """Records that share one material, and the base law put to the test on them.
 
     Load one with `load`, or make one in memory: ``Campaign(name="twin", records=(record, …))``.

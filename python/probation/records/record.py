@@ -13,6 +13,7 @@ from probation.errors import InputError
 from probation.limits import LARGEST, SMALLEST_PARAMETER
 from probation.records.checks import find_excess, find_fault, find_short_step
 from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
+from probation.results.rendering import InOneLine
 
 FloatArray = NDArray[np.float64]
 
@@ -46,7 +47,7 @@ class Noise:
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Record(InOneLine):
     """One test of one specimen.
 
     The arrays are copied, made float64 and read-only.

@@ -13,17 +13,34 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 RENDERERS: dict[str, dict[str, str]] = {
+    "records.record.Record": {
+        "card": "cards.record_card",
+        "line": "cards.record_line",
+    },
+    "records.campaign.Campaign": {
+        "card": "cards.campaign_card",
+        "line": "cards.campaign_line",
+    },
+    "law.modal.Law": {
+        "card": "cards.law_card",
+    },
     "identify.result.Fit": {
+        "card": "cards.fit_card",
+        "line": "cards.fit_line",
         "summary": "fit_summary.fit_summary",
         "plot": "fit_page.fit_figure",
         "report": "fit_page.write_fit_page",
     },
     "certificate.result.Certificate": {
+        "card": "cards.certificate_card",
+        "line": "cards.certificate_line",
         "summary": "certificate_summary.certificate_summary",
         "plot": "certificate_page.certificate_figure",
         "report": "certificate_page.write_certificate_page",
     },
     "calibration.result.Calibration": {
+        "card": "cards.calibration_card",
+        "line": "cards.calibration_line",
         "summary": "companion_summary.companion_summary",
         "plot": "companion_figure.companion_figure",
         "report": "companion_page.write_companion_page",
@@ -41,6 +58,8 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "excitation_figures.comparison_figure",
     },
     "simulation.Simulation": {
+        "card": "cards.simulation_card",
+        "line": "cards.simulation_line",
         "summary": "simulation_summary.simulation_summary",
         "plot": "plots.simulation_plot",
     },
@@ -54,6 +73,8 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "coverage_figure.coverage_figure",
     },
     "diagnosis.result.Diagnosis": {
+        "card": "cards.diagnosis_card",
+        "line": "cards.diagnosis_line",
         "summary": "diagnosis_summary.summary",
         "plot": "diagnosis_figures.diagnosis_figure",
         "report": "diagnosis_page.write_diagnosis_page",
@@ -86,18 +107,22 @@ RENDERERS: dict[str, dict[str, str]] = {
 }
 
 
+FROM_SUMMARY = {"card": "cards.summary_card", "line": "cards.summary_line"}
+"""Of a result that says no more than its summary."""
+
+
 def renderer(result: type, what: str) -> Callable[..., Any]:
     """The function that makes `what` of results of a class; a class without a line of its own has its parent's.
 
     Parameters
     ----------
     result : type
-    what : {"summary", "plot", "report", "verdict"}
+    what : {"summary", "plot", "report", "verdict", "card", "line"}
     """
     for each in result.__mro__:
         name = f"{each.__module__}.{each.__qualname__}".removeprefix("probation.")
         if name in RENDERERS:
-            module, _, function = RENDERERS[name][what].rpartition(".")
+            module, _, function = (FROM_SUMMARY | RENDERERS[name])[what].rpartition(".")
             found: Callable[..., Any] = getattr(import_module(f"probation.report.{module}"), function)
             return found
     raise LookupError(f"{result.__name__} has no line in probation/report/renderers.py")

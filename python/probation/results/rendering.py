@@ -25,14 +25,35 @@ def rendered(result: object, what: str, *arguments: object, **options: object) -
     Parameters
     ----------
     result : object
-    what : {"summary", "plot", "report", "verdict"}
+    what : {"summary", "plot", "report", "verdict", "card", "line"}
     *arguments, **options
         Passed on to the renderer.
     """
     return import_module(RENDERERS).renderer(type(result), what)(result, *arguments, **options)
 
 
-class Summarised:
+class Displayed:
+    """Something that a notebook shows as a card."""
+
+    def _repr_html_(self) -> str:
+        html: str = rendered(self, "card").html()
+        return html
+
+
+class InOneLine(Displayed):
+    """... and whose `repr` is one line, whatever it holds."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "__repr__" not in vars(cls):  # in the class itself, so that a dataclass makes none of its own
+            cls.__repr__ = InOneLine.__repr__  # type: ignore[method-assign]
+
+    def __repr__(self) -> str:
+        line: str = rendered(self, "line")
+        return line
+
+
+class Summarised(InOneLine):
     """A result that has a text for the terminal."""
 
     def summary(self) -> str:
