@@ -62,10 +62,11 @@ def test_no_more_than_eight_regions_are_listed_on_a_terminal_and_all_on_the_page
     assert len(where_table(found)[0].rows) == len(found.located)
 
 
-def test_without_a_gap_there_is_no_talk_of_closing_it():
+def test_without_a_gap_the_errors_of_every_record_stand_there_with_nothing_to_close():
     text = made_up.no_gap().summary()
     assert NOTHING in text
-    assert "How far" not in text
+    assert "no effect was added" in text
+    assert "no gap to close" in text
     assert "Where" not in text
 
 

@@ -11,6 +11,7 @@ from probation._arrays import as_threads, one_of
 from probation.design.isolability import isolability
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
+from probation.diagnosis.attribution import attribution
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
@@ -155,6 +156,7 @@ def diagnose(
         weighed = with_unseen(weighed, [effect.name for effect in considered])
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
+    parts = attribution(base, weighed, found, shrink.identify, workers)
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
@@ -168,6 +170,7 @@ def diagnose(
         headline=headline(
             verdict,
             explanations,
+            parts,
             chosen,
             shrink,
             gap,
@@ -188,6 +191,7 @@ def diagnose(
         acts=acts,
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
         explanations=explanations,
+        effects=parts.effects,
         answer_set=chosen,
         shrink=shrink,
         next_test=following,

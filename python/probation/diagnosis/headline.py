@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.diagnosis.attribution import WORTH_NAMING
 from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effect
 from probation.wording import listed, percent
@@ -11,6 +12,7 @@ from probation.wording import listed, percent
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from probation.diagnosis.attribution import Attribution
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.held_out import Worse
     from probation.diagnosis.result import Explanation, Shrink, Verdict
@@ -39,6 +41,7 @@ def choices(sets: Sequence[Sequence[str]]) -> str:
 def headline(
     verdict: Verdict,
     explanations: Sequence[Explanation],
+    parts: Attribution,
     answer_set: Sequence[tuple[str, ...]],
     shrink: Shrink,
     gap: Gap,
@@ -46,13 +49,13 @@ def headline(
     worse: Sequence[Worse] = (),
     judge: str | None = None,
 ) -> str:
-    """One sentence a person can act on.
+    """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 
     Parameters
     ----------
     verdict : {"no_gap", "explained", "unexplained"}
         Of the records that causes were fitted to.
-    explanations, answer_set, shrink, gap
+    explanations, parts, answer_set, shrink, gap
         What was found.
     worse : sequence of Worse
         Held-out records that the best explanation predicts worse than the base law.
@@ -68,9 +71,7 @@ def headline(
             f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
             f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g})."
         )
-    found = _cause(
-        verdict, best, answer_set, identify, _confined(best, len(shrink.records) - (shrink.held_out is not None))
-    )
+    found = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
     if worse:
         found = _refused(best, identify, worse)
     if gap.in_fitted:
@@ -94,30 +95,36 @@ def headline(
 def _cause(
     verdict: Verdict,
     best: Explanation,
+    parts: Attribution,
     answer_set: Sequence[tuple[str, ...]],
     identify: Closure,
-    confined: bool,
+    record_count: int,
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
-    place = f" in {listed(best.records, 'and')}" if confined else ""
-    known = [name for name in best.effects if name != UNKNOWN]
+    touched = [name for name in best.records if any(name in each.records for each in parts.effects if each.named)]
+    place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
+    known = parts.named
     fall = (
-        f"the misfit falls from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa, "
+        f"the misfit falls from {identify.before_MPa:.3g} to {parts.after_MPa:.3g} MPa, "
         f"the noise being {identify.noise_MPa:.2g} MPa"
     )
     if verdict == "unexplained":
         if known:
             verb = "is" if len(known) == 1 else "are"
-            return f"{titles(known)}{place} {verb} part of it ({fall}), but something outside the catalogue is left"
+            return (
+                f"{_with_shares(parts)}{place} {verb} part of it ({fall}), but something outside the catalogue is left"
+            )
         return "nothing in the catalogue explains it"
-    verb, pronoun = ("explains", "it") if len(best.effects) == 1 else ("explain", "them")
-    sentence = f"{titles(best.effects)}{place} {verb} the gap: with {pronoun} {fall}"
-    rivals = [each for each in answer_set if each != best.effects]
+    verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
+    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}"
+    if len(known) < len(best.effects):
+        sentence += f"; what else is in the explanation closes less than {percent(WORTH_NAMING)} of the gap"
+    rivals = [each for each in answer_set if not {*known} <= {*each}]
     if rivals:
         shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
-    return f"{sentence} (probability {percent(best.probability)})"
+    return f"{sentence} (probability {percent(parts.probability)})"
 
 
 def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> str:
@@ -129,5 +136,11 @@ def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> st
     )
 
 
-def _confined(best: Explanation, record_count: int) -> bool:
-    return 0 < len(best.records) < record_count
+def _with_shares(parts: Attribution) -> str:
+    """What is named, and where it is more than one effect, which closes how much: "damage (81 % of the gap) and …"."""
+    if len(parts.named) < 2:
+        return titles(parts.named)
+    shares = {each.name: percent(each.share) for each in parts.effects}
+    first, *others = parts.named
+    words = [f"{title(first)} ({shares[first]} of the gap)", *(f"{title(name)} ({shares[name]})" for name in others)]
+    return listed(words, "and")

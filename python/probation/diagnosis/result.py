@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from probation.design.isolability import Isolability
     from probation.detection.gap_test import GapTest
     from probation.detection.where import Located, Where
+    from probation.diagnosis.attribution import EffectShare
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.skipped import Skipped
     from probation.inference.gap import GapSize, HeldOutGap
@@ -230,6 +231,8 @@ class Diagnosis(Result, Stored):
     seed : int
     isolability : Isolability or None
         Which effects these tests could tell apart, whatever they show.
+    effects : tuple of EffectShare
+        How probable each effect is, and how much of the gap it closes; by share.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
     """
@@ -258,6 +261,7 @@ class Diagnosis(Result, Stored):
     data_sha256: str
     seed: int
     isolability: Isolability | None = None
+    effects: tuple[EffectShare, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     held_out: Mapping[str, HeldOutGap] = field(default_factory=dict)
     size: GapSize | None = None
@@ -301,6 +305,7 @@ class Diagnosis(Result, Stored):
                 for each in self.signatures
             ],
             "causes": [_explanation(each) for each in self.explanations],
+            "effects": [each.to_dict() for each in self.effects],
             "answer_set": [list(each) for each in self.answer_set],
             "shrink": {
                 "identify": shrink.identify.to_dict(),

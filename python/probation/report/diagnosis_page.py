@@ -11,6 +11,7 @@ from probation.report.diagnosis_figures import closure_figure, probability_figur
 from probation.report.diagnosis_summary import gap_text, next_test_text, signs
 from probation.report.diagnosis_tables import (
     base_table,
+    effects_table,
     held_out_table,
     leading,
     mended_by,
@@ -46,9 +47,7 @@ def write_diagnosis_page(found: Diagnosis, path: Path) -> None:
 
 def diagnosis_page(found: Diagnosis) -> Page:
     """The page: the verdict, where, before and after, which, how far, the next test, isolability, details."""
-    sections = [_short(found), _where(found), _records(found), _which(found)]
-    if mended_by(found) and found.verdict != "no_gap":
-        sections.append(_shrink(found))
+    sections = [_short(found), _where(found), _records(found), _which(found), _shrink(found)]
     sections += [_next_test(found)] if found.next_test is not None else []
     sections += [_isolability(found)] if found.isolability is not None else []
     return Page(
@@ -73,8 +72,7 @@ def _short(found: Diagnosis) -> Section:
     which = listed([f"{explanation_name(each, found)} ({percent(each.probability)})" for each in best])
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
-    if found.verdict != "no_gap":
-        rows.append(("How far", _capital(_how_far(found))))
+    rows.append(("How far", _capital(_how_far(found))))
     if found.next_test is not None:
         rows.append(("Next test", found.next_test.what))
     rows += [("Mind" if at == 0 else "", f"{each.rstrip('.')}.") for at, each in enumerate(found.warnings)]
@@ -87,6 +85,11 @@ def _capital(text: str) -> str:
 
 def _how_far(found: Diagnosis) -> str:
     shrink = found.shrink
+    if found.verdict == "no_gap":
+        return (
+            f"the error of the fitted records is {shrink.identify.before_MPa:.3g} MPa rms, the noise "
+            f"{shrink.identify.noise_MPa:.3g} MPa: there is no gap to close."
+        )
     if not mended_by(found):
         ceiling = (
             "" if shrink.ceiling is None else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
@@ -166,8 +169,18 @@ def _which(found: Diagnosis) -> Section:
     )
     caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
     table, rest = which_table(found, _EXPLANATIONS)
-    parts = (text, picture(probability_figure(found), caption), checks, table)
-    return Section("Which effect explains it", (*parts, f"{rest}.") if rest else parts)
+    parts: list[str | Table | Picture] = [text, picture(probability_figure(found), caption), checks, table]
+    if rest:
+        parts.append(f"{rest}.")
+    if found.verdict != "no_gap" and found.effects:
+        parts.append(
+            "Effect by effect: the probability that it acts, whatever stands beside it, and the part of the squared "
+            "gap that it closes. What one effect closes depends on which others were added before it; its share is the "
+            "mean over all orders. Where an effect closes nearly all of the gap alone and the others add next to "
+            "nothing beside it, the headline names it alone."
+        )
+        parts.append(effects_table(found)[0])
+    return Section("Which effect explains it", tuple(parts))
 
 
 def _shrink(found: Diagnosis) -> Section:
@@ -180,15 +193,21 @@ def _shrink(found: Diagnosis) -> Section:
         text,
         picture(closure_figure(found), "Error of each record before and after, on a logarithmic scale."),
         shrink_table(found)[0],
-        "Held-out records are the fair judge: nothing was adjusted to them."
-        if found.shrink.held_out is not None
-        else "No record was held out (--held-out ID), so that the explanation was fitted to all that it is judged by.",
+        _judge(found),
         "“Any smooth correction” is what an arbitrary smooth curve through the errors could close at best.",
         f"How the intervals of 90 % were made – {found.shrink.identify.how}.",
     ]
     if found.shrink.held_out is not None and found.shrink.held_out.how != found.shrink.identify.how:
         parts.append(f"Those of held-out records – {found.shrink.held_out.how}.")
     return Section("How far the gap shrinks", tuple(parts))
+
+
+def _judge(found: Diagnosis) -> str:
+    """Whether anything was predicted."""
+    if found.shrink.held_out is not None:
+        return "Held-out records are the fair judge: nothing was adjusted to them."
+    what = "the explanation" if mended_by(found) else "the law"
+    return f"No record was held out (--held-out ID), so that {what} was fitted to all that it is judged by."
 
 
 def _next_test(found: Diagnosis) -> Section:

@@ -5,7 +5,14 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.report.diagnosis_tables import MOST, held_out_table, mended_by, shrink_table, where_table, which_table
+from probation.report.diagnosis_tables import (
+    MOST,
+    effects_table,
+    held_out_table,
+    shrink_table,
+    where_table,
+    which_table,
+)
 from probation.report.skipped_words import MOST as MOST_SKIPPED
 from probation.report.skipped_words import skipped_lines
 from probation.wording import percentage
@@ -40,8 +47,9 @@ def summary(found: Diagnosis) -> str:
         parts.append(_shown(*where_table(found, MOST)))
     parts.append("\n".join(_sentence(line) for line in _signs(found)))
     parts.append(_shown(*which_table(found, MOST)))
-    if mended_by(found) and found.verdict != "no_gap":
-        parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
+    if found.verdict != "no_gap":
+        parts.append(_shown(*effects_table(found, MOST)))
+    parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
     if found.next_test is not None:
         parts.append(fill(next_test_text(found), WIDTH))
     parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found, MOST_SKIPPED)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.diagnosis.headline import title
 from probation.diagnosis.result import UNKNOWN
 from probation.report.diagnosis_words import (
     checks_text,
@@ -96,6 +97,32 @@ def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     return table, _rest([each.probability for each in shown[kept:]], "explanation")
 
 
+def effects_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+    """How probable each effect is, whatever stands beside it, and how much of the gap it closes."""
+    names = short_ids(found.curves)
+    fitted = [each.id for each in found.curves.values() if each.role == "identify"]
+    rows = [
+        (
+            title(each.name),
+            percent(each.probability),
+            percent(each.share) if each.name in found.best.effects else "–",
+            "" if each.alone is None else percent(each.alone),
+            "" if each.beside is None else percent(each.beside),
+            "" if set(each.records) >= {*fitted} else ", ".join(names.get(name, name) for name in each.records),
+        )
+        for each in found.effects
+    ]
+    empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
+    kept = _kept([max(each.probability, each.share) for each in found.effects], most)
+    headings = ("effect", "probability", "share of the gap", "alone", "beside the others", "only in")
+    table = Table(
+        _without(headings, empty),
+        tuple(_without(row, empty) for row in rows[:kept]),
+        "Effect by effect: how probable it is, and what it closes of the gap (–: not in the best explanation)",
+    )
+    return table, _rest([each.probability for each in found.effects[kept:]], "effect")
+
+
 def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """How far the best explanation closes the gap, all records together and one by one."""
     shrink, names = found.shrink, short_ids(found.curves)
@@ -119,7 +146,9 @@ def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]
     ]
     kept = len(rows) if most is None else min(most, len(rows))
     headings = ("records", "before", "after", "noise", "gap closed", "90 % interval")
-    caption = f"How far the gap shrinks with {mended_by(found)} (rms errors in MPa)"
+    mended = mended_by(found)
+    by = f"with {mended}" if mended else "– no effect was added"
+    caption = f"How far the gap shrinks {by} (rms errors in MPa)"
     left_out = len(rows) - kept
     rest = "" if not left_out else f"… and {left_out} more record{'s' if left_out > 1 else ''}"
     return Table(headings, tuple(rows[:kept]), caption), rest

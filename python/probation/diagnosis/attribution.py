@@ -1,0 +1,222 @@
+"""What each effect has to do with the gap: how probably it acts, and how much of the gap it closes.
+
+docs/diagnosis-method.md, section 8.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, permutations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation.diagnosis.result import UNKNOWN
+from probation.inference.candidate import cause_key
+from probation.inference.refit import refit
+from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.spikes import without_spikes
+from probation.parallel import in_parallel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.closure import Closure
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.probabilities import Weighed
+    from probation.inference.base_fit import BaseFit
+    from probation.inference.refit import Refit
+
+WORTH_NAMING = 0.01
+"""Part of the gap below which an effect is not named beside those that close the rest."""
+
+NOTED = 0.01
+"""Probability from which on an effect is listed that is not in the best explanation."""
+
+
+@dataclass(frozen=True)
+class EffectShare:
+    """One effect's part in the answer.
+
+    Attributes
+    ----------
+    name : str
+        "unknown" for what is outside the catalogue.
+    probability : float
+        Of the effect being in the right explanation, whatever stands beside it.
+    share : float
+        Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
+        in which its effects can be added (Shapley 1953). 0 for an effect that is not in it.
+    alone, beside : float or None
+        What it closes alone, and beside all others of the best explanation; None if it is not in it.
+    records : tuple of str
+        Ids of those that it touches.
+    named : bool
+        Whether the headline names it.
+    """
+
+    name: str
+    probability: float
+    share: float
+    alone: float | None
+    beside: float | None
+    records: tuple[str, ...]
+    named: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `effects` of docs/formats.md."""
+        return {
+            "name": self.name,
+            "probability": self.probability,
+            "share": self.share,
+            "alone": self.alone,
+            "beside": self.beside,
+            "records": list(self.records),
+        }
+
+
+@dataclass(frozen=True)
+class Attribution:
+    """The best explanation taken apart.
+
+    Attributes
+    ----------
+    effects : tuple of EffectShare
+        By share, then by probability.
+    named : tuple of str
+        The fewest effects of the best explanation that close all of what it closes but `WORTH_NAMING`, by share.
+    after_MPa : float
+        Root mean square of what the named effects leave.
+    probability : float
+        That all the named effects are in the right explanation.
+    """
+
+    effects: tuple[EffectShare, ...]
+    named: tuple[str, ...]
+    after_MPa: float  # noqa: N815 - as it leaves the program
+    probability: float
+
+
+def attribution(
+    base: BaseFit, weighed: Sequence[Weighed], found: Sequence[Hypothesis], closure: Closure, threads: int
+) -> Attribution:
+    """Probability and share of every effect.
+
+    Parameters
+    ----------
+    base : BaseFit
+    weighed : sequence of Weighed
+        All explanations, the most probable first.
+    found : sequence of Hypothesis
+        All forms and places that were refitted.
+    closure : Closure
+        Of the best explanation, on the records that were fitted.
+    threads : int
+    """
+    best = weighed[0]
+    known = best.hypothesis.effects if best.effects else ()
+    squares = _squares(base, best.hypothesis, known, found, threads)
+    gap = closure.before_MPa**2 - min(closure.noise_MPa, closure.after_MPa) ** 2
+    closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
+    named = _named(known, closed)
+    shares = _shapley(known, closed)
+    entries = []
+    for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
+        probability = min(sum(each.probability for each in weighed if name in each.effects), 1.0)
+        inside = name in known
+        if name not in best.effects and probability < NOTED:
+            continue
+        share = shares.get(name, 0.0)
+        if name == UNKNOWN and UNKNOWN in best.effects:
+            share = max(1.0 - closed[known], 0.0)
+        entries.append(
+            EffectShare(
+                name=name,
+                probability=probability,
+                share=share,
+                alone=closed[(name,)] if inside else None,
+                beside=closed[known] - closed[_without(known, name)] if inside else None,
+                records=_records(name, weighed),
+                named=name in named,
+            )
+        )
+    entries.sort(key=lambda each: (-each.share, -each.probability))
+    return Attribution(
+        effects=tuple(entries),
+        named=tuple(sorted(named, key=lambda name: -shares[name])),
+        after_MPa=float(np.sqrt(squares[named])),
+        probability=min(sum(each.probability for each in weighed if {*named} <= {*each.effects}), 1.0),
+    )
+
+
+def _squares(
+    base: BaseFit, best: Hypothesis, known: tuple[str, ...], found: Sequence[Hypothesis], threads: int
+) -> dict[tuple[str, ...], float]:
+    """Mean square of what every part of the best explanation leaves, law and effects refitted [MPa^2]."""
+    solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
+    parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
+
+    def fitted(part: tuple[str, ...]) -> Refit | None:
+        causes = [cause for cause in best.causes if cause.effect.name in part]
+        there = solved.get(frozenset(cause_key(cause) for cause in causes))
+        model = best.refit.model.with_causes(causes)
+        law, values = best.refit.model.split(best.refit.parameters)
+        start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
+        try:
+            return refit(model, start if there is None else there.parameters, base.whitener)
+        except UNSOLVABLE:
+            return there
+
+    refits = dict(zip(parts, in_parallel(fitted, parts, threads), strict=True))
+    squares = {(): _mean_square(base, base.refit), known: _mean_square(base, best.refit if known else base.refit)}
+    for part, each in refits.items():
+        # What cannot be solved closes no more than its own parts do.
+        below = [squares[smaller] for smaller in squares if {*smaller} < {*part}]
+        squares[part] = _mean_square(base, each) if each is not None else min(below)
+    return squares
+
+
+def _mean_square(base: BaseFit, found: Refit) -> float:
+    """Of the fit residual on the fitted records, outliers set apart [MPa^2]."""
+    raw = found.model.residual(found.parameters)
+    parts: list[FloatArray] = [
+        without_spikes(raw[found.model.rows(noise.name)], noise.spikes) for noise in base.whitened.noises
+    ]
+    return float(np.mean(np.concatenate(parts) ** 2))
+
+
+def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> dict[str, float]:
+    """Mean over all orders of what each effect closes when it is added."""
+    shares = dict.fromkeys(known, 0.0)
+    orders = list(permutations(known))
+    for order in orders:
+        before: tuple[str, ...] = ()
+        for name in order:
+            after = tuple(sorted((*before, name)))
+            shares[name] += (closed[after] - closed[before]) / len(orders)
+            before = after
+    return shares
+
+
+def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
+    """The fewest that close nearly all."""
+    for size in range(1, len(known)):
+        parts = [part for part in combinations(known, size) if closed[part] > closed[known] - WORTH_NAMING]
+        if parts:
+            return max(parts, key=lambda part: closed[part])
+    return known
+
+
+def _without(known: tuple[str, ...], name: str) -> tuple[str, ...]:
+    return tuple(each for each in known if each != name)
+
+
+def _records(name: str, weighed: Sequence[Weighed]) -> tuple[str, ...]:
+    """Those that an effect touches in the most probable explanation that holds it."""
+    for each in weighed:
+        causes = [cause for cause in each.hypothesis.causes if cause.effect.name == name]
+        if causes:
+            views = each.hypothesis.refit.model.views
+            return tuple(view.id for view in views if any(cause.touches(view.id) for cause in causes))
+    return ()

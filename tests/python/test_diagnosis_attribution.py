@@ -1,0 +1,117 @@
+"""Every effect's probability and its share of the gap; the headline names what closes it."""
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from campaigns.few_records import damage, few_records, offset
+from probation import diagnose
+from probation.diagnosis.attribution import Attribution, EffectShare, _named, _shapley
+from probation.diagnosis.closure import Closure
+from probation.diagnosis.headline import headline
+
+EFFECTS = ["damage", "force_offset", "machine_compliance"]
+
+
+def both(name, time, strain, stress):
+    """Damage in all records, 0.8 MPa of offset in one."""
+    return offset(0.8, "middle")(name, time, strain, damage(0.05)(name, time, strain, stress))
+
+
+@pytest.fixture(scope="module")
+def two_effects():
+    return diagnose(few_records(both), effects=EFFECTS, design=False)
+
+
+def test_shares_are_means_over_the_orders_of_adding():
+    """Alone a closes 0.6, b 0.5, both 0.9: a adds 0.6 or 0.4, b 0.5 or 0.3."""
+    closed = {(): 0.0, ("a",): 0.6, ("b",): 0.5, ("a", "b"): 0.9}
+    assert _shapley(("a", "b"), closed) == pytest.approx({"a": 0.5, "b": 0.4})
+
+
+def test_shares_sum_to_what_the_explanation_closes(two_effects):
+    shares = [each.share for each in two_effects.effects]
+    assert shares == sorted(shares, reverse=True)
+    in_it = [each for each in two_effects.effects if each.name in two_effects.best.effects]
+    assert sum(each.share for each in in_it) == pytest.approx(two_effects.shrink.identify.closure, abs=0.02)
+
+
+def test_each_effect_has_its_probability_its_records_and_what_it_closes_in_any_order(two_effects):
+    assert two_effects.best.effects == ("damage", "force_offset")
+    larger, smaller = two_effects.effects[:2]
+    assert (larger.name, smaller.name) == ("damage", "force_offset")
+    assert larger.share > smaller.share > 0.01
+    assert larger.records == ("slow", "middle", "fast", "unloading")
+    assert smaller.records == ("middle",)
+    for each in (larger, smaller):
+        assert each.probability > 0.9
+        assert min(each.alone, each.beside) <= each.share <= max(each.alone, each.beside)
+
+
+def test_the_probability_of_an_effect_is_summed_over_all_explanations_that_hold_it(two_effects):
+    for each in two_effects.effects:
+        inside = sum(other.probability for other in two_effects.explanations if each.name in other.effects)
+        assert each.probability == pytest.approx(inside)
+
+
+def test_json_summary_and_page_say_it_effect_by_effect(two_effects, tmp_path):
+    first = json.loads(two_effects.to_json())["effects"][0]
+    assert {"name", "probability", "share", "records"} <= set(first)
+    assert "Effect by effect" in two_effects.summary()
+    two_effects.report(tmp_path / "page.html")
+    assert "Effect by effect" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_the_headline_gives_the_shares_of_several_effects_the_largest_first(two_effects):
+    text = two_effects.headline
+    assert text.startswith("Damage (")
+    assert text.index("of the gap)") < text.index("offset of the force")
+
+
+@pytest.mark.parametrize(
+    ("closed", "named"),
+    [
+        ({("a",): 0.995, ("b",): 0.4, ("a", "b"): 1.0}, ("a",)),
+        ({("a",): 0.98, ("b",): 0.4, ("a", "b"): 1.0}, ("a", "b")),
+        ({("a",): 0.2, ("b",): 0.9995, ("a", "b"): 1.0}, ("b",)),
+    ],
+)
+def test_what_closes_less_than_one_percent_is_not_named_beside_what_closes_the_rest(closed, named):
+    assert _named(("a", "b"), {(): 0.0, **closed}) == named
+
+
+def test_a_headline_without_the_small_effects_does_not_call_what_it_names_its_own_rival():
+    share = EffectShare("self_heating", 0.99, 0.7, 0.997, 0.3, ("a",), named=True)
+    small = EffectShare("delayed_hardening", 0.87, 0.3, 0.6, 0.002, ("a",), named=False)
+    parts = Attribution((share, small), ("self_heating",), 0.2, 0.99)
+    best = SimpleNamespace(effects=("delayed_hardening", "self_heating"), records=("a",))
+    text = headline(
+        "explained",
+        [best],
+        parts,
+        [("delayed_hardening", "self_heating"), ("self_heating",)],
+        SimpleNamespace(identify=Closure(4.0, 0.05, 0.05, 0.999, None, ""), records={"a": None}, held_out=None),
+        SimpleNamespace(held_out={}, in_fitted=True),
+    )
+    assert text.startswith("Self-heating explains the gap: with it the misfit falls from 4 to 0.2 MPa")
+    assert "hardening" not in text
+    assert text.endswith("(probability 99 %).")
+
+
+def test_how_far_is_told_whatever_the_verdict():
+    nothing = diagnose(few_records(names=("slow", "fast")), effects=EFFECTS, design=False)
+    assert nothing.verdict == "no_gap"
+    assert "How far the gap shrinks" in nothing.summary()
+
+    def twisted(name, time, strain, stress):
+        return stress + 1.5 * np.exp(-(((strain - 0.5) / 0.15) ** 2))
+
+    unexplained = diagnose(few_records(twisted, names=("slow", "fast")), effects=["force_offset"], design=False)
+    assert unexplained.verdict == "unexplained"
+    assert "How far the gap shrinks" in unexplained.summary()
+    outside = next(each for each in unexplained.effects if each.name == "unknown")
+    assert outside.share > 0.9
+    assert replace(outside, share=0.0) not in unexplained.effects
