@@ -8,6 +8,7 @@ import pytest
 
 from campaigns.few_records import damage, few_records, offset
 from probation import ConvergenceError, InputError, diagnose
+from probation.cli import main
 from probation.design.planned_tests import Laboratory, repeats
 from probation.design.predicted import Explanation, predictions
 from probation.effects.cause import Cause
@@ -111,6 +112,36 @@ def test_a_held_out_record_that_the_best_explanation_cannot_predict_is_named(reg
     assert "fast" in left_out.why
     assert FEEDBACK in left_out.why
     assert found.shrink.records["fast"].after_MPa == found.shrink.records["fast"].before_MPa
+
+
+def test_a_budget_gives_the_best_answer_so_far_and_says_what_was_not_tried():
+    """1 ms is gone with the base fit: of many causes only the most promising one is refitted."""
+    names = ["damage", "machine_compliance", "slow_process", "volume_change"]
+    found = diagnose(few_records(damage(0.05)), effects=names, threads=1, budget=1e-3)
+    assert found.best.effects == ("damage",)
+    untried = [each for each in found.skipped if "not tried within the budget of 0.001 s" in each.why]
+    assert untried
+    assert any(set(each.effects) <= {*names} and each.effects for each in untried)
+    assert any("what these tests can discriminate" in each.why for each in untried)
+    assert found.isolability is None
+    assert found.next_test is None
+
+
+def test_a_budget_that_suffices_leaves_nothing_out():
+    found = diagnose(few_records(damage(0.05)), effects=["damage"], threads=1, budget=600.0, design=False)
+    assert found.skipped == ()
+
+
+@pytest.mark.parametrize("budget", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_budget_is_a_positive_number_of_seconds(budget):
+    with pytest.raises(InputError, match=r"budget: found .*, expected a positive number of seconds"):
+        diagnose(few_records(names=("slow",)), budget=budget)
+
+
+@pytest.mark.parametrize("text", ["0", "-3", "soon", "nan"])
+def test_the_command_refuses_a_budget_that_is_no_time(text, capsys):
+    assert main(["diagnose", "nowhere", f"--budget={text}"]) == 2
+    assert "--budget" in capsys.readouterr().err
 
 
 def test_a_fault_with_a_size_each_in_two_records_comes_back_once_in_a_planned_test():

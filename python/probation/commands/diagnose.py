@@ -11,6 +11,7 @@ from probation.commands.analysis_options import (
     add_threads,
     check_effects,
     effects_from_options,
+    seconds,
 )
 from probation.commands.campaign_options import (
     add_campaign,
@@ -90,6 +91,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_hold(parser)
     add_seed(parser)
     add_threads(parser)
+    parser.add_argument(
+        "--budget",
+        metavar="SECONDS",
+        type=seconds,
+        help="give the best answer that is found in so many seconds, and say what was not tried (no limit)",
+    )
     add_delivery(parser)
     return parser
 
@@ -120,6 +127,7 @@ def run(options: argparse.Namespace) -> int:
             hold=held,
             seed=options.seed,
             threads=options.threads,
+            budget=options.budget,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer.summary(), outputs_with_report(answer, options))

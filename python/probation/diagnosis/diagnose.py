@@ -12,6 +12,7 @@ from probation.design.isolability import isolability
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
+from probation.diagnosis.budget import FOR_THE_DESIGN, Budget
 from probation.diagnosis.checks import checks
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
@@ -74,6 +75,7 @@ def diagnose(
     seed: int = 0,
     threads: int | None = None,
     design: bool = True,
+    budget: float | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Diagnosis:
     """Diagnose the gap between the campaign's base law and its records.
@@ -96,6 +98,9 @@ def diagnose(
         By default as many as there are processors, at most 4.
     design : bool
         Whether to say, too, what these tests could discriminate at all, and which test to do next.
+    budget : float, optional [s]
+        Time after which the best answer so far is given; `skipped` says what was not tried. The base fit and the test
+        for a gap are always done.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -106,8 +111,9 @@ def diagnose(
     Raises
     ------
     InputError
-        For an unknown effect or parameter, suggesting the nearest.
+        For an unknown effect or parameter, suggesting the nearest, and for a budget that is not positive.
     """
+    deadline = Budget(budget)
     one_of(scheme, "scheme", SCHEMES)
     considered = catalogue(effects)
     workers = as_threads(threads) or usual_threads()
@@ -134,7 +140,9 @@ def diagnose(
     base, where, p_value = case.base, case.where, case.p_value
     told(0.35)
     if gap.exists:
-        base, found, weighed, judged, verdict = _explained(base, considered, p_value, workers, seed, skipping, told)
+        base, found, weighed, judged, verdict = _explained(
+            base, considered, p_value, workers, seed, skipping, deadline, told
+        )
     else:
         found = linear_hypotheses(base, base.columns, skipping)
         weighed = given_no_gap(weigh(found, len(considered), TEMPERED), p_value)
@@ -162,7 +170,7 @@ def diagnose(
     localised = 0 < len(explanations[0].records) < len(base.model.views)
     following, apart = None, None
     if design:
-        following, apart = _designed(base, considered, weighed, chosen, found, skipping, workers, seed)
+        following, apart = _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed)
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
@@ -244,10 +252,11 @@ def _explained(
     threads: int,
     seed: int,
     skipping: Skipping,
+    budget: Budget,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
     """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
-    base, found = _searched(base, considered, threads, skipping, lambda part: progress(0.35 + 0.45 * part))
+    base, found = _searched(base, considered, threads, skipping, budget, lambda part: progress(0.35 + 0.45 * part))
     weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)
@@ -266,10 +275,14 @@ def _designed(
     chosen: Sequence[tuple[str, ...]],
     found: Sequence[Hypothesis],
     skipping: Skipping,
+    budget: Budget,
     threads: int,
     seed: int,
 ) -> tuple[NextTest | None, Isolability | None]:
     """The next test, and what these tests can discriminate."""
+    if budget.spent(FOR_THE_DESIGN):
+        skipping.part("the next test, and what these tests can discriminate", budget.why)
+        return None, None
     following = None
     if is_stretched(base):
         following = skipping.tried(
@@ -320,10 +333,11 @@ def _searched(
     considered: tuple[Effect, ...],
     threads: int,
     skipping: Skipping,
+    budget: Budget,
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
-    search = Search(base, considered, threads, progress, skipping)
+    search = Search(base, considered, threads, progress, skipping, budget)
     found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
     leading = search.ranked()
     if not leading:

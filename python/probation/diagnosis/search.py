@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.sharp import find_lines, find_steps
+from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
@@ -82,6 +83,8 @@ class Search:
     threads : int
     skipping : Skipping
         What is left out.
+    budget : Budget
+        Once it is spent, no further hypothesis is begun.
     found : list of Hypothesis
         The base law's first.
     """
@@ -91,6 +94,7 @@ class Search:
     threads: int = 2
     progress: Callable[[float], None] | None = None
     skipping: Skipping = field(default_factory=Skipping)
+    budget: Budget = field(default_factory=Budget)
     found: list[Hypothesis] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -105,6 +109,9 @@ class Search:
         while size < MOST_EFFECTS:
             leading = self.ranked(size)
             if not leading:
+                break
+            if self.budget.spent():
+                self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
             for each in leading[: FORWARD if left and size == 1 else 1]:
@@ -124,7 +131,9 @@ class Search:
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - HOPELESS
         leading = [each for each in leading if each.evidence.log_evidence > least]
-        again.found += again._judged(again._polished([each.refit for each in leading]))
+        steps = HEAT_STEPS if self.budget.spent() else MOST_STEPS
+        begun = [(each.refit.model, each.refit.parameters) for each in leading]
+        again.found += again._judged(again._solved(begun, steps))
         again._look_beside_the_leading()
         return again.found
 
@@ -149,7 +158,7 @@ class Search:
         first = _promising(_first_of_each(candidates))
         running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS))
         self.found += self._judged(out)
-        polished = self._polished(running)
+        polished = self._further(running, MOST_STEPS)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         others = _others(_promising(candidates), first, STARTS - 1)
         more = [each for each in others if cause_key(each.cause) in keys]
@@ -161,7 +170,7 @@ class Search:
         for _ in range(HEATS - 1):
             limit = self._limit(refits)
             behind = [each for each in refits if each.chi_square > limit and each.steps == HEAT_STEPS]
-            further = self._solved([(each.model, each.parameters) for each in behind], HEAT_STEPS)
+            further = self._further(behind, HEAT_STEPS)
             again = {id(each.model): each for each in further}
             moved = {
                 id(each): again[id(each.model)]
@@ -186,6 +195,9 @@ class Search:
 
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause beside those of a hypothesis."""
+        if self.budget.spent():
+            self.skipping.part(f"a further effect beside {' and '.join(leading.effects)}", self.budget.why)
+            return
         model, at = leading.refit.model, leading.refit.parameters
         raw = model.residual(at)
 
@@ -256,20 +268,28 @@ class Search:
             jobs += [(model, np.concatenate([start, candidate.values])) for start in (before.parameters, *other_starts)]
         return self._solved(jobs, steps)
 
-    def _polished(self, refits: Iterable[Refit]) -> list[Refit]:
-        return self._solved([(each.model, each.parameters) for each in refits], MOST_STEPS)
+    def _further(self, refits: Sequence[Refit], steps: int) -> list[Refit]:
+        """Unfinished refits taken further; left as they are once the budget is spent."""
+        if self.budget.spent():
+            return list(refits)
+        return self._solved([(each.model, each.parameters) for each in refits], steps)
 
     def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray]], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""
+        nothing_yet = len(self.found) == 1
 
-        def one(job: tuple[CampaignModel, FloatArray]) -> Refit | None:
+        def one(numbered: tuple[int, tuple[CampaignModel, FloatArray]]) -> Refit | None:
+            number, (model, start) = numbered
+            if self.budget.spent() and not (nothing_yet and number == 0):
+                self.skipping.hypothesis(model.causes, self.budget.why)
+                return None
             try:
-                return refit(*job, self.base.whitener, most_steps=steps)
+                return refit(model, start, self.base.whitener, most_steps=steps)
             except UNSOLVABLE as error:
-                self.skipping.hypothesis(job[0].causes, error)
+                self.skipping.hypothesis(model.causes, error)
                 return None
 
-        return [each for each in in_parallel(one, jobs, self.threads) if each is not None]
+        return [each for each in in_parallel(one, list(enumerate(jobs)), self.threads) if each is not None]
 
     def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
         """Refits with their evidence; without those of which it cannot be worked out."""
