@@ -66,9 +66,10 @@ def test_a_hypothesis_that_cannot_be_solved_is_listed_and_the_others_are_judged(
     found = diagnosed(few_records(damage(0.05)), "damage", design=False)
     assert found.best.effects == ("damage",)
     (alone,) = found.skipped
-    assert (alone.effects, alone.why, alone.count) == (("broken",), str(error), 1)
-    assert {"effects": ["broken"], "why": str(error), "count": 1} in json.loads(found.to_json())["skipped"]
-    assert str(error) in " ".join(found.summary().split())
+    assert (alone.effects, alone.count) == (("broken",), 1)
+    assert alone.why.endswith(str(error))
+    assert json.loads(found.to_json())["skipped"] == [{"effects": ["broken"], "why": alone.why, "count": 1}]
+    assert alone.why in " ".join(found.summary().split())
 
 
 def test_without_a_gap_it_is_listed_too(registered):

@@ -168,9 +168,11 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     localised = 0 < len(explanations[0].records) < len(base.model.views)
-    following, apart = None, None
-    if design:
-        following, apart = _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed)
+    following, apart = (
+        _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed)
+        if design
+        else (None, None)
+    )
     told(1.0)
     return Diagnosis(
         campaign=campaign.name,
