@@ -13,7 +13,7 @@ from probation.records.options import ReadingKeys
 from probation.records.reading import read_record
 
 READERS = ("preview", "excitation", "fit", "companion", "certify", "diagnose", "plan", "simulate", "export")
-OPTIONS = {"--profile", "--column", "--unit", "--specimen", "--specimen-index", "--sheet"}
+OPTIONS = {"--profile", "--column", "--unit", "--specimen", "--specimen-index", "--sheet", "--test-rate"}
 
 TIME = np.linspace(0.0, 60.0, 61)
 
@@ -141,3 +141,47 @@ def test_a_unit_given_for_percentages_is_that_of_what_is_shown(percentages):
 def test_a_percent_sign_that_is_text_changes_nothing(percentages):
     record = read_record(percentages("True strain [%]", style='0.00" %"'))
     assert record.true_strain[-1] == pytest.approx(0.0005, rel=1e-12)
+
+
+@pytest.fixture
+def untimed(tmp_path):
+    """Engineering strain in percent and stress, up and down again, standing still for one row."""
+    path = tmp_path / "curve.csv"
+    strain = [*range(21), 20, *range(19, 9, -1)]
+    path.write_text("Engineering strain (%),Engineering stress (MPa)\n" + "".join(f"{e},{e}\n" for e in strain))
+    return path
+
+
+def test_a_curve_without_time_takes_a_stated_strain_rate(untimed):
+    record = read_record(untimed, test_rate="1 %/s")
+    assert record.time == pytest.approx(np.arange(31.0))
+    assert record.true_strain[[20, 30]] == pytest.approx(np.log1p([0.2, 0.1]))
+    assert "time: it is made of the strain, taken to go at 1 %/s" in record.warnings[0]
+    assert "left out 1 rows" in record.warnings[1]
+
+
+def test_a_curve_without_time_takes_a_stated_crosshead_speed(untimed):
+    record = read_record(untimed, test_rate="30 mm/min", specimen={"gauge_length_mm": 50.0})
+    assert record.time == pytest.approx(np.arange(31.0))
+
+
+@pytest.mark.parametrize("rate", ["fast", "0.001", "-1 1/s", "0 1/s", "1 kg", "1..2 1/s", "nan 1/s"])
+def test_a_rate_that_is_none_is_refused(untimed, rate):
+    with pytest.raises(InputError, match=r"test_rate: found .*, expected a positive number with a unit"):
+        read_record(untimed, test_rate=rate)
+
+
+def test_a_file_without_time_says_what_to_do(untimed):
+    with pytest.raises(InputError, match=r'say test_rate = "0.001 1/s"'):
+        read_record(untimed)
+
+
+def test_a_file_with_time_takes_no_rate(percentages):
+    with pytest.raises(InputError, match=r"found the time column 'Time \[s\]' beside test_rate"):
+        read_record(percentages("True strain"), test_rate="1 1/s")
+
+
+def test_an_empty_cell_of_a_curve_without_time_is_named_by_its_row(untimed):
+    untimed.write_text(untimed.read_text().replace("\n7,7\n", "\n,7\n", 1))
+    with pytest.raises(InputError, match=r"row 9, column 'Engineering strain .*found an empty cell"):
+        read_record(untimed, test_rate="1 %/s")

@@ -11,7 +11,7 @@ from probation.errors import InputError
 if TYPE_CHECKING:
     from probation.records.options import ReadingKeys
 
-_OPTIONS = ("profile", "column", "unit", "specimen", "specimen_index", "sheet")
+_OPTIONS = ("profile", "column", "unit", "specimen", "specimen_index", "sheet", "test_rate")
 
 
 def add_reading(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
@@ -37,6 +37,9 @@ def add_reading(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     )
     group.add_argument("--specimen-index", metavar="N", type=int, help="of several specimens in a file, only this one")
     group.add_argument("--sheet", metavar="NAME", help="of an Excel workbook")
+    group.add_argument(
+        "--test-rate", metavar="RATE", help='of a file without time: "0.001 1/s", or "2 mm/min" by gauge_length_mm'
+    )
     return group
 
 
@@ -55,6 +58,7 @@ def reading_from(options: argparse.Namespace) -> ReadingKeys:
         "specimen": named_numbers(options.specimen, "--specimen"),
         "specimen_index": options.specimen_index,
         "sheet": options.sheet,
+        "test_rate": options.test_rate,
     }
 
 

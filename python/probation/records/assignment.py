@@ -44,6 +44,14 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
     assigned: dict[str, Column] = {}
     for group in (("time",), STRAIN_ROLES, STRESS_ROLES)[: 3 if with_stress else 2]:
         role = next((r for r in group if r in named), None) or next((r for r in group if r in implied), None)
+        if options.test_rate is not None and group == ("time",):
+            if role is not None:
+                label = (named.get(role) or implied[role]).label
+                raise InputError(
+                    f"{table.path}: found the time column {quoted(label)} beside test_rate, expected one of the two; "
+                    "leave test_rate out"
+                )
+            continue
         if role is None:
             raise _nothing_for(table, group)
         assigned[role] = named.get(role) or implied[role]
@@ -164,6 +172,8 @@ def _nothing_for(table: Table, group: tuple[str, ...]) -> InputError:
         if vague
         else _likeliest_slip(labels, group)
     )
+    if quantity == "time":
+        remedy += '; or, of a curve without time, say test_rate = "0.001 1/s"'
     return bad_input(
         table.path,
         f"no {quantity} column among {listed(labels, 'and')}",

@@ -11,6 +11,7 @@ from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
 from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step, refusal
 from probation.records.conversions import stretch_from, true_strain_from
+from probation.records.made_time import parse_rate, time_along
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
 from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES
@@ -82,7 +83,12 @@ def extract(
         At the first thing that is wrong, by file, row and column.
     """
     columns = assign_columns(table, options, with_stress=with_stress)
-    raw = _raw_samples(table, columns, minimum)
+    if options.test_rate is None:
+        raw = _raw_samples(table, columns, minimum)
+    else:
+        raw = _with_time(table, reading, options, columns, _untimed_samples(table, columns))
+        columns["time"] = Column(label="time by test_rate", name="time", unit="s", position=-1)
+        _check_samples(table, columns, raw, minimum)
     samples = {
         role: _in_internal_units(table, role, columns[role], values, options) for role, values in raw.samples.items()
     }
@@ -136,6 +142,35 @@ def dimension_warning(
 
 def _raw_samples(table: Table, columns: dict[str, Column], minimum: int) -> _Raw:
     """Read the columns, cut padding and repeated last rows, and check what remains."""
+    raw = _untimed_samples(table, columns)
+    _check_samples(table, columns, raw, minimum)
+    return raw
+
+
+def _with_time(table: Table, reading: Reading, options: ReadOptions, columns: dict[str, Column], raw: _Raw) -> _Raw:
+    """Put time before the samples, by the stated rate; rows at which nothing moves are left out."""
+    rate, is_speed = parse_rate(table.path, options.test_rate or "")
+    role = next(role for role in STRAIN_ROLES if role in columns)
+    values = _in_internal_units(table, role, columns[role], raw.samples[role], options)
+    if role == "displacement" or is_speed:
+        length = dimension(table, reading, options, "gauge_length_mm", role)
+        values = values if role == "displacement" else length * stretch_from(role, values, length)
+        rate = rate if is_speed else rate * length
+    if not np.isfinite(values).all():  # `_check_samples` names the row
+        return _Raw({"time": np.arange(len(values), dtype=np.float64), **raw.samples}, raw.rows, raw.notes)
+    time = time_along(values, rate)
+    moves = np.concatenate([[True], np.diff(time) > 0.0])
+    measure = "strain" if role != "displacement" else "displacement"
+    notes = [f"the file has no time: it is made of the {measure}, taken to go at {options.test_rate}"]
+    if not moves.all():
+        notes.append(f"left out {int((~moves).sum())} rows at which the {measure} does not change: they have no time")
+    samples = {"time": time[moves], **{name: sampled[moves] for name, sampled in raw.samples.items()}}
+    rows = [row for row, moved in zip(raw.rows, moves, strict=True) if moved]
+    return _Raw(samples, rows, (*raw.notes, *notes))
+
+
+def _untimed_samples(table: Table, columns: dict[str, Column]) -> _Raw:
+    """The columns, padding and repeated last rows cut."""
     samples = {role: table.numbers(column) for role, column in columns.items()}
     blank = [role for role in OPTIONAL_ROLES if role in samples and np.isnan(samples[role]).all()]
     notes = [f"left out {role}: its column {quoted(columns[role].label)} is empty" for role in blank]
@@ -143,7 +178,9 @@ def _raw_samples(table: Table, columns: dict[str, Column], minimum: int) -> _Raw
     stacked = np.stack(list(samples.values()))
     filled = np.flatnonzero(~np.isnan(stacked).all(axis=0))
     if not filled.size:
-        raise bad_input(table.path, "no numbers", "at least ten rows of them", column=columns["time"].label)
+        raise bad_input(
+            table.path, "no numbers", "at least ten rows of them", column=next(iter(columns.values())).label
+        )
     end = last = int(filled[-1]) + 1
     while last > 1 and np.array_equal(stacked[:, last - 1], stacked[:, last - 2]):
         last -= 1
@@ -152,23 +189,24 @@ def _raw_samples(table: Table, columns: dict[str, Column], minimum: int) -> _Raw
         repeated = table.row_numbers[last - 1]
         notes.append(f"dropped {end - last} {plural} at the end that repeat row {repeated} exactly")
     samples = {role: values[:last] for role, values in samples.items()}
-    _check_samples(table, columns, samples, minimum)
     return _Raw(samples=samples, rows=table.row_numbers[:last], notes=tuple(notes))
 
 
-def _check_samples(table: Table, columns: dict[str, Column], samples: dict[str, FloatArray], minimum: int) -> None:
+def _check_samples(table: Table, columns: dict[str, Column], raw: _Raw, minimum: int) -> None:
+    samples = raw.samples
     fault = find_fault(samples, minimum)
     if fault is None:
         return
     found = fault.found
     if not np.isfinite(samples[fault.quantity][fault.sample]):
-        cell = table.cells(columns[fault.quantity])[fault.sample].strip()
+        at = table.row_numbers.index(raw.rows[fault.sample])
+        cell = table.cells(columns[fault.quantity])[at].strip()
         found = quoted(cell) if cell else "an empty cell"
     raise bad_input(
         table.path,
         found,
         fault.expected,
-        row=table.row_numbers[fault.sample],
+        row=raw.rows[fault.sample],
         column=columns[fault.quantity].label,
         remedy=fault.remedy,
     )

@@ -8,6 +8,7 @@ from typing import TypedDict, Unpack
 
 from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
+from probation.records.made_time import parse_rate
 from probation.records.roles import ROLES, STRAIN_ROLES, STRESS_ROLES
 
 SPECIMEN_KEYS = ("area_mm2", "gauge_length_mm", "width_mm", "thickness_mm", "diameter_mm")
@@ -35,6 +36,9 @@ class ReadingKeys(TypedDict, total=False):
         Only this one of several specimens of a file, counted from 1.
     sheet : str
         Sheet of an Excel workbook; by default the first that holds anything.
+    test_rate : str
+        For a file without time: the rate at which its strain went (``"0.001 1/s"``), or its crosshead
+        (``"2 mm/min"``, by ``gauge_length_mm``).
     """
 
     profile: str | None
@@ -43,6 +47,7 @@ class ReadingKeys(TypedDict, total=False):
     specimen: Mapping[str, float] | None
     specimen_index: int | None
     sheet: str | None
+    test_rate: str | None
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,8 @@ class ReadOptions:
         Which of several specimens side by side, counted from 1.
     sheet : str or None
         Sheet of an Excel workbook.
+    test_rate : str or None
+        Rate at which a file without time was driven.
     """
 
     profile: str | None = None
@@ -71,6 +78,7 @@ class ReadOptions:
     specimen: dict[str, float] = field(default_factory=dict)
     specimen_index: int | None = None
     sheet: str | None = None
+    test_rate: str | None = None
 
     @property
     def labels(self) -> list[str]:
@@ -112,7 +120,14 @@ def read_options(path: Path, **how: Unpack[ReadingKeys]) -> ReadOptions:
         specimen=with_area(path, specimen),
         specimen_index=how.get("specimen_index"),
         sheet=how.get("sheet"),
+        test_rate=_rate(path, how.get("test_rate")),
     )
+
+
+def _rate(path: Path, text: str | None) -> str | None:
+    if text is not None:
+        parse_rate(path, text)
+    return text
 
 
 def with_area(path: Path, specimen: Mapping[str, float]) -> dict[str, float]:
