@@ -33,6 +33,7 @@ from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
 from .law.schemes import BE2, CVODE, SA2, SA3, Exact
 from .records.campaign import Campaign
+from .records.initial.init_campaign import init_campaign
 from .records.preview import preview
 from .records.record import Noise, Record
 from .records.specimens import Specimens
@@ -98,6 +99,7 @@ __all__ = [
     "fit",
     "haward_thackray_strain",
     "identify_many",
+    "init_campaign",
     "named_history",
     "plan",
     "preview",

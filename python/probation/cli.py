@@ -27,6 +27,7 @@ from probation.commands import (
     export,
     field,
     fit,
+    init,
     plan,
     preview,
     simulate,
@@ -43,7 +44,8 @@ if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 COMMANDS = (
-    demo, preview, excitation, fit, companion, certify, diagnose, plan, crosscheck, simulate, export, coverage, field,
+    demo, preview, init, excitation, fit, companion, certify, diagnose, plan, crosscheck, simulate, export, coverage,
+    field,
 )  # fmt: skip
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here.
 
@@ -55,6 +57,7 @@ Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline p
 
   see it work, without any file      probation demo
   what would be read from a file     probation preview tension.csv
+  a campaign of a laboratory's files probation init tension-*.csv -o hdpe-2020
   strain rate, and how well known    probation excitation tension.csv
   identify the law on a campaign     probation fit hdpe-2020/ --report fit.html
   is the law intrinsic?              probation certify hdpe-2020/ --report certificate.html

@@ -52,6 +52,7 @@ class Run:
 RUNS = {
     "demo": Run([], "probation.demo:demonstrate", {"--json": ["--no-files"]}),
     "preview": Run(["one/a.csv"]),
+    "init": Run(["one/a.csv", "--yes"]),
     "excitation": Run(["one"]),
     "fit": Run(["one"], "probation.identify.fit:fit"),
     "companion": Run(["--table-2"], "", {"--apply": ["rates", "--form", "power"]}),

@@ -53,19 +53,19 @@ def campaign_text(
     modes = {"modes": law.modes, "decades": law.decades}
     if law.accuracy is not None:
         modes["accuracy"] = law.accuracy
-    parts = [_lines({"name": name}), "[law]\n" + _lines(modes)]
+    parts = [lines_of({"name": name}), "[law]\n" + lines_of(modes)]
     if law.companion is not None:
         parts.append(companion_text(law.companion))
     if law.fixed:
-        parts.append("[law.fixed]\n" + _lines(law.fixed))
+        parts.append("[law.fixed]\n" + lines_of(law.fixed))
     if specimens != Specimens():
-        parts.append("[specimens]\n" + _lines({"scatter": specimens.scatter}))
+        parts.append("[specimens]\n" + lines_of({"scatter": specimens.scatter}))
     for record, file_name in zip(records, file_names, strict=True):
         noise = {"stress_MPa": record.noise.stress_MPa, "strain": record.noise.strain}
         known = {key: level for key, level in noise.items() if level is not None}
         entry = {"id": record.id, "file": file_name, "control": record.control, "role": record.role}
         specimen = {"specimen_id": record.specimen_id} if record.specimen_id is not None else {}
-        parts.append("[[record]]\n" + _lines({**entry, **specimen, **({"noise": known} if known else {})}))
+        parts.append("[[record]]\n" + lines_of({**entry, **specimen, **({"noise": known} if known else {})}))
     return "\n".join(parts)
 
 
@@ -81,10 +81,11 @@ def companion_text(companion: CompanionSettings) -> str:
             "covariance": known.covariance,
         }
         entry |= {key: value for key, value in optional.items() if value is not None}
-    return "[law.companion]\n" + _lines(entry)
+    return "[law.companion]\n" + lines_of(entry)
 
 
-def _lines(values: Mapping[str, object]) -> str:
+def lines_of(values: Mapping[str, object]) -> str:
+    """Keys and values as lines of TOML."""
     return "".join(f"{key} = {_toml(value)}\n" for key, value in values.items())
 
 

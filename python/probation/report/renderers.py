@@ -97,6 +97,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "summary": "preview_summary.preview_summary",
         "plot": "preview_figure.preview_figure",
     },
+    "records.initial.init_campaign.InitialCampaign": {
+        "summary": "initial_summary.initial_summary",
+        "plot": "initial_page.initial_figure",
+        "report": "initial_page.write_initial_page",
+    },
     "exporting.result.Export": {
         "summary": "export_summary.export_summary",
     },

@@ -1,0 +1,1 @@
+"""From the files of a laboratory to a campaign: `init_campaign`."""

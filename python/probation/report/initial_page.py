@@ -1,0 +1,73 @@
+"""A campaign that was made of files, as a figure and as a page: every record, as it was read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from probation.report.figures import house_style, new_figure
+from probation.report.initial_summary import record_table
+from probation.report.page import Page, Section, picture
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from probation.records.initial.init_campaign import InitialCampaign
+    from probation.records.record import Record
+
+
+def initial_figure(made: InitialCampaign) -> Figure:
+    """Stress over strain, and strain over time, of all records."""
+    with house_style():
+        figure = new_figure(10.0, 4.0)
+        over_strain, over_time = figure.subplots(1, 2)
+        for record in made.campaign.records:
+            over_strain.plot(record.true_strain, record.true_stress, lw=1.0, label=record.id)
+            over_time.plot(record.time - record.time[0], record.true_strain, lw=1.0)
+        _label(over_strain, over_time)
+        figure.legend(*over_strain.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return figure
+
+
+def record_figure(record: Record) -> Figure:
+    """The same of one record, and its stress over time."""
+    with house_style():
+        figure = new_figure(10.0, 3.2)
+        over_strain, strain_axes, stress_axes = figure.subplots(1, 3)
+        over_strain.plot(record.true_strain, record.true_stress, lw=1.0)
+        strain_axes.plot(record.time, record.true_strain, lw=1.0)
+        stress_axes.plot(record.time, record.true_stress, lw=1.0)
+        _label(over_strain, strain_axes)
+        stress_axes.set(xlabel="time [s]", ylabel="true stress [MPa]")
+    return figure
+
+
+def _label(over_strain: Axes, over_time: Axes) -> None:
+    over_strain.set(xlabel="true strain [–]", ylabel="true stress [MPa]")
+    over_time.set(xlabel="time [s]", ylabel="true strain [–]")
+
+
+def write_initial_page(made: InitialCampaign, path: Path) -> None:
+    """Write the page."""
+    records = made.campaign.records
+    sections = [Section("Records", (record_table(made),))]
+    sections += [
+        Section(
+            record.id,
+            (
+                f"Read from {made.reads[record.id]}.",
+                *(f"Note: {warning}." for warning in record.warnings),
+                picture(record_figure(record), f"{record.id}: stress over strain, strain and stress over time."),
+            ),
+        )
+        for record in records
+    ]
+    Page(
+        title=f"Records of {made.campaign.name}",
+        verdict=f"{len(records)} {'record' if len(records) == 1 else 'records'} read.",
+        lead="Look at each: do the axes fit, does the test start at zero, is it the specimen that was meant? "
+        "campaign.toml beside this page says how each is read, and can be changed.",
+        sections=tuple(sections),
+    ).write(path)

@@ -1,0 +1,193 @@
+"""From the files of a laboratory to a campaign that loads and fits, without writing TOML."""
+
+import io
+import json
+import shutil
+import tomllib
+
+import numpy as np
+import pytest
+
+from lab_files import FILES, STRAIN, STRESS, TIME
+from probation import Campaign, InputError, fit, init_campaign
+from probation.cli import main
+from probation.commands.init import _Asking
+from probation.published.experiments import twin_campaign
+from probation.records.initial.control import guess_control
+from probation.records.initial.questions import Question
+
+SPECIMEN = ["--specimen", "area_mm2=40", "--specimen", "gauge_length_mm=50"]
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    """The fourteen files."""
+    folder = tmp_path_factory.mktemp("lab")
+    for name, (make, _, _) in FILES.items():
+        make(folder / name)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(lab, tmp_path_factory):
+    """A campaign of them."""
+    folder = tmp_path_factory.mktemp("made") / "hdpe"
+    assert main(["init", *(str(lab / name) for name in FILES), "-o", str(folder), "--yes", *SPECIMEN]) == 0
+    return folder
+
+
+def test_fourteen_messy_files_become_a_campaign_without_writing_toml(made):
+    campaign = Campaign.load(made)
+    assert {record.file.name for record in campaign.records} == set(FILES)
+    assert len(campaign.records) == sum(count for _, _, count in FILES.values()) == 17
+    assert {record.control for record in campaign.records} == {"displacement-rate"}
+
+
+def test_the_campaign_fits(made):
+    campaign = Campaign.load(made)
+    some = Campaign("some", campaign.records[:3])
+    found = json.loads(fit(some).to_json())["parameters"]
+    assert found["unrelaxed_modulus_MPa"]["value"] == pytest.approx(2400.0, rel=0.02)
+    assert found["tau_max_s"]["value"] == pytest.approx(6.0, rel=0.02)
+
+
+def test_a_campaign_survives_being_moved(made, tmp_path):
+    moved = shutil.move(shutil.copytree(made, tmp_path / "copy"), tmp_path / "elsewhere")
+    assert len(Campaign.load(moved).records) == 17
+
+
+def test_a_page_shows_every_record(made):
+    page = (made / "records.html").read_text()
+    assert all(f"{record.id}: stress over strain" in page for record in Campaign.load(made).records)
+
+
+def test_the_campaign_says_in_comments_how_each_record_is_read(made):
+    text = (made / "campaign.toml").read_text()
+    assert "# read: by profile bluehill: time 'Time', displacement 'Extension', force 'Load'" in text
+    assert "# stated in the file: area_mm2 = 40, gauge_length_mm = 50" in text
+    assert "# role: " in text
+
+
+def test_what_is_said_of_all_files_leaves_what_a_file_states(made):
+    entries = tomllib.loads((made / "campaign.toml").read_text())["record"]
+    by_id = {entry["id"]: entry for entry in entries}
+    assert "specimen" not in by_id["raw-2"]  # its table says 4 mm by 10.2 mm
+    assert by_id["specimen"]["specimen"] == {"area_mm2": 40.0, "gauge_length_mm": 50.0}
+
+
+def test_what_is_said_of_one_file_wins(lab, tmp_path):
+    files = [str(lab / "raw.csv"), str(lab / "essai.csv")]
+    said = ["--specimen", "essai.csv:area_mm2=80", "--role", "essai.csv:held-out", "--control", "raw.csv:other"]
+    assert main(["init", *files, "-o", str(tmp_path / "made"), "--yes", *said]) == 0
+    campaign = Campaign.load(tmp_path / "made")
+    assert [record.role for record in campaign.records] == ["identify", "identify", "held-out"]
+    assert [record.control for record in campaign.records] == ["other", "other", "displacement-rate"]
+    assert campaign.record("essai").true_stress == pytest.approx(0.5 * STRESS * (1 + STRAIN), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("name", "option"),
+    [("specimen.dat", "--specimen gauge_length_mm=…"), ("Zugversuch.xlsx", "--specimen gauge_length_mm=…")],
+)
+def test_without_a_terminal_one_line_says_which_option_to_give(lab, tmp_path, capsys, monkeypatch, name, option):
+    monkeypatch.setattr("sys.stdin", io.StringIO("5\n5\n"))
+    assert main(["init", str(lab / name), "-o", str(tmp_path / "made")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"probation: {name}: found no gauge length")
+    assert option in line
+    assert not (tmp_path / "made").exists()
+
+
+def test_a_curve_without_time_says_that_it_needs_a_rate(tmp_path, capsys):
+    path = tmp_path / "curve.csv"
+    path.write_text("Strain (%),Stress (MPa)\n" + "".join(f"{at},{at}\n" for at in range(12)))
+    assert main(["init", str(path), "-o", str(tmp_path / "a"), "--yes"]) == 2
+    assert "--test-rate" in capsys.readouterr().err
+    assert main(["init", str(path), "-o", str(tmp_path / "b"), "--yes", "--test-rate", "1 %/s"]) == 0
+    assert Campaign.load(tmp_path / "b").records[0].time[-1] == pytest.approx(11.0)
+
+
+def test_questions_are_asked_with_a_default(lab, tmp_path, monkeypatch, capsys):
+    asked = []
+
+    def ask(question):
+        asked.append((question.key, question.default))
+        return {"gauge_length": "50", "area": "10x4"}.get(question.key, "")
+
+    made = init_campaign([lab / "specimen.dat", lab / "tension.csv"], tmp_path / "made", ask=ask)
+    assert asked == [
+        ("gauge_length", ""),
+        ("area", ""),
+        ("control", "displacement-rate"),
+        ("role", "identify"),
+        ("column:Strain (%)", "engineering"),
+        ("column:Stress (MPa)", "engineering"),
+        ("control", "displacement-rate"),
+        ("role", "identify"),
+    ]
+    for record in made.campaign.records:
+        assert record.true_stress == pytest.approx(STRESS * (1 + STRAIN), abs=1e-3)
+
+
+def test_an_answer_is_the_default_of_the_next_file_and_a_bad_one_is_asked_again(monkeypatch, capsys):
+    monkeypatch.setattr("sys.stdin", io.StringIO("40\n\nsideways\nhold\n"))
+    ask = _Asking()
+    area = Question("a.csv", "area", "section", "--specimen …")
+    assert [ask(area), ask(area)] == ["40", "40"]
+    assert ask(Question("a", "control", "way", "--control …", "other", ("hold", "other"))) == "hold"
+    shown = capsys.readouterr().err
+    assert "a.csv: section [40]: " in shown
+    assert "a: way (hold, other) [other]: expected hold, other" in shown
+    with pytest.raises(InputError, match="found no section, expected --specimen"):
+        ask(area)
+
+
+@pytest.mark.parametrize(("answer", "area"), [("40", 40.0), ("10x4", 40.0), ("10 × 4", 40.0), ("d7,1", 39.59)])
+def test_a_section_is_answered_as_an_area_a_rectangle_or_a_diameter(lab, tmp_path, answer, area):
+    answers = {"gauge_length": "50", "area": answer}
+    made = init_campaign([lab / "specimen.dat"], tmp_path / "made", ask=lambda asked: answers.get(asked.key, ""))
+    stress = made.campaign.records[0].true_stress
+    assert stress == pytest.approx(STRESS * (1 + STRAIN) * 40.0 / area, rel=1e-3, abs=1e-3)
+
+
+def test_a_link_names_the_file_where_it_is(lab, tmp_path):
+    made = init_campaign([lab / "essai.csv"], tmp_path / "made", link=True)
+    assert sorted(path.name for path in (tmp_path / "made").iterdir()) == ["campaign.toml", "records.html"]
+    assert made.campaign.records[0].file.resolve() == (lab / "essai.csv").resolve()
+
+
+def test_files_of_the_same_name_are_both_kept(lab, tmp_path):
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        shutil.copy(lab / "essai.csv", tmp_path / folder)
+    made = init_campaign([tmp_path / "a" / "essai.csv", tmp_path / "b" / "essai.csv"], tmp_path / "made")
+    assert [record.id for record in made.campaign.records] == ["essai", "essai-2"]
+    assert len({record.file for record in made.campaign.records}) == 2
+
+
+def test_a_campaign_that_is_there_is_left_alone(made, lab, capsys):
+    before = (made / "campaign.toml").read_bytes()
+    assert main(["init", str(lab / "essai.csv"), "-o", str(made), "--yes"]) == 2
+    assert "found a campaign.toml, expected a new folder" in capsys.readouterr().err
+    assert (made / "campaign.toml").read_bytes() == before
+
+
+def test_something_said_of_no_file_is_refused(lab, tmp_path):
+    with pytest.raises(InputError, match=r"'esai\.csv', which is not among the files; did you mean 'essai\.csv'"):
+        init_campaign([lab / "essai.csv"], tmp_path / "made", by_file={"esai.csv": {"role": "held-out"}})
+
+
+def test_the_control_is_guessed_of_the_strain():
+    twins = {record.id: guess_control(record) for record in twin_campaign().records}
+    assert next(iter(twins.values())) == "strain-rate"
+    record = twin_campaign().records[0]
+    strain = {
+        "strain-rate": 0.001 * TIME,
+        "displacement-rate": np.log1p(0.05 * TIME),
+        "hold": np.minimum(0.1 * TIME, 0.2),
+        "cyclic": 0.1 * np.sin(TIME),
+        "other": 1e-3 * TIME**2,
+    }
+    for control, values in strain.items():
+        made = type(record)("a", TIME, values, values)
+        assert guess_control(made) == control
