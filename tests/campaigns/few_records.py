@@ -46,7 +46,7 @@ def few_records(
                 noise=Noise(strain=0.0),
             )
         )
-    return probation.Campaign(name="few records", records=tuple(records))
+    return probation.Campaign(name="few records", records=tuple(records), specimens=probation.Specimens("none"))
 
 
 def offset(size, *only):

@@ -9,6 +9,7 @@ from probation.effects.registry import register, unregister
 from probation.inference.callable_law import CallableLaw, maxwell_bar
 from probation.records.campaign import Campaign
 from probation.records.record import Record
+from probation.records.specimens import Specimens
 
 MODULUS, TIME = 1200.0, 8.0  # MPa, s
 
@@ -27,7 +28,7 @@ def campaign(fault=None):
         if fault is not None:
             stress = fault(name, time, rate * time, stress)
         records.append(Record(id=name, time=time, true_strain=rate * time, true_stress=stress, control="strain-rate"))
-    return Campaign("bars", tuple(records))
+    return Campaign("bars", tuple(records), specimens=Specimens("none"))
 
 
 def test_a_maxwell_bar_that_is_one_has_no_gap():

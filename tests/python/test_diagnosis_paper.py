@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from probation import Campaign, Law, Weissenberg, diagnose
+from probation import Campaign, Law, Specimens, Weissenberg, diagnose
 from probation.law.history import StrainHistory
 from probation.law.settings import LawSettings
 from probation.published.experiments import SAMPLES, experiment_2, experiment_3, necking_history, twin_campaign
@@ -32,7 +32,7 @@ def record(number, necking, role, bias=0.0):
 
 
 def diagnosed(*records, hold=None):
-    return diagnose(Campaign("one law", records, LawSettings()), hold=hold, design=False)
+    return diagnose(Campaign("one law", records, LawSettings(), Specimens("none")), hold=hold, design=False)
 
 
 def nothing_else_is_named(found):
@@ -47,7 +47,7 @@ def nothing_else_is_named(found):
 def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
     """Without it 6 to 8 MPa; with it the noise, on the record that was fitted."""
     twins = twin_campaign((number,), held_out=(other,))
-    found = diagnose(Campaign(twins.name, twins.records, LawSettings()), hold=hold, design=False)
+    found = diagnose(Campaign(twins.name, twins.records, LawSettings(), Specimens("none")), hold=hold, design=False)
     assert found.verdict == "explained"
     assert nothing_else_is_named(found)
     assert 6.0 < found.shrink.identify.before_MPa < 8.5
@@ -60,7 +60,7 @@ def test_the_companion_relation_is_missed_and_nothing_else(number, other, hold):
 def test_it_is_named_where_the_modulus_cannot_be_known():
     """Experiment 2 tells little of E_u: what the data leave open must not make an unknown effect of rounding errors."""
     twins = twin_campaign((2,))
-    found = diagnose(Campaign(twins.name, twins.records, LawSettings()), design=False)
+    found = diagnose(Campaign(twins.name, twins.records, LawSettings(), Specimens("none")), design=False)
     assert found.best.effects == (MISSING,)
     assert found.best.probability > 0.8
     assert found.shrink.identify.after_MPa < 1.5 * NOISE

@@ -72,10 +72,12 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
 def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
     """The base law's parameters with their standard errors by noise, all of its drift included.
 
-    One at its bound has none.
+    Where the specimens' scatter is known from replicates, or stated, they are those of the material's mean; where it is
+    assumed, of the specimens that were tested. A parameter at its bound has none.
     """
     found = base.refit
-    deviation = np.sqrt(np.maximum(np.diag(base.covariance), 0.0))
+    covariance = base.covariance_of_tested if base.scatter.source == "assumed" else base.covariance
+    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     result = []
     ended = np.any(found.at_bound, axis=0)
     for name, value, error, stopped in zip(base.law.parameter_names, found.parameters, deviation, ended, strict=True):

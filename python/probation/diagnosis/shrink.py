@@ -10,11 +10,12 @@ from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.own_deviations import own_deviations
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.spikes import without_spikes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.detection.where import Located
@@ -55,6 +56,8 @@ def shrink_of(
     noises = {noise.name: noise for noise in base.whitened.noises} | {
         noise.name: noise for noise in base.held_out_noises
     }
+    own = _of_specimens(base, after)
+    before, after = ({name: values - own.get(name, 0.0) for name, values in each.items()} for each in (before, after))
     pieces = {
         view.id: Piece(
             without_spikes(before[view.id] - view.data, noises[view.id].spikes),
@@ -118,6 +121,15 @@ def _predicted(
         except UNSOLVABLE as error:
             skipping.part(f"the best explanation's prediction of {view.id}", error)
     return found
+
+
+def _of_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """What of the residuals of the identify records their specimens' deviations make; by record [MPa]."""
+    noises, views = base.whitened.noises, base.model.views
+    residuals = [
+        without_spikes(predicted[view.id] - view.data, noise.spikes) for view, noise in zip(views, noises, strict=True)
+    ]
+    return {view.id: part for view, part in zip(views, own_deviations(residuals, noises), strict=True)}
 
 
 def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:

@@ -59,6 +59,8 @@ class RecordView:
     quiet_stress : ndarray, shape (n,) [MPa], or None
         The recorded true stress without its noise, where that is known: see `CampaignModel.quietened`. Effects that
         hand the recorded force back to the strain take it; with a companion relation noise would count as straining.
+    specimen_id : str or None
+        Records of one specimen share its deviations.
     reference_rate : float
         Rate at which a law without rate dependence and one with it agree [1/s]; one number for all records.
     """
@@ -80,6 +82,7 @@ class RecordView:
     count: int
     reference_rate: float
     quiet_stress: FloatArray | None = None
+    specimen_id: str | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -213,6 +216,7 @@ def view_of(
         index=index,
         count=count,
         reference_rate=reference_rate,
+        specimen_id=record.specimen_id,
     )
 
 

@@ -45,7 +45,7 @@ def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
     steps = enough_substeps(campaign, found, samples)
     views = views_of(campaign, excitations=samples, scheme=found.scheme, substeps=steps)
     law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in found.names])
-    base = fit_views(law, views, campaign.records, samples)
+    base = fit_views(law, views, campaign, samples)
     return replace(base, other_starts=_other_starts(base))
 
 

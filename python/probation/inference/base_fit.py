@@ -10,16 +10,19 @@ import numpy as np
 
 from probation.effects.record_view import views_of
 from probation.inference.candidate import WhitenedColumns
+from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.inference.propagated import propagated_noise
 from probation.inference.refit import Refit, refit
+from probation.inference.scatter import scatter_of, with_scatter
 from probation.inference.screen import screen
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
+from probation.noise.own_deviations import specimens_of
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.smoothing.excitation import excite
@@ -32,12 +35,13 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
+    from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
     from probation.law.schemes import SchemeName
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
     from probation.records.campaign import Campaign
-    from probation.records.record import Record
+    from probation.records.specimens import Specimens
     from probation.smoothing.excitation import Excitation
 
 ROUNDS = 3
@@ -57,6 +61,12 @@ class BaseFit:
         On the identify records, without causes.
     whitened : Whitened
         The same as the statistics see it.
+    specimens : Specimens
+        What the campaign says of them.
+    scatter : Scatter
+        How far specimens differ; the whitened records have it in their noise.
+    alike : Whitened
+        The same as it would be if specimens were alike.
     other_starts : tuple of ndarray, shape (n_base,)
         Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
     signals : tuple of Column
@@ -69,6 +79,9 @@ class BaseFit:
     views: tuple[RecordView, ...]
     refit: Refit
     whitened: Whitened
+    specimens: Specimens
+    scatter: Scatter
+    alike: Whitened
     other_starts: tuple[FloatArray, ...] = ()
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
@@ -92,7 +105,7 @@ class BaseFit:
 
     @cached_property
     def covariance(self) -> FloatArray:
-        """Of the parameters, by noise with all of its drift, shape (n_base, n_base)."""
+        """Of the material's parameters, by noise with all of its drift and by specimens, shape (n_base, n_base)."""
         found, whitened = self.refit, self.whitened
         solver = np.linalg.pinv(found.jacobian)
         covariance = solver @ solver.T
@@ -102,6 +115,17 @@ class BaseFit:
                 covariance += moved @ moved.T
         slopes = found.coordinates.slopes(found.parameters)
         return np.asarray(covariance * np.outer(slopes, slopes))
+
+    @cached_property
+    def covariance_of_tested(self) -> FloatArray:
+        """The same for the mean of the specimens that were tested, by noise alone, shape (n_base, n_base)."""
+        found = self.refit
+        solver = np.linalg.pinv(found.jacobian) * found.coordinates.slopes(found.parameters)[:, None]
+        covariance = self.covariance.copy()
+        for columns in self.of_specimens():
+            moved = solver @ columns
+            covariance -= moved @ moved.T
+        return covariance
 
     @cached_property
     def held_out_noises(self) -> tuple[NoiseModel, ...]:
@@ -143,6 +167,19 @@ class BaseFit:
         more = screen(self.model, self.parameters, started, residual=residual, threads=threads, unsolved=unsolved)
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
 
+    def of_specimens(self) -> list[FloatArray]:
+        """What each specimen's deviations do to all identify records, of one standard deviation, white; (N, k)."""
+        found = []
+        for members in specimens_of(self.whitened.noises):
+            own = [self.whitened.noises[index].specimen for index in members]
+            if own[0] is None or not own[0].shape[1]:
+                continue
+            columns = np.zeros((len(self.whitened), own[0].shape[1]))
+            for index, part in zip(members, own, strict=True):
+                columns[self.whitened.slices[index]] = part
+            found.append(self.whitener.columns(columns))
+        return found
+
     @property
     def whitener(self) -> Whitener:
         """Of the identify records."""
@@ -154,14 +191,14 @@ def fit_law(law: GapLaw, campaign: Campaign, scheme: SchemeName = "sa3") -> Base
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=scheme)
     known = law if isinstance(law, DnlrLaw) else UsersLaw(law)
-    return fit_views(known, views, campaign.records, excitations)
+    return fit_views(known, views, campaign, excitations)
 
 
 def fit_views(
-    law: GapLaw, views: Sequence[RecordView], records: Sequence[Record], excitations: Mapping[str, Excitation]
+    law: GapLaw, views: Sequence[RecordView], campaign: Campaign, excitations: Mapping[str, Excitation]
 ) -> BaseFit:
-    """Fit any law to the views whose role is "identify": parameters and noise in turns."""
-    known = {record.id: record for record in records}
+    """Fit any law to the views whose role is "identify": parameters, noise and the specimens' scatter in turns."""
+    known = {record.id: record for record in campaign.records}
     model = CampaignModel(law, [view for view in views if view.role == "identify"])
     parameters = law.start
     raw, jacobian = model.residual_and_jacobian(parameters)
@@ -179,14 +216,13 @@ def fit_views(
         ]
 
     residuals = residuals_of(model, raw, jacobian)
-    for _ in range(ROUNDS):
-        noises = _noises(residuals)
-        found = refit(model, parameters, Whitener(noises), most_steps=12)
-        moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
-        parameters = found.parameters
-        residuals = _at(residuals, found)
-        if moved.size == 0 or float(moved.max()) < 1e-5:
-            break
+    found, noises, residuals = _settled(model, parameters, residuals)
+    alike = Whitened.of(residuals, noises)
+    columns = [] if campaign.specimens.alike else deviation_columns(model, found.parameters)
+    scatter = scatter_of(campaign.specimens, law, residuals, noises, columns)
+    if scatter.any:
+        found, noises, residuals = _settled(model, found.parameters, with_scatter(residuals, columns, scatter))
+    parameters = found.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
     fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
@@ -195,8 +231,33 @@ def fit_views(
     if others:
         rest = CampaignModel(law, others)
         held_out = residuals_of(rest, *rest.residual_and_jacobian(parameters))
-    whitened = Whitened.of(residuals, noises)
-    return BaseFit(law, quiet, replace(found, model=fitted), whitened, held_out=tuple(held_out))
+        if scatter.any:
+            held_out = with_scatter(held_out, deviation_columns(rest, parameters), scatter)
+    return BaseFit(
+        law=law,
+        views=quiet,
+        refit=replace(found, model=fitted),
+        whitened=Whitened.of(residuals, noises),
+        specimens=campaign.specimens,
+        scatter=scatter,
+        alike=alike,
+        held_out=tuple(held_out),
+    )
+
+
+def _settled(
+    model: CampaignModel, parameters: FloatArray, residuals: Sequence[RecordResidual]
+) -> tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]:
+    """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
+    for _ in range(ROUNDS):
+        noises = _noises(residuals)
+        found = refit(model, parameters, Whitener(noises), most_steps=12)
+        moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
+        parameters = found.parameters
+        residuals = _at(residuals, found)
+        if moved.size == 0 or float(moved.max()) < 1e-5:
+            break
+    return found, noises, list(residuals)
 
 
 def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
@@ -208,9 +269,15 @@ def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
     explained : Refit
         With the causes, on the same records.
     """
-    noises = _noises(_at(base.whitened.records, explained))
+    records = _at(base.whitened.records, explained)
+    if base.scatter.any:
+        columns = deviation_columns(explained.model, explained.parameters)
+        scatter = scatter_of(base.specimens, base.law, records, base.whitened.noises, columns)
+        records = with_scatter(records, columns, scatter)
+        base = replace(base, scatter=scatter)
+    noises = _noises(records)
     found = refit(base.model, base.parameters, Whitener(noises), most_steps=12)
-    return replace(base, refit=found, whitened=Whitened.of(_at(base.whitened.records, found), noises))
+    return replace(base, refit=found, whitened=Whitened.of(_at(records, found), noises))
 
 
 def _at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidual]:

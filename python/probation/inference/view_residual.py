@@ -45,4 +45,5 @@ def residual_of(
         measured=view.data,
         given_noise=given_noise,
         carried=carried,
+        specimen_id=view.specimen_id,
     )

@@ -74,6 +74,8 @@ def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
         known.shape_variance,
         each.spikes,
         source,
+        specimen=each.record.specimen,
+        specimen_id=each.record.specimen_id,
     )
 
 
@@ -97,6 +99,8 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
         0.0,
         each.spikes,
         "as given" if record.given_noise and record.given_noise >= each.white else each.source,
+        specimen=record.specimen,
+        specimen_id=record.specimen_id,
     )
 
 

@@ -51,6 +51,11 @@ class NoiseModel:
     nuisance_drift : ndarray, shape (n, k) [MPa], optional
         Slow noise on top that resembles no effect: what resembles one is reported as that effect. Only tests of waves
         that belong to no effect have it.
+    specimen : ndarray, shape (n, k) [MPa], optional
+        What deviations of the record's specimen do, of one standard deviation each. Whitening and draws have it;
+        `deviation` has not: it is no noise of the record, and the same in all records of the specimen.
+    specimen_id : str, optional
+        Records of one specimen share these deviations: see `Whitener`.
     """
 
     name: str
@@ -67,6 +72,8 @@ class NoiseModel:
     source: str
     drift: FloatArray | None = None
     nuisance_drift: FloatArray | None = None
+    specimen: FloatArray | None = None
+    specimen_id: str | None = None
 
     def __len__(self) -> int:
         return len(self.profile)
@@ -113,6 +120,11 @@ class NoiseModel:
             return rough
         return np.asarray(rough + rng.standard_normal((size, slow.shape[1])) @ slow.T)
 
+    @property
+    def alike(self) -> NoiseModel:
+        """The same without deviations of the specimen."""
+        return replace(self, specimen=None)
+
     def scaled(self, factor: float) -> NoiseModel:
         """The same noise with `factor` times the standard deviation."""
         return replace(
@@ -127,7 +139,7 @@ class NoiseModel:
 
     @property
     def _slow(self) -> FloatArray:
-        return self.carried if self.drift is None else np.hstack([self.carried, self.drift])
+        return np.hstack([self.carried, *(each for each in (self.drift, self.specimen) if each is not None)])
 
     @cached_property
     def _smooth_part(self) -> tuple[FloatArray, FloatArray]:

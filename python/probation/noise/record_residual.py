@@ -36,6 +36,11 @@ class RecordResidual:
     carried : ndarray, shape (n, k) [MPa], optional
         A with A A^T = J_eps Sigma_eps J_eps^T: the noise of a smoothed strain, or of the first sample of a raw one,
         as stress (`inference.propagated`). What is rougher shows in the residual and is measured there.
+    specimen : ndarray, shape (n, k) [MPa], optional
+        What deviations of its specimen from the material's mean do, of one standard deviation each
+        (`inference.scatter`).
+    specimen_id : str, optional
+        Records of one specimen share these deviations.
     quiet : tuple of slice
         Dwells and pre-load segments: the noise is taken there if they are long enough.
     replicate : ndarray, shape (n,) [MPa], optional
@@ -58,6 +63,8 @@ class RecordResidual:
     measured: FloatArray | None = None
     given_noise: float | None = None
     carried: FloatArray | None = None
+    specimen: FloatArray | None = None
+    specimen_id: str | None = None
     quiet: tuple[slice, ...] = ()
     replicate: FloatArray | None = None
 
@@ -70,7 +77,7 @@ class RecordResidual:
         for name in ("measured", "replicate"):
             if getattr(self, name) is not None:
                 as_samples(getattr(self, name), f"{self.name}: {name}", count)
-        for name in ("tangent", "carried"):
+        for name in ("tangent", "carried", "specimen"):
             matrix = getattr(self, name)
             if matrix is None:
                 continue

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.noise.own_deviations import specimens_of
 from probation.noise.spikes import without_spikes
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
 
+LEAST_SHARED = 1e-12
+"""Smallest variance, over the noise's, of what records of one specimen do not share: rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Whitener:
-    """L, record by record.
+    """L, record by record; then what records of one specimen have in common.
 
     Attributes
     ----------
@@ -27,7 +32,7 @@ class Whitener:
 
     noises: tuple[NoiseModel, ...]
 
-    @property
+    @cached_property
     def slices(self) -> tuple[slice, ...]:
         """Rows of each record."""
         borders = np.cumsum([0, *(len(noise) for noise in self.noises)]).tolist()
@@ -36,8 +41,51 @@ class Whitener:
     def residual(self, residual: FloatArray) -> FloatArray:
         """L r of a stacked residual (N,), its outliers set aside."""
         parts = zip(self.noises, self.slices, strict=True)
-        return np.concatenate([noise.whiten(without_spikes(residual[part], noise.spikes)) for noise, part in parts])
+        own = [noise.whiten(without_spikes(residual[part], noise.spikes)) for noise, part in parts]
+        return self._apart(np.concatenate(own))
 
     def columns(self, matrix: FloatArray) -> FloatArray:
         """L times stacked columns (N, m)."""
-        return np.vstack([noise.whiten(matrix[part]) for noise, part in zip(self.noises, self.slices, strict=True)])
+        own = [noise.whiten(matrix[part]) for noise, part in zip(self.noises, self.slices, strict=True)]
+        return self._apart(np.vstack(own))
+
+    def _apart(self, values: FloatArray) -> FloatArray:
+        """Columns (N,) or (N, m), each record white by itself, in coordinates in which all are white together."""
+        for rows, basis, root in self._shared:
+            own = values[rows]
+            values[rows] = own + basis @ (root @ (basis.T @ own))
+        return values
+
+    @cached_property
+    def _shared(self) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+        """Of each specimen with several records its rows, a basis Q of them, and M: (I + S)^(-1/2) = I + Q M Q^T.
+
+        S is the covariance from record to record; that within a record is white already.
+        """
+        found = []
+        for group in specimens_of(self.noises):
+            if len(group) < 2:
+                continue
+            blocks, seen = [], []
+            for index in group:
+                columns = self.noises[index].specimen
+                if columns is None or not columns.shape[1]:
+                    continue
+                left, size, right = np.linalg.svd(self.noises[index].whiten(columns), full_matrices=False)
+                blocks.append(left)
+                seen.append(size[:, None] * right)
+            if not blocks:
+                continue
+            rows = np.concatenate([np.arange(len(self.noises[index])) + self.slices[index].start for index in group])
+            widths = [block.shape[1] for block in blocks]
+            basis = np.zeros((len(rows), sum(widths)))
+            shared = np.vstack(seen) @ np.vstack(seen).T
+            row = at = 0
+            for block, width in zip(blocks, widths, strict=True):
+                basis[row : row + len(block), at : at + width] = block
+                shared[at : at + width, at : at + width] = np.eye(width)
+                row, at = row + len(block), at + width
+            values, vectors = np.linalg.eigh(shared)
+            root = (vectors / np.sqrt(np.maximum(values, LEAST_SHARED))) @ vectors.T
+            found.append((rows, basis, root - np.eye(len(root))))
+        return found

@@ -1,0 +1,74 @@
+"""What a specimen that differs does to the stress that a model predicts: one column for each way of differing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.inference.protocol import GapLaw
+
+AREA, START = "area", "strain_offset"
+"""What differs beside the law's parameters: the section, and the strain at which the specimen begins to be strained."""
+
+_KNOWN = {
+    "unrelaxed_modulus_MPa": "unrelaxed_modulus",
+    "tau_max_s": "tau",
+    "alpha": "tau",
+    "hardening_modulus_MPa": "hardening_modulus",
+    AREA: AREA,
+    START: START,
+}
+
+_STEP = 1e-6
+"""Strain over which the start is shifted for a difference quotient [-]."""
+
+
+def deviation_names(law: GapLaw) -> tuple[str, ...]:
+    """What specimens may differ in: the law's parameters, held ones too, the section and the start of the strain."""
+    return (*_whole(law).parameter_names, AREA, START)
+
+
+def kind_of_deviation(name: str) -> str:
+    """Which of `records.specimens.DEVIATIONS` states its size; of another law's parameter, by its unit."""
+    return _KNOWN.get(name, "tau" if name.endswith("_s") else "unrelaxed_modulus")
+
+
+def deviation_columns(model: CampaignModel, parameters: FloatArray) -> list[FloatArray]:
+    """Change of each record's stress by deviations of 1, by record; each of shape (n_samples, n_deviations) [MPa].
+
+    Deviations of parameters and of the section are relative; that of the start is the strain at which the specimen
+    begins to be strained.
+
+    Parameters
+    ----------
+    model : CampaignModel
+        With the causes that act.
+    parameters : ndarray, shape (n_parameters,)
+    """
+    law = model.law
+    whole = CampaignModel(_whole(law), model.views, model.causes)
+    own = parameters[: model.base_count]
+    base = law.law_at(own).parameters if isinstance(law, DnlrLaw) else own
+    values = np.append(base, parameters[model.base_count :])
+    residual, slopes = whole.residual_and_jacobian(values)
+    stress = residual + whole.data
+    late = CampaignModel(whole.law, [view.driven(_late(view.true_strain, view.stride)) for view in whole.views])
+    shifted = late.with_causes(whole.causes).residual(values) - residual
+    columns = np.column_stack([slopes[:, : len(base)] * np.abs(base), stress, shifted / _STEP])
+    return [columns[rows] for _, rows in model.parts]
+
+
+def _late(true_strain: FloatArray, stride: int) -> FloatArray:
+    """The strain of a specimen that begins to be strained a little later, from the first sample to the second."""
+    return true_strain - _STEP * np.minimum(np.arange(len(true_strain)) / stride, 1.0)
+
+
+def _whole(law: GapLaw) -> GapLaw:
+    """The law with no parameter held: specimens differ in what is held, too."""
+    return DnlrLaw(law.law) if isinstance(law, DnlrLaw) else law

@@ -1,0 +1,221 @@
+"""How far specimens differ: what a campaign states, what replicates show, or what is assumed
+(docs/diagnosis-method.md, section 10).
+
+Replicates are records of different specimens under one strain history. What the law misses is the same in all of them
+and stands in the mean of the group; what differs within a group is noise and the specimens' deviations. Their
+variances are had from that alone, by restricted likelihood, so that no missing effect passes for scatter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from probation.inference.deviations import deviation_names, kind_of_deviation
+from probation.noise.spikes import without_spikes
+from probation.records.specimens import USUAL
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.inference.protocol import GapLaw
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+    from probation.records.specimens import Specimens
+
+SAME_HISTORY = 0.03
+"""Root mean square of what two strain histories differ by, over their range, below which they are one: chosen."""
+
+LEAST_IN_COMMON = 0.5
+"""Part of the longer record's time that replicates have in common at least: chosen."""
+
+FREEDOM = 4
+"""Of the half-Student prior of a standard deviation (Gelman 2006): the fewest that have a variance."""
+
+DRAWS, BURN = 6000, 1000
+"""Metropolis steps, and the first of them that are left out."""
+
+Source = Literal["replicates", "assumed", "stated", "none"]
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How far specimens differ.
+
+    Attributes
+    ----------
+    names : tuple of str
+        As `deviation_names`.
+    deviations : tuple of float
+        Standard deviations [-]; of estimated ones the root mean square of what the replicates leave possible.
+    intervals : tuple of (float, float), or None
+        95 %; None where nothing was estimated.
+    specimens : int
+        How many there are among the identify records.
+    source : {"replicates", "assumed", "stated", "none"}
+    """
+
+    names: tuple[str, ...]
+    deviations: tuple[float, ...]
+    intervals: tuple[tuple[float, float], ...] | None
+    specimens: int
+    source: Source
+
+    @property
+    def any(self) -> bool:
+        """Whether specimens may differ at all."""
+        return any(size > 0.0 for size in self.deviations)
+
+
+def scatter_of(
+    specimens: Specimens,
+    law: GapLaw,
+    records: Sequence[RecordResidual],
+    noises: Sequence[NoiseModel],
+    columns: Sequence[FloatArray],
+) -> Scatter:
+    """The scatter of a campaign's specimens.
+
+    Parameters
+    ----------
+    specimens : Specimens
+        What the campaign says of it.
+    law : GapLaw
+    records : sequence of RecordResidual
+        The identify records at one fit.
+    noises : sequence of NoiseModel
+        Without any scatter in them.
+    columns : sequence of ndarray, shape (n_r, n_deviations) [MPa]
+        `deviation_columns` of each.
+    """
+    names = deviation_names(law)
+    count = len(set(_owners(records)))
+    if specimens.alike:
+        return Scatter(names, (0.0,) * len(names), None, count, "none")
+    if not isinstance(specimens.scatter, str):
+        stated = specimens.scatter
+        return Scatter(names, tuple(stated.get(kind_of_deviation(name), 0.0) for name in names), None, count, "stated")
+    usual = tuple(USUAL[kind_of_deviation(name)] for name in names)
+    groups = [group for group in replicates(records) if len({_owners(records)[index] for index in group}) > 1]
+    if not groups:
+        return Scatter(names, usual, None, count, "assumed")
+    draws = _drawn(groups, records, noises, columns, np.array(usual))
+    deviations = np.sqrt(np.mean(draws**2, axis=0))
+    ends = np.quantile(draws, (0.025, 0.975), axis=0)
+    intervals = tuple((float(low), float(high)) for low, high in ends.T)
+    return Scatter(names, tuple(deviations.tolist()), intervals, count, "replicates")
+
+
+def replicates(records: Sequence[RecordResidual]) -> list[list[int]]:
+    """Records of one strain history each, by their indices; a record like no other is alone."""
+    groups: list[list[int]] = []
+    for index, record in enumerate(records):
+        for group in groups:
+            if _alike(records[group[0]], record):
+                group.append(index)
+                break
+        else:
+            groups.append([index])
+    return groups
+
+
+def _alike(first: RecordResidual, other: RecordResidual) -> bool:
+    spans = [record.time[-1] - record.time[0] for record in (first, other)]
+    if min(spans) < LEAST_IN_COMMON * max(spans):
+        return False
+    time = first.time - first.time[0]
+    time = time[time <= min(spans)]
+    own = first.true_strain[: len(time)]
+    away = np.interp(time, other.time - other.time[0], other.true_strain) - own
+    return bool(np.sqrt(np.mean(away**2)) <= SAME_HISTORY * max(float(np.ptp(own)), 1e-300))
+
+
+def _owners(records: Sequence[RecordResidual]) -> list[tuple[str, str]]:
+    """The specimen of each record: as the campaign names it, or the record's own."""
+    return [
+        ("record", record.name) if record.specimen_id is None else ("specimen", record.specimen_id)
+        for record in records
+    ]
+
+
+def _drawn(
+    groups: Sequence[Sequence[int]],
+    records: Sequence[RecordResidual],
+    noises: Sequence[NoiseModel],
+    columns: Sequence[FloatArray],
+    usual: FloatArray,
+) -> FloatArray:
+    """Draws of the standard deviations, given the replicates, shape (n_draws, n_deviations)."""
+    values, designs, means, owners = [], [], [], []
+    for number, group in enumerate(groups):
+        shortest = min(float(np.ptp(records[index].time)) for index in group)
+        for index in group:
+            record, noise = records[index], noises[index].alike
+            common = record.time - record.time[0] <= shortest * (1.0 + 1e-9)
+            white = noise.whiten(
+                np.column_stack([columns[index] * usual, without_spikes(record.residual, noise.spikes)])
+            )[common]
+            left, size, right = np.linalg.svd(white[:, :-1], full_matrices=False)
+            seen = size > 1e-6 * size[0]
+            values.append(left[:, seen].T @ white[:, -1])
+            designs.append(size[seen, None] * right[seen])
+            means += [number] * int(seen.sum())
+            owners += [_owners(records)[index]] * int(seen.sum())
+    design = np.vstack(designs)
+    width = design.shape[1]
+    fixed = np.zeros((len(design), width * len(groups)))
+    for row, number in enumerate(means):
+        fixed[row, number * width : (number + 1) * width] = design[row]
+    left, size, _ = np.linalg.svd(fixed)
+    contrasts = left[:, int(np.count_nonzero(size > 1e-9 * size[0])) :]
+    together = np.array([[one == other for other in owners] for one in owners], dtype=np.float64)
+    parts = np.array([contrasts.T @ (np.outer(column, column) * together) @ contrasts for column in design.T])
+    seen = contrasts.T @ np.concatenate(values)
+    return usual * _walked(parts, seen)
+
+
+def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
+    """Draws of s, shape (n_draws, k), given seen ~ N(0, I + sum s_k^2 parts_k) and a prior of root mean square 1."""
+    count = len(parts)
+    scale = np.sqrt((FREEDOM - 2.0) / FREEDOM)
+
+    def log_density(logs: FloatArray) -> float:
+        squares = np.exp(2.0 * logs)
+        covariance = np.eye(len(seen)) + np.tensordot(squares, parts, axes=1)
+        try:
+            lower = np.linalg.cholesky(covariance)
+        except np.linalg.LinAlgError:
+            return -np.inf
+        left = np.linalg.solve(lower, seen)
+        prior = -0.5 * (FREEDOM + 1.0) * np.log1p(squares / scale**2 / FREEDOM) + logs
+        return float(-np.sum(np.log(np.diag(lower))) - 0.5 * left @ left + np.sum(prior))
+
+    rng = np.random.default_rng(0)
+    at = np.zeros(count)
+    here = log_density(at)
+    drawn = np.empty((DRAWS, count))
+    reach = np.full(count, 0.7)
+    for step in range(DRAWS):
+        which = step % count
+        tried = at.copy()
+        tried[which] += reach[which] * rng.standard_normal()
+        there = log_density(tried)
+        taken = np.log(rng.random()) < there - here
+        if taken:
+            at, here = tried, there
+        if step < BURN:  # towards an acceptance of 0.44 (Roberts & Rosenthal 2001)
+            reach[which] *= np.exp((0.56 if taken else -0.44) * 0.2)
+        drawn[step] = at
+    return np.exp(drawn[BURN:])
+
+
+def with_scatter(
+    records: Sequence[RecordResidual], columns: Sequence[FloatArray], scatter: Scatter
+) -> list[RecordResidual]:
+    """The records with what their specimens' deviations do to them."""
+    size = np.array(scatter.deviations)
+    kept = size > 0.0
+    return [replace(record, specimen=own[:, kept] * size[kept]) for record, own in zip(records, columns, strict=True)]

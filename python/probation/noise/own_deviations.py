@@ -1,0 +1,62 @@
+"""What of a residual is the specimens' own: their most probable deviations, no larger than scatter makes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtri
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.noise.model import NoiseModel
+
+UNUSUAL = 0.01
+"""Probability beyond which a specimen's deviations are not larger: what is missing there is not the specimen's."""
+
+
+def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> list[FloatArray]:
+    """The part of each record's residual that its specimen's deviations make, by record; each of shape (n_r,) [MPa].
+
+    The conditional mean of random effects (best linear unbiased prediction); longer than all but `UNUSUAL` of them,
+    it is shortened to that.
+
+    Parameters
+    ----------
+    residuals : sequence of ndarray, shape (n_r,) [MPa]
+        Without outliers.
+    noises : sequence of NoiseModel
+        With the specimens' scatter.
+    """
+    parts = [np.zeros(len(residual)) for residual in residuals]
+    for members in specimens_of(noises):
+        normal, pull = np.zeros(()), np.zeros(())
+        for index in members:
+            noise = noises[index].alike
+            columns = noises[index].specimen
+            if columns is None or not columns.shape[1]:
+                continue
+            white = noise.whiten(np.column_stack([columns, residuals[index]]))
+            normal = normal + white[:, :-1].T @ white[:, :-1]
+            pull = pull + white[:, :-1].T @ white[:, -1]
+        if not normal.ndim:
+            continue
+        size = np.linalg.solve(np.eye(len(normal)) + normal, pull)
+        most = float(np.sqrt(chdtri(len(size), UNUSUAL)))
+        size *= min(1.0, most / max(float(np.linalg.norm(size)), 1e-300))
+        for index in members:
+            columns = noises[index].specimen
+            assert columns is not None
+            parts[index] = columns @ size
+    return parts
+
+
+def specimens_of(noises: Sequence[NoiseModel]) -> list[list[int]]:
+    """Records of one specimen each, by their indices; without a name a record is a specimen of its own."""
+    known: dict[tuple[bool, str], list[int]] = {}
+    for index, noise in enumerate(noises):
+        named = noise.specimen_id is not None
+        known.setdefault((named, noise.specimen_id if noise.specimen_id is not None else noise.name), []).append(index)
+    return list(known.values())
