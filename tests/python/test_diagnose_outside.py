@@ -30,3 +30,19 @@ def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_nois
     assert found.verdict == "explained"
     assert found.best.effects == (truth,)
     assert found.shrink.identify.after_MPa < 1.1 * found.noise_MPa
+
+
+def test_specimens_that_differ_are_no_gap():
+    """Three rates, three specimens each, that differ by 2 % in E_u and 3 % in alpha and G, and nothing else."""
+    found = diagnosed("null-replicates")
+    assert found.verdict == "no_gap"
+    assert found.best.effects == ()
+    assert found.shrink.identify.after_MPa < 1.1 * found.noise_MPa
+
+
+def test_what_specimens_differ_by_is_no_fault_of_the_load_cell():
+    """Self-heating in all records, and the same scatter."""
+    found = diagnosed("heating-replicates")
+    assert found.verdict == "explained"
+    assert "self_heating" in found.best.effects
+    assert not {"force_drift", "force_gain", "force_offset", "unknown"} & set(found.best.effects)
