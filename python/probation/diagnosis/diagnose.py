@@ -59,9 +59,6 @@ if TYPE_CHECKING:
     from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 
-RECONSIDERED = 16
-"""Hypotheses that are judged again once the noise is estimated jointly with the best one."""
-
 SCHEMES: tuple[SchemeName, ...] = ("be2", "sa2", "sa3")
 
 
@@ -344,8 +341,8 @@ def _searched(
     leading = search.ranked()
     if not leading:
         return base, found
-    base = with_noise_beside(base, leading[0].refit)
-    return base, search.reconsidered(base, RECONSIDERED)
+    base = with_noise_beside(search.base, leading[0].refit)
+    return base, search.reconsidered(base)
 
 
 def _law_text(campaign: Campaign) -> str:

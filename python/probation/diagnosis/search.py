@@ -11,6 +11,7 @@ from probation.detection.sharp import find_lines, find_steps
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
+from probation.inference.base_fit import with_noise_beside
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_columns
@@ -64,6 +65,9 @@ beside an unknown one fewer may do."""
 HOPELESS = 15.0
 """Log evidence behind the best one from which on a hypothesis is not looked at again."""
 
+RECONSIDERED = 16
+"""Hypotheses that are judged again once the noise is estimated jointly with the best one."""
+
 WORTH = 10.0
 """Linearised gain from which on an addition is refitted."""
 
@@ -103,6 +107,8 @@ class Search:
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
         self._singles(columns)
+        if self.base.scatter.any:
+            self._scatter_around_the_best()
         self._look_beside_the_leading()
         self._told(0.6)
         size = 1
@@ -125,11 +131,18 @@ class Search:
             self._told(0.6 + 0.2 * (size - 1))
         return self.found
 
-    def reconsidered(self, base: BaseFit, count: int) -> list[Hypothesis]:
+    def _scatter_around_the_best(self) -> None:
+        """What specimens do, around the best single effect: a law that lacks one may be far from what they are."""
+        leading = self.ranked(1)
+        if leading:
+            self.base = with_noise_beside(self.base, leading[0].refit)
+            self.found = self.reconsidered(self.base, RECONSIDERED, np.inf)
+
+    def reconsidered(self, base: BaseFit, count: int = RECONSIDERED, hopeless: float = HOPELESS) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
         again = Search(base, self.effects, self.threads, skipping=self.skipping)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
-        least = leading[0].evidence.log_evidence - HOPELESS
+        least = leading[0].evidence.log_evidence - hopeless
         leading = [each for each in leading if each.evidence.log_evidence > least]
         steps = HEAT_STEPS if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]

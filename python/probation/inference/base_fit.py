@@ -276,7 +276,9 @@ def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
         records = with_scatter(records, columns, scatter)
         base = replace(base, scatter=scatter)
     noises = _noises(records)
-    found = refit(base.model, base.parameters, Whitener(noises), most_steps=12)
+    # With the scatter taken around an explanation the base law alone might run far away: it stays.
+    steps = 0 if base.scatter.any else 12
+    found = refit(base.model, base.parameters, Whitener(noises), most_steps=steps)
     return replace(base, refit=found, whitened=Whitened.of(_at(records, found), noises))
 
 
