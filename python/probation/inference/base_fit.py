@@ -22,7 +22,7 @@ from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
-from probation.noise.own_deviations import specimens_of
+from probation.noise.own_deviations import own_deviations, specimens_of
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.smoothing.excitation import excite
@@ -96,10 +96,16 @@ class BaseFit:
         """Shape (n_base,)."""
         return self.refit.parameters
 
+    @cached_property
+    def errors(self) -> list[FloatArray]:
+        """The identify records' residuals without outliers and their specimens' own deviations [MPa]."""
+        clean = [self.whitened.clean(index) for index in range(len(self.whitened.records))]
+        return [whole - own for whole, own in zip(clean, own_deviations(clean, self.whitened.noises), strict=True)]
+
     @property
     def misfit(self) -> tuple[float, float]:
-        """Root mean square of the identify records' residuals and of their noise [MPa]."""
-        errors = np.concatenate([self.whitened.clean(index) for index in range(len(self.whitened.records))])
+        """Root mean square of the identify records' errors and of their noise [MPa]."""
+        errors = np.concatenate(self.errors)
         floor = np.concatenate([noise.deviation for noise in self.whitened.noises])
         return float(np.sqrt(np.mean(errors**2))), float(np.sqrt(np.mean(floor**2)))
 
@@ -129,8 +135,11 @@ class BaseFit:
 
     @cached_property
     def held_out_noises(self) -> tuple[NoiseModel, ...]:
-        """The noise of the records that were not fitted, found on themselves."""
-        return _noises(self.held_out) if self.held_out else ()
+        """The noise of the records that were not fitted, found on themselves.
+
+        What their specimens may differ by is part of it: nothing of it is known before the test.
+        """
+        return tuple(noise.with_specimen_as_noise() for noise in _noises(self.held_out)) if self.held_out else ()
 
     @cached_property
     def discrepancy(self) -> Discrepancy:

@@ -174,7 +174,7 @@ def find_gap(base: BaseFit, effects: Sequence[Effect], *, threads: int = 2, seed
     test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
     stress = {view.id: float(np.max(np.abs(view.data))) for view in base.views}
     sizes = {
-        record.name: _size(base.whitened.clean(index), noise, stress[record.name])
+        record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     held_out = {}

@@ -125,6 +125,12 @@ class NoiseModel:
         """The same without deviations of the specimen."""
         return replace(self, specimen=None)
 
+    def with_specimen_as_noise(self) -> NoiseModel:
+        """The same with deviations of the specimen as noise of the record, as a prediction has it."""
+        if self.specimen is None:
+            return self
+        return replace(self, carried=np.hstack([self.carried, self.specimen]), specimen=None)
+
     def scaled(self, factor: float) -> NoiseModel:
         """The same noise with `factor` times the standard deviation."""
         return replace(
