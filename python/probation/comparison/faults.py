@@ -9,6 +9,7 @@ import numpy as np
 
 from probation._complaint import suggestion
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.large_faults import crosshead_slack
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation.law.modification import Modification
@@ -16,18 +17,10 @@ from probation.law.modification import Modification
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
 _USUAL = 0.1
 """Natural logarithm by which a law's constants may differ from batch to batch."""
-
-
-def _crosshead_slack(view: RecordView, values: Values) -> FloatArray:
-    """The crosshead travels by a gauge lengths before the specimen sees anything: elongations differ by that."""
-    elongation = np.expm1(view.true_strain)
-    seen = np.maximum(elongation - values[0], np.minimum(elongation, 0.0))
-    return np.asarray(np.log1p(seen))
 
 
 def _other_material(view: RecordView, values: Values) -> Modification:
@@ -92,7 +85,7 @@ def _as_a_change(known: Effect, force: float, elongation: float, duration: float
         forms = {name: _sized(form, WIDER * form.amplitude.scale) for name, form in forms.items()}
     if known.name == "strain_offset":
         # What the crosshead travels in vain is an elongation, and so is not quite a constant true strain.
-        forms["slack"] = replace(forms["slack"], driving_strain=_crosshead_slack)
+        forms["slack"] = replace(forms["slack"], driving_strain=crosshead_slack)
     return replace(known, forms=tuple(forms.values()))
 
 

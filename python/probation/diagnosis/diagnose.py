@@ -35,6 +35,7 @@ from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
+from probation.effects.large_faults import with_large_faults
 from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
@@ -137,6 +138,7 @@ def diagnose(
     base, where, p_value = case.base, case.where, case.p_value
     told(0.35)
     if gap.exists:
+        considered = with_large_faults(considered, base.model.views)
         base, found, weighed, judged, verdict = _explained(
             base, considered, p_value, workers, seed, skipping, deadline, told
         )

@@ -13,6 +13,8 @@ from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.smoothing.excitation import excite
+from probation.smoothing.penalised_spline import smooth_cubic
+from probation.smoothing.segmented import smooth_segments
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -150,6 +152,17 @@ class RecordView:
             return self.quiet_stress / self.stretch
         samples = self.data / self.sampled(self.stretch)
         return samples if self.stride == 1 else np.interp(self.time, self.sampled(self.time), samples)
+
+    @cached_property
+    def smooth_nominal_data(self) -> FloatArray:
+        """Recorded force over the initial section by a penalised spline between jumps of the rate, (n,) [MPa].
+
+        It owes nothing to a law, unlike `nominal_data`; knees between jumps are rounded.
+        """
+        time, samples = self.sampled(self.time), self.data / self.sampled(self.stretch)
+        jumps = [jump // self.stride for jump in self.jumps]
+        smooth = smooth_segments(smooth_cubic, time, samples, jumps, noise=0.0).true_strain
+        return smooth if self.stride == 1 else np.interp(self.time, time, smooth)
 
     def sampled(self, values: FloatArray) -> FloatArray:
         """Values at the samples, of values at the instants."""

@@ -1,0 +1,131 @@
+"""The rig's faults once more, for sizes far beyond those of a sound rig.
+
+The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
+crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
+is all there is, a plain large fault is impossible and something else, or an unknown effect, is certain. So each fault
+that can be large has its forms a second time, with a prior as wide as the records are large.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.effect import Effect, Form, Values
+    from probation.effects.record_view import RecordView
+
+GAIN = 0.3
+"""Standard deviation of a large relative error of the force or the section [-]: a wrong range, a wrong width."""
+
+FORCE = 0.2
+"""Standard deviation of a large error of the force, as a part of the largest force [-]."""
+
+TRAVEL = 0.3
+"""Standard deviation of what frame or slack take of the largest elongation [-]; beyond 0.9 nothing is left."""
+
+LARGEST_TRAVEL = 0.9
+"""Largest part of the elongation that frame or slack take [-]."""
+
+STARTS = (0.05, 0.2, 0.5)
+"""Parts of the largest elongation from which searches begin [-]: what is linear at first is not so further on."""
+
+
+def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
+    """The same effects, those of the rig that can be large with further forms for that.
+
+    Parameters
+    ----------
+    effects : iterable of Effect
+    views : sequence of RecordView
+        Of the records: a fault is large beside their forces and elongations.
+    """
+    size = _Size.of(views)
+    return tuple(
+        replace(effect, forms=(*effect.forms, _LARGE[effect.name](effect, size))) if effect.name in _LARGE else effect
+        for effect in effects
+    )
+
+
+class _Size(NamedTuple):
+    """Largest nominal stress [MPa], elongation [-], and elongation over nominal stress [1/MPa] of any record."""
+
+    force: float
+    elongation: float
+    per_force: float
+
+    @classmethod
+    def of(cls, views: Sequence[RecordView]) -> _Size:
+        forces = [float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views]
+        elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
+        ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
+        return cls(max(forces), max(elongations), max(ratios, default=0.0))
+
+
+def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
+    """The form under another name, its amplitude with another prior and bounds; `starts` of the amplitude."""
+    known = form.amplitude
+    wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
+    grid = [(start, *shapes) for start in starts for shapes in form.shapes_at(())]
+    return replace(
+        form,
+        name=f"large_{form.name}",
+        parameters=(wide, *form.parameters[1:]),
+        threshold=bool(starts),
+        starts=(lambda _views, _residuals: list(grid)) if starts else form.starts,
+    )
+
+
+def _gain(effect: Effect, size: _Size) -> Form:
+    del size
+    return _widened(effect.form("factor"), GAIN, -0.9, 4.0)
+
+
+def _offset(effect: Effect, size: _Size) -> Form:
+    return _widened(effect.form("constant"), FORCE * size.force, -size.force, size.force)
+
+
+def _drift(effect: Effect, size: _Size) -> Form:
+    return _widened(effect.form("over_record"), FORCE * size.force, -size.force, size.force)
+
+
+def _soft_frame(view: RecordView, values: Values) -> FloatArray:
+    """As in the catalogue; the noise of the force would become a strain of the specimen, which is stiffer by far."""
+    own = values[0] * view.smooth_nominal_data / view.stretch
+    return view.true_strain + np.log1p(-np.minimum(own, LARGEST_TRAVEL))
+
+
+def _compliance(effect: Effect, size: _Size) -> Form:
+    return _of_travel(replace(effect.form("crosshead"), driving_strain=_soft_frame), size.per_force)
+
+
+def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
+    """The crosshead travels by a gauge lengths before the specimen sees anything: elongations differ by that.
+
+    That is not quite a constant true strain, which the catalogue's small slack may be taken for.
+    """
+    elongation = np.expm1(view.true_strain)
+    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
+
+
+def _slack(effect: Effect, size: _Size) -> Form:
+    return _of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation)
+
+
+def _of_travel(form: Form, whole: float) -> Form:
+    """Searched for from several sizes; `whole` is the amplitude that would take all of the elongation."""
+    return _widened(form, TRAVEL * whole, 0.0, LARGEST_TRAVEL * whole, tuple(part * whole for part in STARTS))
+
+
+_LARGE: dict[str, Callable[[Effect, _Size], Form]] = {
+    "force_gain": _gain,
+    "force_offset": _offset,
+    "force_drift": _drift,
+    "machine_compliance": _compliance,
+    "strain_offset": _slack,
+}

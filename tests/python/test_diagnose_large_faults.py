@@ -1,0 +1,65 @@
+"""Faults of the rig as large as a wrong range, a wrong width or slack in the grips make them."""
+
+import numpy as np
+import pytest
+
+import probation
+
+LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)
+NOISE, SAMPLES, ELONGATION = 0.04, 400, 0.42
+TESTS = {"ramp1": 0.002, "ramp2": 0.01, "grip1": 0.005, "grip2": 0.02}
+
+
+def specimen(name):
+    """Time, elongation and nominal stress of a sound test."""
+    rate = TESTS[name]
+    time = np.linspace(0.0, 0.35 / rate, SAMPLES)
+    elongation = np.expm1(rate * time) if name.startswith("ramp") else ELONGATION * time / time[-1]
+    stress = LAW.stress(time, np.log1p(elongation), "exact")
+    return time, elongation, stress / (1.0 + elongation)
+
+
+def late_by(travel, time, elongation, nominal):
+    """The crosshead travels in vain first; the specimen is at rest while it does."""
+    duration = travel / (elongation[1] / time[1])
+    early = np.linspace(0.0, 1.0, 80, endpoint=False)
+    return (
+        np.concatenate([duration * early, duration + time]),
+        np.concatenate([travel * early, travel + elongation]),
+        np.concatenate([0.0 * early, nominal]),
+    )
+
+
+def campaign(faulty, fault):
+    """Records of four tests; `fault` acts on what was recorded of those that are faulty."""
+    random = np.random.default_rng(3)
+    records = []
+    for name in TESTS:
+        time, elongation, nominal = specimen(name)
+        if name in faulty:
+            time, elongation, nominal = fault(time, elongation, nominal)
+        stress = nominal * (1.0 + elongation) + NOISE * random.standard_normal(len(time))
+        records.append(probation.Record(id=name, time=time, true_strain=np.log1p(elongation), true_stress=stress))
+    return probation.Campaign(name="large fault", records=tuple(records))
+
+
+@pytest.mark.parametrize(
+    ("faulty", "fault", "effect", "parameter", "size"),
+    [
+        ({"ramp2"}, lambda t, u, f: (t, u, 0.6 * f), "force_gain", "gain_error", -0.4),
+        ({"grip1"}, lambda t, u, f: (t, u, f + 7.0), "force_offset", "offset_MPa", 7.0),
+        ({"grip1"}, lambda t, u, f: late_by(0.25 * ELONGATION, t, u, f), "strain_offset", "slack_strain", 0.105),
+        (set(TESTS), lambda t, u, f: late_by(0.25 * ELONGATION, t, u, f), "strain_offset", "slack_strain", 0.105),
+    ],
+    ids=["force 40 % too small", "offset of a quarter of the force", "slack in one record", "slack in all"],
+)
+def test_a_large_fault_is_found_with_its_size(faulty, fault, effect, parameter, size):
+    found = probation.diagnose(campaign(faulty, fault), design=False)
+    best = found.explanations[0]
+    assert found.verdict == "explained"
+    assert best.effects == (effect,)
+    assert best.probability > 0.8
+    assert set(best.records) == faulty
+    value = next(each.value for each in best.parameters if each.name == parameter)
+    assert value == pytest.approx(size, rel=0.01)
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
