@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.comparison.strain_path import branches, progress
+from probation.inference.wrapped_law import WrappedLaw
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -100,7 +101,7 @@ def followed(time: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.qr(design)[0])
 
 
-class MeasuredLaw:
+class MeasuredLaw(WrappedLaw):
     """`GapLaw`: the base law, all held, plus what it left on the references.
 
     Parameters
@@ -116,28 +117,8 @@ class MeasuredLaw:
     """
 
     def __init__(self, law: DnlrLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]]) -> None:
-        self.law = law
+        super().__init__(law)
         self.references = dict(references)
-
-    @property
-    def parameter_names(self) -> tuple[str, ...]:
-        """None: the reference has settled them."""
-        return self.law.parameter_names
-
-    @property
-    def start(self) -> FloatArray:
-        """Shape (0,)."""
-        return self.law.start
-
-    @property
-    def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Each of shape (0,)."""
-        return self.law.bounds
-
-    @property
-    def capabilities(self) -> frozenset[str]:
-        """What the base law does."""
-        return self.law.capabilities
 
     def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""

@@ -2,48 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from probation.errors import ConvergenceError, InputError
+from probation.inference.wrapped_law import WrappedLaw
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-    from probation.inference.protocol import GapLaw
     from probation.law.modification import Modification
 
 
-@dataclass(frozen=True)
-class UsersLaw:
-    """Another law as it is, but for its errors; a `ConvergenceError` passes, since a search goes on from it.
-
-    Parameters
-    ----------
-    law : GapLaw
-    """
-
-    law: GapLaw
-
-    @property
-    def parameter_names(self) -> tuple[str, ...]:
-        """As the law has them."""
-        return self.law.parameter_names
-
-    @property
-    def start(self) -> FloatArray:
-        """As the law has it."""
-        return self.law.start
-
-    @property
-    def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """As the law has them."""
-        return self.law.bounds
-
-    @property
-    def capabilities(self) -> frozenset[str]:
-        """As the law does."""
-        return self.law.capabilities
+class UsersLaw(WrappedLaw):
+    """Another law as it is, but for its errors; a `ConvergenceError` passes, since a search goes on from it."""
 
     def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa].
