@@ -16,7 +16,7 @@ from probation.errors import InputError
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.history import Jumps, looks_for_jumps
 from probation.law.modal import Law, engine_law
-from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
+from probation.law.schemes import Scheme, SchemeName, identifying
 
 Method = Literal["variable-projection", "levenberg-marquardt"]
 METHODS: tuple[Method, ...] = ("variable-projection", "levenberg-marquardt")
@@ -120,8 +120,9 @@ def identify_many(
     jumps : "auto" or None
         Whether each record is searched for rate discontinuities, as `Law.stress` does; at samples only.
     substeps : int
-        Steps of the scheme from sample to sample. More than one make the error of the scheme smaller, by the square
-        of their number with be2 and sa2, where the strain between the samples is known.
+        Steps of the scheme from sample to sample, unless ``SA3(substeps=4)`` says how many. More than one make the
+        error of the scheme smaller, by the square of their number with be2 and sa2, where the strain between the
+        samples is known.
     threads : int, optional
         All cores if left out.
     out : BulkIdentification, optional
@@ -144,6 +145,8 @@ def identify_many(
     }
     if not isinstance(substeps, int | np.integer) or isinstance(substeps, bool) or not 1 <= substeps <= SUBSTEPS_LIMIT:
         raise InputError(f"substeps is {substeps!r}; expected a whole number from 1 to {SUBSTEPS_LIMIT}")
+    chosen, steps = identifying(scheme, "auto" if substeps == 1 else substeps)
+    substeps = 1 if steps == "auto" else steps
     n_times = arrays["time"].shape[-1]
     n_samples = (n_times - 1) // substeps + 1
     lengths = {"time": n_times, "true_strain": n_times, "true_stress": n_samples}
@@ -169,7 +172,7 @@ def identify_many(
         arrays["true_strain"],
         arrays["true_stress"],
         weights,
-        _options(law, scheme, method, held, {} if bounds is None else bounds, jumps, int(substeps)),
+        _options(law, chosen, method, held, {} if bounds is None else bounds, jumps, int(substeps)),
         as_threads(threads),
         answer.parameters,
         answer.standard_error,
@@ -196,7 +199,7 @@ def _law_with(law: Law, hold: Mapping[str, float]) -> tuple[_core.Law, Collectio
 
 def _options(
     law: Law,
-    scheme: Scheme | SchemeName,
+    scheme: Scheme,
     method: Method,
     held: Collection[str],
     bounds: Mapping[str, tuple[float, float]],
@@ -215,7 +218,7 @@ def _options(
             raise InputError(f"bounds of {outside_name(name)} are {ends!r}; expected a lower and an upper one")
         lower[index], upper[index] = (as_number(end, f"bounds of {outside_name(name)}") for end in ends)
     return _core.IdentifyOptions(
-        *at_samples(scheme, DIFFERENTIABLE).arguments[:2],
+        *scheme.arguments[:2],
         getattr(_core.IdentifyMethod, one_of(method, "method", METHODS).replace("-", "_")),
         [name in held for name in names],
         lower,

@@ -66,23 +66,24 @@ class Simulation(Plotted, InOneLine):
         rows = [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
         return "\n".join(["time_s,true_strain,true_stress_MPa", *rows]) + "\n"
 
+    def to_dict(self) -> dict[str, object]:
+        """The answer as Python objects."""
+        return {
+            "history": self.name,
+            "data_sha256": samples_sha256(self.time, self.true_stress if self.stress_imposed else self.true_strain),
+            "scheme": self.scheme,
+            "start": self.start if self.scheme == "be2" else None,
+            "imposed": "true_stress_MPa" if self.stress_imposed else "true_strain",
+            "law": law_answer(self.law),
+            "warnings": self.warnings,
+            "time_s": self.time,
+            "true_strain": self.true_strain,
+            "true_stress_MPa": self.true_stress,
+        }
+
     def to_json(self) -> str:
         """The answer, schema "probation.simulation/1"."""
-        return json_answer(
-            SCHEMA,
-            {
-                "history": self.name,
-                "data_sha256": samples_sha256(self.time, self.true_stress if self.stress_imposed else self.true_strain),
-                "scheme": self.scheme,
-                "start": self.start if self.scheme == "be2" else None,
-                "imposed": "true_stress_MPa" if self.stress_imposed else "true_strain",
-                "law": law_answer(self.law),
-                "warnings": self.warnings,
-                "time_s": self.time,
-                "true_strain": self.true_strain,
-                "true_stress_MPa": self.true_stress,
-            },
-        )
+        return json_answer(SCHEMA, self.to_dict())
 
     @classmethod
     def from_json(cls, text: str) -> Simulation:

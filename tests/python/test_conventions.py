@@ -2,13 +2,20 @@
 
 import inspect
 import re
+from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import probation
 from probation import batch, bulk
 from probation.field.identify import identify_field
+from probation.identify import base
+from probation.identify.fit import plain_fit
+from probation.identify.search import search_range
+from probation.inference.problem import Problem
+from probation.inference.record_problem import RecordProblem
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = (ROOT / "python" / "probation",)
@@ -56,6 +63,69 @@ def test_the_default_scheme_is_the_one_that_the_conventions_name():
     found = {name: argument.default for name, argument in _arguments() if argument.name == "scheme"}
     for scheme, names in DEFAULT_SCHEMES.items():
         assert {name: found[name] for name in names} == dict.fromkeys(names, scheme)
+
+
+def _campaign():
+    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
+    rng, records = np.random.default_rng(2), []
+    for name, rate in (("slow", 1e-3), ("fast", 1e-2)):
+        time = np.linspace(0.0, 0.5 / rate, 41)
+        stress = law.stress(time, rate * time, "sa3") + 0.05 * rng.standard_normal(41)
+        records.append(probation.Record(name, time, rate * time, stress, control="strain-rate"))
+    return probation.Campaign("two ramps", tuple(records))
+
+
+IDENTIFYING = {
+    "fit": probation.fit,
+    "certify": probation.certify,
+    "diagnose": partial(probation.diagnose, effects=["force_offset"], design=False),
+    "calibrate_companion": lambda campaign, scheme: probation.calibrate_companion(campaign, scheme=scheme),
+    "compare": lambda campaign, scheme: probation.compare(campaign, campaign, scheme, effects=["force_offset"]),
+}
+
+
+@pytest.mark.parametrize("name", IDENTIFYING)
+def test_a_scheme_is_a_name_or_an_object_that_holds_its_options(name):
+    """The paper's first step of be2 gives another answer than the default, and the object says the same as its name."""
+    answers = [
+        IDENTIFYING[name](_campaign(), scheme)
+        for scheme in ("be2", probation.BE2(), probation.BE2(start="backward_euler"))
+    ]
+    by_name, by_object, other_start = (re.sub(r'"created[^,]*,', "", answer.to_json()) for answer in answers)
+    assert by_name == by_object != other_start
+    with pytest.raises(probation.InputError, match="scheme is 'exact'"):
+        IDENTIFYING[name](_campaign(), "exact")
+
+
+def test_substeps_of_a_scheme_are_those_of_the_function():
+    assert probation.fit(_campaign(), probation.SA2(substeps=3)).to_json() == (
+        probation.fit(_campaign(), "sa2", substeps=3).to_json()
+    )
+    assert probation.certify(_campaign(), probation.SA2(substeps=3)).base.substeps == 3
+    with pytest.raises(probation.InputError, match="expected one number of steps"):
+        probation.fit(_campaign(), probation.SA2(substeps=3), substeps=2)
+    with pytest.raises(probation.InputError, match="one step from sample to sample"):
+        probation.compare(_campaign(), _campaign(), probation.SA3(substeps=3))
+
+
+def test_a_diagnosis_takes_no_fewer_steps_than_its_scheme_says(monkeypatch):
+    taken = []
+    monkeypatch.setattr(base, "views_of", lambda *args, **options: taken.append(options["substeps"]) or 1 / 0)
+    for scheme in (probation.SA3(substeps=4), "sa3"):
+        with pytest.raises(ZeroDivisionError):
+            probation.diagnose(_campaign(), scheme)
+    assert taken[0] >= 4 > taken[1]
+
+
+def test_a_fit_and_a_diagnosis_search_the_same_relaxation_times():
+    campaign = _campaign()
+    law = base.base_fit(campaign, plain_fit(campaign)).law
+    low, high = law.bounds
+    at = law.parameter_names.index("tau_max_s")
+    problem = Problem.of(
+        law.law, [RecordProblem.prepare(r, probation.excite(r), "sa3") for r in campaign.records], 3 * [False]
+    )
+    assert (low[at], high[at]) == search_range(problem, {})
 
 
 def test_choices_are_words_with_hyphens():

@@ -213,6 +213,15 @@ def test_one_format_goes_to_a_file_and_the_errors_to_json(tmp_path, capsys):
     assert "9 modes for 50" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("form", ["abaqus-umat", "calculix", "mgis", "c", "list"])
+def test_a_stress_tolerance_is_the_last_constant_of_a_user_material(form, capsys):
+    options = ["--format", form, "--stress-tolerance", "0.05", "--accuracy", "1e-2"]
+    assert main(["export", *WITH_COMPANION, *options]) == 0
+    found = export(LAW, form, stress_tolerance=0.05, accuracy=1e-2)
+    assert capsys.readouterr().out == found.text
+    assert found.content.values == (*export(LAW, form, accuracy=1e-2).content.values, 0.05)
+
+
 def test_all_formats_go_to_a_folder_but_those_that_cannot_represent_the_law(tmp_path, capsys):
     """Without --rate there is no Prony series of a law whose tau_max follows the rate."""
     assert (
@@ -248,6 +257,7 @@ def test_the_formats_are_listed(capsys):
         (["x.json", "--format", "all", "--folder", "."], "x.json: found no such file"),
         ([*WITH_COMPANION, "--format", "abaqus-prony"], "rate: found none"),
         ([*WITH_COMPANION, "--format", "c", "--rates", "1e-3;2"], "expected numbers between commas"),
+        ([*WITH_COMPANION, "--format", "c", "--stress-tolerance", "-1"], "stress_tolerance: found -1.0, expected a"),
     ],
 )
 def test_bad_arguments_are_told_in_one_line(arguments, complaint, capsys):

@@ -114,6 +114,24 @@ def test_arrays_are_a_history_and_so_is_an_imposed_stress():
     assert [each.history for each in (*imposed.tests, *given.tests)] == [history.name, "as given"]
 
 
+def test_a_parameter_that_is_held_is_not_identified_and_leaves_less_to_know():
+    free, held = (plan(LAW, ramps(), noise=0.5, hold=hold, effects=ONE) for hold in (None, {"tau_max_s": 4.0}))
+    assert list(held.parameters) == list(held.names) == ["unrelaxed_modulus", "hardening_modulus"]
+    assert held.law.tau_max == 4.0
+    assert held.correlation.shape == (2, 2)
+    assert held.parameters["unrelaxed_modulus"].se < 0.5 * free.parameters["unrelaxed_modulus"].se
+    assert held.product.se == pytest.approx(4.0 * held.parameters["unrelaxed_modulus"].se)
+    assert "E_u·τ_max" in held.summary()
+    assert probation.Plan.from_json(held.to_json()).to_json() == held.to_json()
+    with pytest.raises(probation.InputError, match="found every parameter held"):
+        plan(
+            LAW,
+            ramps(),
+            noise=0.5,
+            hold=dict.fromkeys(("unrelaxed_modulus_MPa", "tau_max_s", "hardening_modulus_MPa"), 1),
+        )
+
+
 def test_a_name_that_does_not_print_is_escaped_as_in_records():
     found = plan(LAW, {"a\x1b[1m": (np.linspace(0.0, 100.0, 50), np.linspace(0.0, 0.5, 50))}, noise=0.1, effects=ONE)
     assert found.tests[0].id.isprintable()
@@ -189,6 +207,8 @@ def test_the_command_says_what_the_library_says(tmp_path, capsys):
     assert answer["parameters"] == json.loads(known.to_json())["parameters"]
     assert answer["correlation"]["names"] == ["unrelaxed_modulus_MPa", "tau_max_s", "hardening_modulus_MPa"]
     assert answer["isolability"] == json.loads(known.to_json())["isolability"]
+    assert main(["plan", *arguments, "--hold", "tau_max_s=5.2", "--json", "-"]) == 0
+    assert list(json.loads(capsys.readouterr().out)["parameters"]) == ["unrelaxed_modulus_MPa", "hardening_modulus_MPa"]
     assert captured.err.startswith("These 3 tests would give standard errors of E_u ")
     assert max(map(len, captured.err.splitlines()[1:])) <= 100
 

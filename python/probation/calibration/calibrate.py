@@ -29,7 +29,7 @@ from probation.calibration.record_fits import (
 from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
-from probation.law.schemes import SCHEMES, SchemeName
+from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
 from probation.smoothing.excitation import excite
@@ -57,7 +57,7 @@ def calibrate_companion(
     route: Route = "auto",
     modulus: Modulus = "shared",
     hardening: Hardening = "by-record",
-    scheme: SchemeName = "sa3",
+    scheme: Scheme | SchemeName = "sa3",
     progress: Progress | None = None,
 ) -> Calibration:
     """Calibrate companion relations on tests at several strain rates.
@@ -79,7 +79,8 @@ def calibrate_companion(
     hardening : {"by-record", "shared"}
         G in the direct route. Each record its own by default: in Table 2 it grows by 60 % with the rate, and one G for
         all would bias the relation.
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        With one step from sample to sample.
     progress : callable, optional
         Called with ``(done, total, what)``.
 
@@ -107,8 +108,7 @@ def calibrate_companion(
     one_of(route, "route", ROUTES)
     one_of(modulus, "modulus", MODULI)
     one_of(hardening, "hardening", HARDENINGS)
-    if one_of(scheme, "scheme", SCHEMES) in ("exact", "cvode"):
-        raise InputError(f"scheme is {scheme!r}; calibration needs sensitivities: use be2, sa2 or sa3")
+    chosen = at_samples(scheme, DIFFERENTIABLE)
     if isinstance(source, RateTable):
         return _on_table(source, form)
     if not isinstance(source, Campaign):
@@ -129,11 +129,11 @@ def calibrate_companion(
         )
     if route == "direct" or not steady:
         _need_spread(source, rates)
-        return _direct(source, DirectProblem(source.identify, source.law, scheme, hardening, driven), rates, form, told)
+        return _direct(source, DirectProblem(source.identify, source.law, chosen, hardening, driven), rates, form, told)
     _need_two_rates(source, rates)
-    fits = fit_records(source, rates, modulus=modulus, scheme=scheme, progress=told)
+    fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=told)
     rms = [each.rms_MPa for each in fits.fits]
-    problem = DirectProblem(source.identify, source.law, scheme, hardening, driven, rms)
+    problem = DirectProblem(source.identify, source.law, chosen, hardening, driven, rms)
     return _by_rate(source, fits, problem, form, told)
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from probation.calibration.forms import Form
     from probation.law.companion import Companion
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.law.settings import LawSettings
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
@@ -98,7 +98,7 @@ class DirectProblem:
         self,
         records: Sequence[Record],
         settings: LawSettings,
-        scheme: SchemeName,
+        scheme: Scheme | SchemeName,
         hardening: Hardening,
         excitations: Sequence[Excitation] | None = None,
         own_rms: Sequence[float] | None = None,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
 
@@ -104,7 +104,7 @@ def fit_records(
     rates: tuple[RecordRate, ...],
     *,
     modulus: Modulus = "shared",
-    scheme: SchemeName = "sa3",
+    scheme: Scheme | SchemeName = "sa3",
     progress: Callable[[int, int, str], None] | None = None,
 ) -> RecordFits:
     """Fit every record alone with a constant tau_max.

@@ -17,7 +17,7 @@ from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_cova
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.inference.parameter import outside_name
-from probation.law.schemes import at_samples
+from probation.law.schemes import DIFFERENTIABLE, as_scheme
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -94,7 +94,7 @@ def certify(
         )
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
-    trial = Trial(campaign, at_samples(scheme), excitation)
+    trial = Trial(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)
     records = campaign.records
     rated = campaign.law.companion is not None
     total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)

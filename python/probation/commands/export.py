@@ -62,6 +62,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     group.add_argument("--strain", metavar="E", type=float, default=1.5, help="largest true strain of them (1.5)")
     group.add_argument("--bulk-modulus", metavar="MPA", type=float, help="100 times E_u / 3 if left out")
     group.add_argument("--density", metavar="T_PER_MM3", type=float, default=9.5e-10, help="9.5e-10, polyethylene")
+    group.add_argument(
+        "--stress-tolerance",
+        metavar="MPA",
+        type=float,
+        default=0.0,
+        help="user materials ask for smaller increments where the stress errs by more (0: never)",
+    )
     group.add_argument("--name", metavar="NAME", default="probation", help="of the material (probation)")
     group = parser.add_argument_group("fewer modes")
     group.add_argument("--accuracy", metavar="A", type=float, help="refit; the stress errs by no more: 1e-3, 9 modes")
@@ -157,6 +164,7 @@ def _exports(options: argparse.Namespace, names: list[str]) -> list[Export]:
                 density=options.density,
                 accuracy=options.accuracy,
                 modes=options.modes,
+                stress_tolerance=options.stress_tolerance,
             )
         except InputError as error:
             if _ALL not in options.format:

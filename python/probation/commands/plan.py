@@ -14,10 +14,11 @@ from probation.commands.analysis_options import (
     check_effects,
     effects_from_options,
 )
-from probation.commands.delivery import add_delivery, deliver, usual_outputs
+from probation.commands.delivery import add_delivery, deliver, named_numbers, usual_outputs
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from
+from probation.commands.scheme_options import add_hold
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=0.0,
         help="standard deviation of the measured true strain (0); it is propagated by smoothing and law to the stress",
     )
+    add_hold(parser)
     add_effects(parser)
     add_seed(parser)
     add_threads(parser, "2")
@@ -90,6 +92,7 @@ def run(options: argparse.Namespace) -> int:
             histories,
             noise=options.noise,
             strain_noise=options.strain_noise,
+            hold=named_numbers(options.hold, "--hold"),
             effects=names,
             seed=options.seed,
             threads=options.threads,

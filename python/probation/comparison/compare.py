@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
-from probation._arrays import as_threads, one_of
+from probation._arrays import as_threads
 from probation.comparison.evidence import Tangent
 from probation.comparison.faults import considered
 from probation.comparison.headline import headline
@@ -19,7 +19,6 @@ from probation.comparison.pairing import pair
 from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.comparison.search import ChangeSearch, Found
-from probation.diagnosis.diagnose import SCHEMES
 from probation.diagnosis.probabilities import leading
 from probation.effects.record_view import views_of
 from probation.inference.model import CampaignModel
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.comparison.result import Verdict
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
 
 NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
@@ -50,7 +49,7 @@ Z95 = 1.959963984540054
 def compare(
     campaign: Campaign,
     against: Campaign | Reference,
-    scheme: SchemeName = "sa3",
+    scheme: Scheme | SchemeName = "sa3",
     *,
     pairs: Mapping[str, str | Sequence[str]] | None = None,
     effects: Iterable[str] | None = None,
@@ -68,7 +67,8 @@ def compare(
     campaign : Campaign
     against : Campaign or Reference
         The reference: the same tests, whose rig is trusted. Its law is taken.
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        With one step from sample to sample: both campaigns are compared sample by sample.
     pairs : dict of str to str or sequence of str, optional
         Reference records by record id; those of the same id if left out.
     effects : iterable of str, optional
@@ -84,7 +84,6 @@ def compare(
     InputError
         For records that do not belong together, an unknown effect, or as `probation.fit`.
     """
-    one_of(scheme, "scheme", SCHEMES)
     workers = as_threads(threads) or usual_threads()
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     against = reference.campaign

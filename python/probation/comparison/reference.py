@@ -13,12 +13,13 @@ from probation.effects.record_view import views_of
 from probation.identify.fit import fit
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.thinning import thin
+from probation.law.schemes import DIFFERENTIABLE, at_samples
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation.comparison.measured_law import Branch
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
 
@@ -34,7 +35,7 @@ class Reference:
     Attributes
     ----------
     campaign : Campaign
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : Scheme
     law : DnlrLaw
         Fitted to all its records, nothing left to identify.
     branches : dict of str to tuple of Branch
@@ -43,34 +44,36 @@ class Reference:
     """
 
     campaign: Campaign
-    scheme: SchemeName
+    scheme: Scheme
     law: DnlrLaw
     branches: Mapping[str, tuple[Branch, ...]]
     noises: Mapping[str, NoiseModel]
 
     @classmethod
-    def of(cls, campaign: Campaign, scheme: SchemeName = "sa3") -> Reference:
+    def of(cls, campaign: Campaign, scheme: Scheme | SchemeName = "sa3") -> Reference:
         """Fit the law to all records of a campaign and keep what it leaves.
 
         Parameters
         ----------
         campaign : Campaign
-        scheme : {"be2", "sa2", "sa3"}
+        scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+            With one step from sample to sample.
 
         Raises
         ------
         InputError
             As `probation.fit`.
         """
+        chosen = at_samples(scheme, DIFFERENTIABLE)
         thinned, _ = thin(campaign)
         whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
-        found = fit(whole, scheme, weighting="plain", method="variable-projection")
+        found = fit(whole, chosen, weighting="plain", method="variable-projection")
         law = DnlrLaw(found.law, held=found.law.parameter_names)
-        views = views_of(whole, scheme=scheme)
+        views = views_of(whole, scheme=chosen)
         residuals = [own_residual(view, law) for view in views]
         noises = record_noises(residuals)
         branches = {}
         for view, rough in zip(views, residuals, strict=True):
             sharp = np.abs(rough.residual) > SHARP * np.median(np.abs(rough.residual))
             branches[view.id] = reference_branches(view, view.data - law.stress(view, law.start), sharp)
-        return cls(campaign, scheme, law, branches, {noise.name: noise for noise in noises})
+        return cls(campaign, chosen, law, branches, {noise.name: noise for noise in noises})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -18,7 +18,7 @@ from probation.errors import InputError
 from probation.inference.information import correlation, estimated
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
-from probation.inference.parameter import UNITS, outside_name
+from probation.inference.parameter import UNITS, by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
@@ -94,13 +94,14 @@ class Plan(Summarised, Plotted, Stored):
     scheme : str
     tests : tuple of PlannedTest
     parameters : dict of str to Parameter
-        By name: unrelaxed_modulus, tau_max or alpha, hardening_modulus; the law's value, with the standard error and
-        the 95 % interval that a fit of all tests together is expected to have if the law is right.
+        By name those that are identified of unrelaxed_modulus, tau_max or alpha, hardening_modulus; the law's value,
+        with the standard error and the 95 % interval that a fit of all tests together is expected to have if the law
+        is right.
     product : Parameter
         E_u times tau_max (or alpha).
     names : tuple of str
-        In the order of `correlation`.
-    correlation : ndarray, shape (3, 3)
+        What is identified, in the order of `correlation`.
+    correlation : ndarray, shape (n_names, n_names)
         Of the estimates; 0 where a parameter is not determined.
     isolability : Isolability
         Which effects these tests could detect, and which they could discriminate.
@@ -129,7 +130,7 @@ class Plan(Summarised, Plotted, Stored):
 
     def to_dict(self) -> dict[str, Any]:
         """The answer as Python objects, `probation.plan/1`."""
-        second = outside_name(self.names[1])
+        second = outside_name(self.law.parameter_names[1])
         return {
             "verdict": self.verdict,
             "scheme": self.scheme,
@@ -150,6 +151,7 @@ def plan(
     *,
     noise: float | Mapping[str, float],
     strain_noise: float | Mapping[str, float] = 0.0,
+    hold: Mapping[str, float] | None = None,
     effects: Iterable[str] | None = None,
     seed: int = 0,
     threads: int | None = None,
@@ -173,6 +175,8 @@ def plan(
     strain_noise : float or mapping of str to float [-]
         Standard deviation of the white noise of the measured strain, for all tests or by test. It is propagated by the
         smoother that `fit` would take, and by the law, to the stress. Then a test has at most 3000 samples.
+    hold : dict of str to float, optional
+        Parameters that will not be identified, by name with unit ("unrelaxed_modulus_MPa"), and the values they keep.
     effects : iterable of str, optional
         All that are known if left out.
     seed : int
@@ -189,7 +193,8 @@ def plan(
     Raises
     ------
     InputError
-        For a history or a noise that is not possible, naming the test; for an unknown effect.
+        For a history or a noise that is not possible, naming the test; for an unknown effect or parameter; if every
+        parameter is held.
     ConvergenceError
         Where the law cannot carry an imposed stress.
 
@@ -201,6 +206,7 @@ def plan(
     0.006
     """
     engine_law(law)
+    law, held = _holding(law, hold or {})
     chosen, advance = known_effects(effects), progress or (lambda part: None)
     # What will be recorded: histories, noise, and the strain as it will drive the law.
     tests = imposed(histories, law)
@@ -213,7 +219,7 @@ def plan(
         advance(0.3 * (count + 1) / len(records))
     # The law on it, and the covariance of the noise of its stress.
     views = views_of(campaign, excitations=excitations, scheme=SCHEME)
-    model = CampaignModel(DnlrLaw(law), views)
+    model = CampaignModel(DnlrLaw(law, held), views)
     noises = [
         replace(white, carried=propagated(excitations[view.id], law, SCHEME))
         for view, white in zip(views, white_noise(views, list(stress_noise.values())), strict=True)
@@ -232,8 +238,8 @@ def plan(
             _described(record, history.name, excitations[record.id])
             for record, history in zip(records, tests.values(), strict=True)
         ),
-        **_known(law, covariance, lost, len(design.tangent)),
-        names=law.parameter_names,
+        **_known(law, held, covariance, lost, len(design.tangent)),
+        names=tuple(name for name in law.parameter_names if name not in held),
         correlation=correlation(covariance),
         isolability=found,
         seed=seed,
@@ -280,9 +286,22 @@ def _described(record: Record, history: str, excitation: Excitation) -> PlannedT
     )
 
 
-def _known(law: Law, covariance: FloatArray, lost: NDArray[np.bool_], samples: int) -> dict[str, Any]:
-    """The parameters and their product with expected errors."""
-    values, degrees = law.parameters, max(samples - len(law.parameters), 1)
+def _holding(law: Law, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
+    """The law with what is held, and the names of that."""
+    held = {name: float(value) for name, value in by_inside_name(hold, law.parameter_names, "hold").items()}
+    if len(held) == len(law.parameter_names):
+        raise InputError("hold: found every parameter held, expected one left to identify")
+    return replace(law, **held) if held else law, tuple(held)  # type: ignore[arg-type]
+
+
+def _known(
+    law: Law, held: Collection[str], covariance: FloatArray, lost: NDArray[np.bool_], samples: int
+) -> dict[str, Any]:
+    """The parameters that are identified, and the product of E_u and tau_max, with expected errors."""
+    free = np.array([name not in held for name in law.parameter_names])
+    every, gone = np.zeros((len(free), len(free))), np.zeros(len(free), dtype=bool)
+    every[np.ix_(free, free)], gone[free] = covariance, lost
+    values, degrees = law.parameters, max(samples - int(free.sum()), 1)
 
     def expected(name: str, value: float, variance: float, gone: np.bool_, unit: str) -> Parameter:
         se = None if gone else float(np.sqrt(max(variance, 0.0)))
@@ -290,12 +309,13 @@ def _known(law: Law, covariance: FloatArray, lost: NDArray[np.bool_], samples: i
         return estimated(name, float(value), se, relative, degrees, unit)
 
     found = {
-        name: expected(name, values[at], covariance[at, at], lost[at], UNITS[name])
+        name: expected(name, values[at], every[at, at], gone[at], UNITS[name])
         for at, name in enumerate(law.parameter_names)
+        if free[at]
     }
     slope = np.array([values[1], values[0], 0.0])
     unit = "MPa·s" if law.companion is None else "MPa"
-    product = expected("product", values[0] * values[1], slope @ covariance @ slope, lost[:2].any(), unit)
+    product = expected("product", values[0] * values[1], slope @ every @ slope, gone[:2].any(), unit)
     return {"parameters": found, "product": product}
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation._arrays import as_threads, one_of
+from probation._arrays import as_threads
 from probation.design.isolability import isolability
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
@@ -42,6 +42,7 @@ from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law, with_noise_beside
 from probation.inference.gap import find_gap, predictions
 from probation.inference.thinning import thin
+from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
 from probation.records.checks import require_signal
@@ -57,15 +58,13 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.gap import Gap
     from probation.inference.protocol import GapLaw
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
-
-SCHEMES: tuple[SchemeName, ...] = ("be2", "sa2", "sa3")
 
 
 def diagnose(
     campaign: Campaign,
-    scheme: SchemeName = "sa3",
+    scheme: Scheme | SchemeName = "sa3",
     *,
     effects: Iterable[str] | None = None,
     hold: Mapping[str, float] | None = None,
@@ -81,8 +80,9 @@ def diagnose(
     Parameters
     ----------
     campaign : Campaign
-    scheme : {"be2", "sa2", "sa3"}
-        Its own error must not pass for an effect: the less accurate, the more steps it takes from sample to sample.
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        Its own error must not pass for an effect: the less accurate, the more steps it takes from sample to sample, and
+        no fewer than ``SA3(substeps=4)`` says.
     effects : iterable of str, optional
         Names of those to be considered; all of the catalogue if left out.
     hold : dict of str to float, optional
@@ -112,7 +112,7 @@ def diagnose(
         For an unknown effect or parameter, suggesting the nearest, and for a budget that is not positive.
     """
     deadline = Budget(budget)
-    one_of(scheme, "scheme", SCHEMES)
+    scheme_name = identifying(scheme)[0].name
     considered = catalogue(effects)
     workers = as_threads(threads) or usual_threads()
 
@@ -187,7 +187,7 @@ def diagnose(
             judge=case.judge,
         ),
         law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
-        scheme=scheme,
+        scheme=scheme_name,
         base=base_parameters(fitted if case.predicted_only else base),
         gap=gap.test,
         held_out=gap.held_out,

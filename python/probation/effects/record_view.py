@@ -12,6 +12,7 @@ from probation import _core
 from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
+from probation.law.schemes import as_scheme
 from probation.smoothing.excitation import excite
 from probation.smoothing.penalised_spline import smooth_cubic
 from probation.smoothing.segmented import smooth_segments
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
@@ -53,7 +54,7 @@ class RecordView:
         The recorded true stress.
     stride : int
         Instants from sample to sample.
-    scheme : str
+    scheme : Scheme or its name
         Whose difference of the strain is meant.
     temperature : ndarray, shape (n_samples,) [°C], or None
     index, count : int
@@ -78,7 +79,7 @@ class RecordView:
     direction: FloatArray
     data: FloatArray
     stride: int
-    scheme: SchemeName
+    scheme: Scheme | SchemeName
     temperature: FloatArray | None
     index: int
     count: int
@@ -181,7 +182,7 @@ class RecordView:
         """The same record with another strain driving the law; given rates follow by the scheme's difference."""
         rate = self.strain_rate
         if rate is not None:
-            backward = self.scheme == "be2"
+            backward = as_scheme(self.scheme).name == "be2"
             how = _core.Differentiator.backward if backward else _core.Differentiator.three_point
             moved = _core.History(self.time, true_strain - self.true_strain, np.empty(0), list(self.jumps))
             begin, end = moved.rates(how)
@@ -196,7 +197,7 @@ def view_of(
     index: int = 0,
     count: int = 1,
     reference_rate: float,
-    scheme: SchemeName = "be2",
+    scheme: Scheme | SchemeName = "be2",
     substeps: int = 1,
 ) -> RecordView:
     """The view of one record.
@@ -237,7 +238,7 @@ def views_of(
     campaign: Campaign,
     *,
     excitations: Mapping[str, Excitation] | None = None,
-    scheme: SchemeName = "be2",
+    scheme: Scheme | SchemeName = "be2",
     substeps: int = 1,
 ) -> tuple[RecordView, ...]:
     """Views of all records of a campaign, held-out ones too, in its order.

@@ -36,6 +36,7 @@ def export(
     density: float = 9.5e-10,
     accuracy: float | None = None,
     modes: int | None = None,
+    stress_tolerance: float = 0.0,
 ) -> Export:
     """Write an identified law for a finite-element code, read it back, and solve it again.
 
@@ -64,6 +65,9 @@ def export(
     accuracy, modes : float, int, optional
         Fewer modes, to an accuracy or so many at most, as in `reduce_spectrum`. A format that holds fewer modes than
         the law gets as many as it holds.
+    stress_tolerance : float [MPa]
+        Of formats that keep the whole law: error of the stress above which an increment asks for a smaller one; 0: its
+        size is not looked at.
 
     Returns
     -------
@@ -87,6 +91,7 @@ def export(
             strain=strain,
             bulk_modulus=_usual_bulk_modulus(law) if bulk_modulus is None else bulk_modulus,
             density=density,
+            stress_tolerance=stress_tolerance,
         )
         return export_law(request, chosen, accuracy=accuracy, modes=modes)
     except InputError as error:

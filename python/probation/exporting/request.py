@@ -48,6 +48,8 @@ class Request:
         [MPa].
     density : float
         [t/mm3]; codes of explicit dynamics want it.
+    stress_tolerance : float
+        [MPa]; 0: increments are not asked to be smaller.
     reduction : Reduction or None
         Fewer modes than the original's.
     """
@@ -61,6 +63,7 @@ class Request:
     strain: float
     bulk_modulus: float
     density: float
+    stress_tolerance: float = 0.0
     reduction: Reduction | None = None
 
     def __post_init__(self) -> None:
@@ -72,6 +75,8 @@ class Request:
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0.0):
                 raise InputError(f"{name}: found {value}, expected a positive number")
+        if not (np.isfinite(self.stress_tolerance) and self.stress_tolerance >= 0.0):
+            raise InputError(f"stress_tolerance: found {self.stress_tolerance}, expected a number of at least 0")
         if self.rates is not None:
             if not self.rates or not all(np.isfinite(rate) and rate > 0.0 for rate in self.rates):
                 raise InputError(f"rates: found {list(self.rates)}, expected positive numbers")

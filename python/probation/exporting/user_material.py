@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def _make(request: Request) -> MaterialConstants:
-    return MaterialConstants.of(request.law, request.bulk_modulus)
+    return MaterialConstants.of(request.law, request.bulk_modulus, stress_tolerance=request.stress_tolerance)
 
 
 def _check(request: Request, read: MaterialConstants) -> Sequence[Check]:
@@ -38,6 +38,8 @@ def _say(request: Request, content: MaterialConstants) -> Sequence[str]:
         lines.append("decades = 0: the ratios tau_j / tau_max and the weights p_j of all modes follow, fastest first")
     if content.named()["form"] == 4:
         lines.append("a table's rates, then its tau_max, stand at the end")
+    if request.stress_tolerance > 0.0:
+        lines.append(f"the last constant is the stress tolerance {request.stress_tolerance:g} MPa of an increment")
     lines += [
         f"state variables: {state_size(content.modes)} (10 + 6 N), all zero at the start",
         f"the bulk modulus {request.bulk_modulus:.6g} MPa is not identified: it makes Young's modulus {softer:.1e} "

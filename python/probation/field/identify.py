@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from probation.field.store import MapStore, read_run
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import Law
-from probation.law.schemes import DIFFERENTIABLE
+from probation.law.schemes import BE2, Scheme, SchemeName, identifying
 from probation.origin import commit
 from probation.pool import WorkersLostError, run_all
 
@@ -66,7 +66,7 @@ def identify_field(
     field: str | os.PathLike[str] | FieldSource,
     out: str | os.PathLike[str],
     law: Law | None = None,
-    scheme: Literal["be2", "sa2", "sa3"] = "be2",
+    scheme: Scheme | SchemeName = "be2",
     *,
     method: Method = "variable-projection",
     hold: Mapping[str, float] | None = None,
@@ -92,7 +92,7 @@ def identify_field(
         A zarr store for the maps; begun, or gone on with.
     law : Law, optional
         Gives spectrum and companion relation; the paper's spectrum and a constant tau_max if left out.
-    scheme : {"be2", "sa2", "sa3"}
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
     method : {"variable-projection", "levenberg-marquardt"}
     hold : dict of str to float, optional
         Parameters that are not identified, by name with unit ("unrelaxed_modulus_MPa").
@@ -126,7 +126,7 @@ def identify_field(
     BlockLostError
         If processes die of a block, naming it.
     """
-    one_of(scheme, "scheme", DIFFERENTIABLE)
+    chosen, substeps = identifying(scheme, substeps)
     one_of(method, "method", METHODS)
     if pixels < 1:
         raise InputError(f"found pixels = {pixels}, expected at least 1")
@@ -137,7 +137,7 @@ def identify_field(
     law, held = _law_with(law, hold or {})
     grid = block_grid(source.shape, source.chunks, pixels)
     path = Path(out).absolute()
-    way = Way(law, scheme, method, held, smoothing, substeps, threads if executor is None and processes == 1 else 1)
+    way = Way(law, chosen, method, held, smoothing, substeps, threads if executor is None and processes == 1 else 1)
     run = _run(source, way, grid.block)
     store = MapStore(str(path), grid)
     if afresh and path.exists():
@@ -210,12 +210,14 @@ def _run(source: FieldSource, way: Way, block: tuple[int, int]) -> dict[str, Any
     content = {
         "field_sha256": fingerprint(source),
         "law": told,
-        "scheme": way.scheme,
+        "scheme": way.scheme.name,
         "method": way.method,
         "smoothing": way.smoothing,
         "substeps": way.substeps,
         "block": list(block),
     }
+    if way.scheme.start != BE2().start:
+        content["start"] = way.scheme.start
     return {name: plain(value) for name, value in content.items()}
 
 
@@ -226,6 +228,7 @@ def _check_same(path: Path, run: Mapping[str, Any]) -> None:
         "field_sha256": "the field has changed, or is another",
         "law": "the law is another",
         "scheme": "the scheme is another",
+        "start": "the scheme's first step is another",
         "method": "the method is another",
         "smoothing": "the strain is smoothed, or not",
         "substeps": "the steps from sample to sample are others",
@@ -234,10 +237,10 @@ def _check_same(path: Path, run: Mapping[str, Any]) -> None:
     }
     now = {**run, "version": __version__}
     for key, what in told.items():
-        if before.get(key) != now[key]:
+        if before.get(key) != now.get(key):
             raise InputError(
-                f"{path}: {what}: found maps begun with {key} {_short(before.get(key))}, expected {_short(now[key])}; "
-                "give another --out, or --afresh to begin anew"
+                f"{path}: {what}: found maps begun with {key} {_short(before.get(key))}, expected "
+                f"{_short(now.get(key))}; give another --out, or --afresh to begin anew"
             )
 
 

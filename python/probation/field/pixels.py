@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from probation.field.samples import BoolArray, IndexArray
     from probation.field.source import Samples
     from probation.law.modal import Law
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme
 
 
 Substeps: TypeAlias = int | Literal["auto"]
@@ -39,7 +39,8 @@ class Way:
     ----------
     law : Law
         Spectrum, companion relation, and the values of what is held.
-    scheme, method : str
+    scheme : Scheme
+    method : str
     held : tuple of str
         Parameters that are not identified.
     smoothing : bool
@@ -51,7 +52,7 @@ class Way:
     """
 
     law: Law
-    scheme: SchemeName
+    scheme: Scheme
     method: Method
     held: tuple[str, ...]
     smoothing: bool

@@ -11,6 +11,7 @@ from probation.field.errors import drawn_errors
 from probation.field.pixels import Pixels, identify_pixels, with_more_noise
 from probation.field.source import SHORTEST
 from probation.identify.scheme_error import MOST_SUBSTEPS, NEGLIGIBLE
+from probation.law.schemes import SA3
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -45,7 +46,7 @@ def needed_substeps(
         return 1
     tried = there[np.unique(np.linspace(0, len(there) - 1, TRIED).astype(np.intp))]
     strain, stress, used = strain[tried], stress[tried], used[tried]
-    precise = replace(way, scheme="sa3")
+    precise = replace(way, scheme=SA3())
     reference = identify_pixels(precise, time, strain, stress, used, REFERENCE_SUBSTEPS)
     alone, together = np.arange(len(tried)), np.zeros(len(tried), dtype=np.intp)
     more_strain, more_stress, level = with_more_noise(time, strain, stress, used, alone, chance)

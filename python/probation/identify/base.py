@@ -12,6 +12,8 @@ from probation.effects.record_view import views_of
 from probation.identify.substeps import enough_substeps, predicted
 from probation.inference.base_fit import BaseFit, fit_views
 from probation.inference.modal_law import DnlrLaw
+from probation.inference.time_range import time_range
+from probation.law.schemes import scheme_of
 from probation.noise.stretches import leftover
 from probation.smoothing.excitation import excite
 
@@ -43,8 +45,9 @@ def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
     """
     samples = _excitations(campaign, found)
     steps = enough_substeps(campaign, found, samples)
-    views = views_of(campaign, excitations=samples, scheme=found.scheme, substeps=steps)
-    law = DnlrLaw(found.law, held=[name for name in found.law.parameter_names if name not in found.names])
+    views = views_of(campaign, excitations=samples, scheme=scheme_of(found.scheme, found.start), substeps=steps)
+    held = [name for name in found.law.parameter_names if name not in found.names]
+    law = DnlrLaw(found.law, held=held, times=time_range(campaign.identify, found.law))
     base = fit_views(law, views, campaign, samples)
     return replace(base, other_starts=_other_starts(base))
 

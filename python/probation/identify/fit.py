@@ -20,7 +20,7 @@ from probation.inference.parameter import by_inside_name, outside_name
 from probation.inference.problem import Problem
 from probation.inference.record_problem import RecordProblem
 from probation.law.modal import Law
-from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
+from probation.law.schemes import Scheme, SchemeName, identifying
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def fit(
     ----------
     campaign : Campaign
     scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
-        The schemes that have sensitivities. How many steps it takes is `substeps`.
+        The schemes that have sensitivities. How many steps it takes is `substeps`, or said by ``SA3(substeps=4)``.
     method : {"least-squares", "variable-projection", "simplex"}
         All find the same minimum; least-squares is the default.
     hold : dict of str to float, optional
@@ -84,12 +84,10 @@ def fit(
     InputError
         For an unknown name, a bound that is not possible, or nothing left to identify.
     """
-    chosen = at_samples(scheme)
+    chosen, substeps = identifying(scheme, substeps)
     one_of(method, "method", METHODS)
     one_of(weighting, "weighting", WEIGHTINGS)
     one_of(intervals, "intervals", INTERVALS)
-    if chosen.name not in DIFFERENTIABLE:
-        raise InputError(f"scheme is {scheme!r}; identification needs sensitivities: use be2, sa2 or sa3")
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
     law, held = base_law(campaign, hold or {})

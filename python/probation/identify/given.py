@@ -10,7 +10,7 @@ from probation.identify.describe import describe
 from probation.identify.weighting import Weighted
 from probation.inference.problem import Problem
 from probation.inference.record_problem import RecordProblem
-from probation.law.schemes import at_samples
+from probation.law.schemes import identifying
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -43,8 +43,11 @@ def given(
     law, held = base_law(campaign, {})
     if not all(held):
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
-    chosen = at_samples(scheme)
-    prepared = [RecordProblem.prepare(record, excite(record, excitation), chosen) for record in campaign.identify]
+    chosen, substeps = identifying(scheme)
+    steps = 1 if substeps == "auto" else substeps
+    prepared = [
+        RecordProblem.prepare(record, excite(record, excitation), chosen, steps) for record in campaign.identify
+    ]
     weighted = Weighted(Problem.of(law, prepared, held), law)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))
     return describe(campaign, weighted, chosen, "least-squares", "plain", limits, "standard-error")

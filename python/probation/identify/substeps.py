@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.record_problem import LEAST_NOISE
+from probation.law.schemes import scheme_of
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -57,5 +58,5 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
 def predicted(found: Fit, excitation: Excitation, substeps: int) -> FloatArray:
     """The fitted law's stress at the samples, shape (n_samples,) [MPa]."""
     fine = excitation.refined(substeps)
-    stress = found.law.stress(fine, scheme=found.scheme)
+    stress = found.law.stress(fine, scheme=scheme_of(found.scheme, found.start))
     return np.asarray(stress[::substeps])

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import minimize_scalar, nnls
 
+from probation.inference.time_range import time_range
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -112,8 +114,4 @@ def _between(problem: Problem, bounds: tuple[float, float], tolerance: float) ->
 
 def time_bounds(problem: Problem) -> tuple[float, float]:
     """Range of tau_max [s] (or alpha [-]) worth searching: from far below a sample to far beyond the record."""
-    if problem.law.companion is not None:
-        return 1e-3, 1e3
-    steps = min(float(np.min(np.diff(each.record.time))) for each in problem.records)
-    longest = max(float(np.ptp(each.record.time)) for each in problem.records)
-    return 1e-3 * steps, 1e3 * longest
+    return time_range([each.record for each in problem.records], problem.law)

@@ -20,6 +20,7 @@ from probation.inference.scatter import scatter_of, with_scatter
 from probation.inference.screen import screen
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
+from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimens_of
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from probation.inference.protocol import GapLaw
     from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
-    from probation.law.schemes import SchemeName
+    from probation.law.schemes import Scheme, SchemeName
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
     from probation.records.campaign import Campaign
@@ -195,10 +196,11 @@ class BaseFit:
         return Whitener(self.whitened.noises)
 
 
-def fit_law(law: GapLaw, campaign: Campaign, scheme: SchemeName = "sa3") -> BaseFit:
+def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme | SchemeName = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
+    chosen, steps = identifying(scheme)
     excitations = {record.id: excite(record) for record in campaign.records}
-    views = views_of(campaign, excitations=excitations, scheme=scheme)
+    views = views_of(campaign, excitations=excitations, scheme=chosen, substeps=1 if steps == "auto" else steps)
     known = law if isinstance(law, DnlrLaw) else UsersLaw(law)
     return fit_views(known, views, campaign, excitations)
 

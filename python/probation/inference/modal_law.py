@@ -30,6 +30,7 @@ _BOUNDS = {
     "alpha": (1e-4, 1e4),
     "hardening_modulus": (0.0, 1e5),
 }
+"""In MPa, s, - and MPa: beyond any polymer and any test."""
 
 
 class DnlrLaw:
@@ -41,6 +42,8 @@ class DnlrLaw:
         The base law; its parameters are where a search begins.
     held : sequence of str
         Which of `law.parameter_names` are not identified.
+    times : (float, float), optional
+        Range of tau_max [s] or alpha [-] that is searched, as `time_range` gives it for the records.
 
     Raises
     ------
@@ -48,11 +51,12 @@ class DnlrLaw:
         For an unknown name in `held`.
     """
 
-    def __init__(self, law: Law, held: Sequence[str] = ()) -> None:
+    def __init__(self, law: Law, held: Sequence[str] = (), times: tuple[float, float] | None = None) -> None:
         for name in held:
             if name not in law.parameter_names:
                 raise InputError(f"held: found {name!r}; {suggestion(name, law.parameter_names)}")
         self.law = law
+        self._bounds = dict(_BOUNDS) if times is None else {**_BOUNDS, "tau_max": times, "alpha": times}
         self._values = law.parameters
         self._free = np.array([name not in held for name in law.parameter_names])
         self._names = tuple(name for name in law.parameter_names if name not in held)
@@ -74,7 +78,7 @@ class DnlrLaw:
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Lower and upper bounds, each of shape (n_parameters,)."""
-        ends = np.array([_BOUNDS[name] for name in self._names]).reshape(-1, 2)
+        ends = np.array([self._bounds[name] for name in self._names]).reshape(-1, 2)
         return ends[:, 0].copy(), ends[:, 1].copy()
 
     @property

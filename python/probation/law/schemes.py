@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
@@ -171,11 +171,13 @@ def as_scheme(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEM
     Raises
     ------
     InputError
-        If it is neither, or not `among` those that can be used.
+        If it is neither, or has no sensitivities where they are needed: `among` is then `DIFFERENTIABLE`.
     """
     found = _NAMED.get(scheme) if isinstance(scheme, str) else scheme
-    if not isinstance(found, Scheme) or found.name not in among:
+    if not isinstance(found, Scheme):
         raise InputError(f"scheme is {scheme!r}; expected one of {', '.join(among)}")
+    if found.name not in among:
+        raise InputError(f"scheme is {scheme!r}; it has no sensitivities, expected one of {', '.join(among)}")
     return found
 
 
@@ -190,10 +192,34 @@ def at_samples(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHE
     found = as_scheme(scheme, among)
     if found.substeps != 1:
         raise InputError(
-            f"scheme is {scheme!r}; expected a scheme with substeps=1 here (fit and identify_many have an argument "
-            "`substeps`)"
+            f"scheme is {scheme!r}; expected a scheme with substeps=1: one step from sample to sample is taken here"
         )
     return found
+
+
+def identifying(
+    scheme: Scheme | SchemeName, substeps: int | Literal["auto"] = "auto"
+) -> tuple[Scheme, int | Literal["auto"]]:
+    """A scheme that has sensitivities, step by sample, and how many steps it takes instead of each.
+
+    Parameters
+    ----------
+    scheme : Scheme or name
+        An object that has substeps says how many.
+    substeps : int or "auto"
+        What the argument of that name was given.
+
+    Raises
+    ------
+    InputError
+        If the scheme has no sensitivities, or both arguments say how many, and not the same.
+    """
+    found = as_scheme(scheme, DIFFERENTIABLE)
+    if found.substeps == 1:
+        return found, substeps
+    if substeps not in ("auto", found.substeps):
+        raise InputError(f"scheme is {scheme!r} and substeps is {substeps!r}; expected one number of steps")
+    return replace(found, substeps=1), found.substeps
 
 
 def scheme_of(name: SchemeName, start: Start) -> Scheme:

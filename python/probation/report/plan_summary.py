@@ -37,7 +37,10 @@ def plan_summary(plan: Plan) -> str:
 
 def _parameters(plan: Plan) -> str:
     names = [SYMBOLS[name] for name in plan.names]
-    named = [*zip(names, plan.parameters.values(), strict=True), (f"{names[0]}·{names[1]}", plan.product)]
+    named = [
+        *zip(names, plan.parameters.values(), strict=True),
+        ("·".join(SYMBOLS[name] for name in plan.law.parameter_names[:2]), plan.product),
+    ]
     labels = [f"{symbol} [{each.unit}]" if each.unit else symbol for symbol, each in named]
     width = max(map(len, labels))
     lines = [

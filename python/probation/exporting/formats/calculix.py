@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
-from probation.exporting.constants import MaterialConstants, state_size
+from probation.exporting.constants import NAMES, MaterialConstants, state_size
 from probation.exporting.formats import abaqus_umat
 from probation.exporting.formats.keyword_cards import listed
 from probation.exporting.header import commented
@@ -24,11 +24,16 @@ MOST_CONSTANTS = 21
 """That CalculiX passes to a behaviour."""
 
 
+def _modes_that_fit(request: Request) -> int:
+    """Ratio and weight of each beside the constants that have a name."""
+    return (MOST_CONSTANTS - len(NAMES) - (request.stress_tolerance > 0.0)) // 2
+
+
 def _write(request: Request, content: MaterialConstants, header: Sequence[str]) -> str:
     if len(content.values) > MOST_CONSTANTS:
         raise InputError(
             f"modes: found {len(content.values)} constants, expected at most {MOST_CONSTANTS} in CalculiX; write the "
-            "format list and compile it into the behaviour, or take at most 5 modes"
+            f"format list and compile it into the behaviour, or take at most {_modes_that_fit(request)} modes"
         )
     return (
         commented(header, "**")
