@@ -16,6 +16,7 @@ from probation.certificate.result import Certificate
 from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_covariance
 from probation.certificate.verdict import decide
 from probation.errors import InputError
+from probation.identify.fit import gap_of
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 
@@ -56,7 +57,9 @@ def certify(
     3. Each record, held-out ones too, is identified alone: tau_max (or alpha) and G with E_u as identified before
        (the paper's identifications 2, 3), then all three (identification 4). These fits judge whether a parameter keeps
        its value; no prediction uses them. Where E_u itself changes, all are judged on the latter.
-    4. If the law has a companion relation, each record is also identified without it (Figure 3).
+    4. The test of `probation.diagnose` says whether the records, and the predictions of those held out, hold more than
+       noise and the uncertainty of the parameters at all.
+    5. If the law has a companion relation, each record is also identified without it (Figure 3).
 
     Parameters
     ----------
@@ -108,6 +111,7 @@ def certify(
         return found
 
     base = step(trial.base())
+    gap = gap_of(campaign)
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
     predictions = {
         record.id: predict(source, known, record, tolerance, excitation, relation)
@@ -147,6 +151,7 @@ def certify(
             for name in parameters
             if outside_name(name) in campaign.law.fixed
         },
+        gap,
     )
     if progress:
         progress(1.0)
@@ -155,6 +160,7 @@ def certify(
         verdict=verdict,
         reason=reason,
         tolerance=tolerance,
+        gap=gap,
         base=base,
         parameters=parameters,
         predictions=predictions,

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from probation.certificate.prediction import Prediction
     from probation.certificate.verdict import Verdict
     from probation.identify.result import Fit
+    from probation.inference.gap import Gap
 
 VERDICTS = {
     "intrinsic": "intrinsic",
@@ -57,6 +58,8 @@ class Certificate(Result, Stored):
         G as the slope over Haward-Thackray strain (Figure S1), where a record reaches a strain of 0.4.
     warnings : tuple of str
     data_sha256 : str
+    gap : Gap or None
+        Whether the records hold a gap, by the test of `probation.diagnose`; None where it could not be done.
     """
 
     SCHEMA: ClassVar[str] = "probation.certificate/1"
@@ -75,6 +78,7 @@ class Certificate(Result, Stored):
     regressions: Mapping[str, HardeningRegression]
     warnings: tuple[str, ...]
     data_sha256: str
+    gap: Gap | None = None
 
     @property
     def headline(self) -> str:
@@ -89,6 +93,7 @@ class Certificate(Result, Stored):
             "verdict": self.verdict,
             "reason": self.reason,
             "tolerance": self.tolerance,
+            "gap": None if self.gap is None else self.gap.to_dict(),
             "scheme": self.base.scheme,
             "parameters": {
                 outside_name(name): {

@@ -69,6 +69,7 @@ class Trial:
             self.scheme,
             method="variable-projection",
             excitation=self.excitation,
+            gap=False,
         )
 
     def holding(self, base: Fit, names: Iterable[str]) -> LawSettings:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation.certificate.consistency import Consistency
     from probation.certificate.prediction import Prediction
+    from probation.inference.gap import Gap
 
 OWN_FAULT = 0.5
 """Part of a prediction's error that must stay with parameters of the record's own for the law's form to be blamed."""
@@ -27,6 +29,7 @@ def decide(
     described_MPa: Mapping[str, float],
     tolerances_MPa: Mapping[str, float],
     held: Mapping[str, float] | None = None,
+    gap: Gap | None = None,
 ) -> tuple[Verdict, str]:
     """Decide, and say why.
 
@@ -43,11 +46,14 @@ def decide(
         Bias that is let pass on each record [MPa].
     held : dict of str to float, optional
         Parameters that the campaign holds, by name.
+    gap : Gap, optional
+        Whether the law departs from its records at all.
 
     Returns
     -------
     verdict : str
-        "intrinsic": no parameter changes and every prediction is within tolerance. "intrinsic_except": some parameters
+        "intrinsic": no parameter changes and every prediction is within tolerance; also where the latter holds and
+        there is no gap. "intrinsic_except": some parameters
         change and others do not, and with those free the law describes every record within tolerance; also where all
         change, but so little that every prediction is within tolerance. "not_intrinsic" otherwise, and where a
         prediction errs by more than `FAR` of the largest stress.
@@ -60,7 +66,17 @@ def decide(
         f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
     )
+    if gap is not None and not gap.exists:
+        if failing and worst.passes:
+            changes = " and ".join(_change(name, parameters[name]) for name in failing)
+            return (
+                "intrinsic",
+                f"there is no gap: one set of parameters serves every record, though {changes}; {predicted}",
+            )
+        predicted += ", and no record holds more than noise and the uncertainty of the parameters"
     if not failing and worst.passes:
+        if gap is not None and gap.exists:
+            predicted += f"; {_small_gap(gap)}"
         tested = [name for name in kept if parameters[name].tested]
         seen = _listed(tested) if tested else "none is determined by two of them"
         return "intrinsic", f"one set of parameters serves every record ({seen}); {predicted}"
@@ -78,6 +94,14 @@ def decide(
             f"{predicted}, and {_why_missed(worst, described_MPa[worst.id], parameters, held or {})}",
         )
     return _exceptions(failing, kept, parameters, worst, predicted)
+
+
+def _small_gap(gap: Gap) -> str:
+    size = gap.size
+    return (
+        f"there is a gap, of {size.rms_MPa:.2g} MPa in {size.record} ({percentage(size.relative)} % of its largest "
+        "stress), within the tolerance"
+    )
 
 
 def _why_missed(

@@ -76,4 +76,4 @@ def _law(campaign: Campaign, settings: dict[str, float]) -> Law:
         if campaign.law.accuracy is not None:
             spectrum["accuracy"] = campaign.law.accuracy
         return make_law({**spectrum, **held}, relation)
-    return fit(campaign, hold=settings).law
+    return fit(campaign, hold=settings, gap=False).law

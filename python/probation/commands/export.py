@@ -192,7 +192,7 @@ def _source(options: argparse.Namespace) -> Law | Fit | Path:
         return Path(options.source[0])
     campaign = campaign_at(options.source, options)
     with shown(f"identifying on {campaign.name}") as advance:
-        return fit(campaign, progress=lambda part: advance(round(100 * part), 100, ""))
+        return fit(campaign, gap=False, progress=lambda part: advance(round(100 * part), 100, ""))
 
 
 def _numbers(text: str) -> list[float]:

@@ -67,7 +67,7 @@ class Reference:
         chosen = at_samples(scheme, DIFFERENTIABLE)
         thinned, _ = thin(campaign)
         whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
-        found = fit(whole, chosen, weighting="plain", method="variable-projection")
+        found = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
         law = DnlrLaw(found.law, held=found.law.parameter_names)
         views = views_of(whole, scheme=chosen)
         residuals = [own_residual(view, law) for view in views]

@@ -39,7 +39,7 @@ def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[
     if isinstance(source, Fit):
         return source.law, f"identified on {source.campaign}, {source.verdict}"
     if isinstance(source, Campaign):
-        return law_and_source(fit(source))
+        return law_and_source(fit(source, gap=False))
     if not isinstance(source, str | PathLike):
         raise InputError(f"source: found {source!r}, expected a Law, a Fit, a Campaign or a path")
     path = Path(fspath(source))

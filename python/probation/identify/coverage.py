@@ -323,7 +323,9 @@ def _judge(case: Case, draw: int, methods: Sequence[Weighting], seed: int) -> Re
     campaign = Campaign(case.name, (drawn_record(case, seed, draw),))
     result: Result = {}
     for method in methods:
-        answer = fit(campaign, "sa3", method="variable-projection", excitation=case.excitation, weighting=method)
+        answer = fit(
+            campaign, "sa3", method="variable-projection", excitation=case.excitation, weighting=method, gap=False
+        )
         result[method] = {}
         for name, parameter in answer.parameters.items():
             low, high = parameter.interval95 or (-np.inf, np.inf)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from probation._arrays import one_of
+from probation.effects.registry import effects
 from probation.errors import InputError
+from probation.identify.base import base_fit
 from probation.identify.base_law import base_law
 from probation.identify.describe import describe
 from probation.identify.given import given
@@ -16,9 +19,12 @@ from probation.identify.result import METHODS, Fit, Method
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, weigh
+from probation.inference.gap import Gap, find_gap
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.inference.problem import Problem
 from probation.inference.record_problem import RecordProblem
+from probation.inference.thinning import thin
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, identifying
 from probation.smoothing.excitation import excite
@@ -43,6 +49,7 @@ def fit(
     substeps: int | Literal["auto"] = "auto",
     weighting: Weighting = "auto",
     intervals: Intervals = "standard-error",
+    gap: bool = True,
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
     """Identify the law's parameters on the records with role "identify", which share them.
@@ -72,6 +79,9 @@ def fit(
         standard errors only, by drawing the strain again.
     intervals : {"standard-error", "profile"}
         Where the 95 % intervals come from; "profile": the likelihood, the other parameters profiled out.
+    gap : bool
+        Whether to test, too, if more than noise is left of the records, as `diagnose` and `certify` do. It is a test of
+        the law: none is done with bounds, or where the strain is smoothed in a way of your own.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -121,6 +131,8 @@ def fit(
     if progress:
         progress(0.9)
     found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
+    if gap and not bounds and excitation == "auto":
+        found = replace(found, gap=gap_of(campaign, hold, predicted=False))
     if progress:
         progress(1.0)
     return found
@@ -138,7 +150,30 @@ def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Map
     """
     if len(campaign.law.fixed) == PARAMETERS and not hold:
         return given(campaign, scheme)
-    return fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection")
+    return fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection", gap=False)
+
+
+def gap_of(campaign: Campaign, hold: Mapping[str, float] | None = None, *, predicted: bool = True) -> Gap | None:
+    """Whether the campaign's law departs from its records: the test of `probation.diagnose` with its defaults.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    hold : dict of str to float, optional
+        As in `fit`.
+    predicted : bool
+        Whether to test the predictions of held-out records, too.
+
+    Returns
+    -------
+    Gap or None
+        None where the records are too few or too odd for the test.
+    """
+    few = thin(campaign)[0]
+    try:
+        return find_gap(base_fit(few, plain_fit(few, hold=hold)).screened(effects()), effects(), predicted=predicted)
+    except UNSOLVABLE:
+        return None
 
 
 def _least_squares(

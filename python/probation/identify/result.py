@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.identify.bias import Bias
     from probation.identify.profile import Profile
+    from probation.inference.gap import Gap
     from probation.law.modal import Law
     from probation.law.schemes import SchemeName, Start
 
@@ -128,6 +129,7 @@ class Fit(Result, Stored):
     scheme_shift: dict[str, float] = field(default_factory=dict)
     warnings: tuple[str, ...] = field(default=())
     data_sha256: str = ""
+    gap: Gap | None = None
 
     @from_curves
     def rms_MPa(self) -> float:
@@ -151,13 +153,23 @@ class Fit(Result, Stored):
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
         largest = max(each.largest_stress_MPa for each in self.records.values())
         part = percentage(self.bias_MPa / largest)
+        noise = f"the noise being {self.noise_MPa:.3g} MPa"
         bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({part} % of the largest stress)"
-        if self.bias_MPa > 2.0 * self.noise_MPa:
+        if self.gap is not None and not self.gap.in_fitted:
+            quality = "the law describes the records to within their noise"
+        elif self.bias_MPa > 2.0 * self.noise_MPa:
             quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:
             quality = f"{bias}, comparable to the noise"
+        elif self.gap is None:
+            quality = f"the law leaves {self.rms_MPa:.3g} MPa, {noise}; whether that is more than noise was not tested"
         else:
-            quality = "the law describes the records to within their noise"
+            size = self.gap.size
+            part = percentage(size.relative)
+            quality = (
+                f"the law leaves {size.rms_MPa:.3g} MPa in {size.record} ({part} % of the largest stress) that are not "
+                f"noise, {noise}"
+            )
         if not poor:
             return f"All parameters are identifiable; {quality}."
         names = ", ".join(f"{SYMBOLS[p.name]} ({p.status.replace('_', ' ')})" for p in poor)
@@ -189,6 +201,7 @@ class Fit(Result, Stored):
                 "max_MPa": self.scheme_error_MPa,
                 "shift_in_se": {outside_name(name): shift for name, shift in self.scheme_shift.items()},
             },
+            "gap": None if self.gap is None else self.gap.to_dict(),
             "records": {name: each.to_json() for name, each in self.records.items()},
             "warnings": list(self.warnings),
         }

@@ -157,10 +157,13 @@ class Gap:
             "held_out": self.in_held_out,
             "p_value": self.test.p_value,
             "size": self.size.to_dict(),
+            "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
         }
 
 
-def find_gap(base: BaseFit, effects: Sequence[Effect], *, threads: int = 2, seed: int = 0) -> Gap:
+def find_gap(
+    base: BaseFit, effects: Sequence[Effect], *, predicted: bool = True, threads: int = 2, seed: int = 0
+) -> Gap:
     """Test a base fit on its records, and its predictions of those that were held out.
 
     Parameters
@@ -169,6 +172,8 @@ def find_gap(base: BaseFit, effects: Sequence[Effect], *, threads: int = 2, seed
         With the signals of these effects, `BaseFit.screened`.
     effects : sequence of Effect
         Directions in which a gap is looked for, beside smooth waves and what is sharp.
+    predicted : bool
+        Whether to test the predictions, too.
     threads, seed : int
     """
     test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
@@ -178,7 +183,7 @@ def find_gap(base: BaseFit, effects: Sequence[Effect], *, threads: int = 2, seed
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     held_out = {}
-    for record, noise in zip(*predictions(base), strict=True):
+    for record, noise in zip(*predictions(base), strict=True) if predicted else ():
         whitened = Whitened.of([record], [noise])
         view = next(view for view in base.views if view.id == record.name)
         signals = screen(CampaignModel(base.law, [view]), base.parameters, effects, threads=threads)

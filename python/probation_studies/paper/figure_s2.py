@@ -98,7 +98,7 @@ def _alpha(number: Grip, settings: Settings, slope: float, intercept: float) -> 
     relation = CompanionSettings("weissenberg", {"slope": slope, "intercept": intercept})
     law = LawSettings(companion=relation, fixed=OPTIONS[2].fixed)
     test = twin(number, settings.seed)
-    return fit(Campaign(name=test.name, records=(test.record(),), law=law)).law.alpha or np.nan
+    return fit(Campaign(name=test.name, records=(test.record(),), law=law), gap=False).law.alpha or np.nan
 
 
 def _figure(drawn: dict[str, Companion]) -> Figure:

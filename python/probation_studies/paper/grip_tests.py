@@ -51,7 +51,7 @@ def twin(number: Literal[1, 2, 3], seed: int, necking: NeckingSet = "P2") -> Twi
 @lru_cache(maxsize=32)
 def identify(test: Twin, option: int) -> Fit:
     """One of `OPTIONS` identified on a synthetic record."""
-    return fit(Campaign(name=test.name, records=(test.record(),), law=OPTIONS[option]))
+    return fit(Campaign(name=test.name, records=(test.record(),), law=OPTIONS[option]), gap=False)
 
 
 @lru_cache(maxsize=8)

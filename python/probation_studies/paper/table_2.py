@@ -67,4 +67,4 @@ def identified_ramp(row: RateRow, seed: list[int]) -> Fit:
         control="strain-rate",
         noise=Noise(stress_MPa=STRESS_NOISE),
     )
-    return fit(Campaign(name=record.id, records=(record,), law=LawSettings()))
+    return fit(Campaign(name=record.id, records=(record,), law=LawSettings()), gap=False)
