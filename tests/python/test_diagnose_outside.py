@@ -1,5 +1,6 @@
 """Campaigns of an independent virtual laboratory, whose truth is known: see the README of their folder."""
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -41,6 +42,14 @@ def test_specimens_that_differ_are_no_gap():
     assert found.verdict == "no_gap"
     assert found.best.effects == ()
     assert found.shrink.identify.after_MPa < 1.1 * found.noise_MPa
+    assert "specimens differ by" in found.headline
+    answer = json.loads(found.to_json())
+    assert answer["gap_if_alike"]
+    for name, true in {"unrelaxed_modulus_MPa": 0.02, "alpha": 0.03, "hardening_modulus_MPa": 0.03}.items():
+        low, high = answer["scatter"][name]["interval95"]
+        assert low < true < high
+        assert low < answer["scatter"][name]["relative"] < high
+        assert answer["scatter"][name]["specimens"] == 9
 
 
 def test_what_specimens_differ_by_is_no_fault_of_the_load_cell():

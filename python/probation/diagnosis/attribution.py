@@ -15,6 +15,7 @@ from probation.diagnosis.result import UNKNOWN
 from probation.inference.candidate import cause_key
 from probation.inference.refit import refit
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.own_deviations import own_deviations
 from probation.noise.spikes import without_spikes
 from probation.parallel import in_parallel
 
@@ -169,21 +170,25 @@ def _squares(
             return there
 
     refits = dict(zip(parts, in_parallel(fitted, parts, threads), strict=True))
-    squares = {(): _mean_square(base, base.refit), known: _mean_square(base, best.refit if known else base.refit)}
+    best_refit = best.refit if known else base.refit
+    own = np.concatenate(own_deviations(_errors(base, best_refit), base.whitened.noises))
+    squares = {(): _mean_square(base, base.refit, own), known: _mean_square(base, best_refit, own)}
     for part, each in refits.items():
         # What cannot be solved closes no more than its own parts do.
         below = [squares[smaller] for smaller in squares if {*smaller} < {*part}]
-        squares[part] = _mean_square(base, each) if each is not None else min(below)
+        squares[part] = _mean_square(base, each, own) if each is not None else min(below)
     return squares
 
 
-def _mean_square(base: BaseFit, found: Refit) -> float:
-    """Of the fit residual on the fitted records, outliers set apart [MPa^2]."""
+def _mean_square(base: BaseFit, found: Refit, own: FloatArray) -> float:
+    """Of the errors on the fitted records without the specimens' own deviations, shape (n_samples,) [MPa^2]."""
+    return float(np.mean((np.concatenate(_errors(base, found)) - own) ** 2))
+
+
+def _errors(base: BaseFit, found: Refit) -> list[FloatArray]:
+    """The fit residual by record, outliers set apart [MPa]."""
     raw = found.model.residual(found.parameters)
-    parts: list[FloatArray] = [
-        without_spikes(raw[found.model.rows(noise.name)], noise.spikes) for noise in base.whitened.noises
-    ]
-    return float(np.mean(np.concatenate(parts) ** 2))
+    return [without_spikes(raw[found.model.rows(noise.name)], noise.spikes) for noise in base.whitened.noises]
 
 
 def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> dict[str, float]:

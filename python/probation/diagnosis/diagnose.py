@@ -210,6 +210,8 @@ def diagnose(
         seed=seed,
         isolability=apart,
         skipped=skipping.entries(found),
+        scatter=base.scatter,
+        hangs_on_scatter=gap.hangs_on_scatter,
     )
 
 

@@ -69,7 +69,7 @@ def headline(
         also = " and predicts those held out" if gap.held_out else ""
         return (
             f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g})."
+            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g}){_of_specimens(gap)}."
         )
     found = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
     if worse:
@@ -90,6 +90,13 @@ def headline(
     if judged is not None and verdict == "explained":
         found += f"; {judge}, kept apart, is predicted to {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
     return f"{missed}; {found}."
+
+
+def _of_specimens(gap: Gap) -> str:
+    """How far specimens differ, where that is known or decides the verdict."""
+    if not gap.hangs_on_scatter:
+        return f"; {gap.scatter.text}" if gap.scatter.source == "replicates" else ""
+    return f"; {gap.scatter.text}, and if they were alike there would be a gap"
 
 
 def _cause(

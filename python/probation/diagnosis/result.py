@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.skipped import Skipped
     from probation.inference.gap import GapSize, HeldOutGap
+    from probation.inference.scatter import Scatter
 
 Verdict = Literal["no_gap", "not_predicted", "explained", "unexplained"]
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
@@ -207,6 +208,10 @@ class Diagnosis(Result, Stored):
         Of every record that was only predicted.
     size : GapSize
         Of the gap where it is largest beside the stress.
+    scatter : Scatter or None
+        How far specimens differ: estimated, assumed or stated.
+    hangs_on_scatter : bool
+        Whether there would be a gap if specimens were alike, and is none as they differ.
     judged_on : str or None
         Where records were not predicted: the one that no cause was fitted to.
     rms_MPa, noise_MPa : float
@@ -266,6 +271,8 @@ class Diagnosis(Result, Stored):
     held_out: Mapping[str, HeldOutGap] = field(default_factory=dict)
     size: GapSize | None = None
     judged_on: str | None = None
+    scatter: Scatter | None = None
+    hangs_on_scatter: bool = False
 
     @property
     def best(self) -> Explanation:
@@ -298,6 +305,8 @@ class Diagnosis(Result, Stored):
             },
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
             "judged_on": self.judged_on,
+            "scatter": {} if self.scatter is None else self.scatter.to_dict(),
+            "gap_if_alike": self.verdict != "no_gap" or self.hangs_on_scatter,
             "where": [_located(each) for each in self.located],
             "acts": [_located(each) for each in self.acts],
             "signatures": [

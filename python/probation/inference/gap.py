@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
+    from probation.inference.scatter import Scatter
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
 
@@ -107,11 +108,22 @@ class Gap:
         Of those that were not, by id.
     sizes : dict of str to GapSize
         Of every record.
+    scatter : Scatter
+        How far specimens may differ without a gap.
+    alike : GapTest or None
+        Of the fitted records if specimens were alike, where they may differ and there is no gap.
     """
 
     test: GapTest
     held_out: Mapping[str, HeldOutGap]
     sizes: Mapping[str, GapSize]
+    scatter: Scatter
+    alike: GapTest | None = None
+
+    @property
+    def hangs_on_scatter(self) -> bool:
+        """Whether there would be a gap in the fitted records if specimens were alike."""
+        return self.alike is not None and self.alike.rejected
 
     @property
     def in_fitted(self) -> bool:
@@ -177,6 +189,10 @@ def find_gap(
     threads, seed : int
     """
     test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
+    alike = None
+    if base.scatter.any and not test.rejected:
+        columns = WhitenedColumns.of(base.signals, Whitener(base.alike.noises), len(base.alike))
+        alike = with_sharp(GapTester(base.alike, columns.by_effect(), seed=seed)(), base.alike)
     stress = {view.id: float(np.max(np.abs(view.data))) for view in base.views}
     sizes = {
         record.name: _size(base.errors[index], noise, stress[record.name])
@@ -192,7 +208,7 @@ def find_gap(
         error = whitened.clean(0)
         sizes[record.name] = _size(error, noise, stress[record.name])
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
-    return Gap(test, held_out, sizes)
+    return Gap(test, held_out, sizes, base.scatter, alike)
 
 
 def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseModel, ...]]:

@@ -9,13 +9,15 @@ variances are had from that alone, by restricted likelihood, so that no missing 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from probation.inference.deviations import deviation_names, kind_of_deviation
+from probation.inference.deviations import AREA, START, deviation_names, kind_of_deviation
+from probation.inference.parameter import SYMBOLS, outside_name
 from probation.noise.spikes import without_spikes
 from probation.records.specimens import USUAL
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,11 +34,17 @@ SAME_HISTORY = 0.03
 LEAST_IN_COMMON = 0.5
 """Part of the longer record's time that replicates have in common at least: chosen."""
 
+SEEN = 0.2
+"""Lower end of a scatter's interval over its value from which on the scatter is told in words: chosen."""
+
 FREEDOM = 4
 """Of the half-Student prior of a standard deviation (Gelman 2006): the fewest that have a variance."""
 
 DRAWS, BURN = 6000, 1000
 """Metropolis steps, and the first of them that are left out."""
+
+_TITLES = {outside_name(name): symbol for name, symbol in SYMBOLS.items()}
+_TITLES |= {AREA: "the section", START: "the start of the strain"}
 
 Source = Literal["replicates", "assumed", "stated", "none"]
 
@@ -63,6 +71,35 @@ class Scatter:
     intervals: tuple[tuple[float, float], ...] | None
     specimens: int
     source: Source
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `scatter` of docs/formats.md; without what specimens are alike in."""
+        return {
+            name: {
+                "relative": size,
+                "interval95": None if self.intervals is None else list(self.intervals[index]),
+                "specimens": self.specimens,
+                "source": self.source,
+            }
+            for index, (name, size) in enumerate(zip(self.names, self.deviations, strict=True))
+            if size > 0.0
+        }
+
+    @property
+    def text(self) -> str:
+        """How far specimens differ, in words: "specimens differ by 1.9 % in E_u and 2.4 % in G"."""
+        if not self.any:
+            return "specimens are taken as alike"
+        parts = [
+            f"{size:.2g} in {_TITLES[name]}" if name == START else f"{percentage(size)} % in {_TITLES.get(name, name)}"
+            for index, (name, size) in enumerate(zip(self.names, self.deviations, strict=True))
+            if size > 0.0 and (self.intervals is None or self.intervals[index][0] > SEEN * size)
+        ]
+        if self.source == "assumed":
+            return f"without replicates it is assumed that specimens differ by {listed(parts, 'and')}"
+        if not parts:
+            return "specimens do not differ visibly"
+        return f"specimens {'are said to ' if self.source == 'stated' else ''}differ by {listed(parts, 'and')}"
 
     @property
     def any(self) -> bool:

@@ -8,7 +8,7 @@ from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effects as known_effects
 from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
-from probation.report.diagnosis_summary import gap_text, next_test_text, signs
+from probation.report.diagnosis_summary import gap_text, next_test_text, signs, specimens_text
 from probation.report.diagnosis_tables import (
     base_table,
     effects_table,
@@ -54,7 +54,7 @@ def diagnosis_page(found: Diagnosis) -> Page:
         title=f"Diagnosis of {found.campaign}: what does the simulation leave out?",
         verdict=found.headline,
         mood=_MOOD[found.verdict],
-        lead=gap_text(found),
+        lead=f"{gap_text(found)} {specimens_text(found)}".strip(),
         sections=(*sections, _looked_for(found), _details(found)),
         provenance=provenance(found.data_sha256, found.seed),
     )

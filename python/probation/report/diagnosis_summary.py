@@ -40,7 +40,7 @@ def summary(found: Diagnosis) -> str:
     str
         The first line holds the campaign and the headline, however long.
     """
-    parts = [f"{found.campaign}: {found.headline}", _gap(found)]
+    parts = [f"{found.campaign}: {found.headline}", _gap(found), _sentence(specimens_text(found))]
     if found.held_out:
         parts.append(_shown(held_out_table(found), ""))
     if found.located:
@@ -71,6 +71,16 @@ def gap_text(found: Diagnosis) -> str:
         f"{text} This hangs on how well the noise is known: {_cases(gap.p_value_low_noise)} if it were 0.8 times as "
         f"large, {_cases(gap.p_value_high_noise)} if 1.25 times."
     )
+
+
+def specimens_text(found: Diagnosis) -> str:
+    """How far specimens differ, and whether there would be a gap if they did not; empty where nothing is known."""
+    if found.scatter is None:
+        return ""
+    text = found.scatter.text
+    if found.scatter.any and found.verdict == "no_gap":
+        text += "; if they were alike there would " + ("be a gap" if found.hangs_on_scatter else "still be no gap")
+    return f"{text[:1].upper()}{text[1:]}."
 
 
 def _cases(p_value: float) -> str:
