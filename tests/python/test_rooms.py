@@ -107,7 +107,7 @@ def test_a_result_offers_what_the_table_of_renderers_has_and_nothing_else(name):
         pytest.importorskip("xarray")
     result = getattr(__import__(module, fromlist=[kind]), kind)
     offered = {what for what in ("summary", "plot", "report") if hasattr(result, what)}
-    assert offered == set(RENDERERS[name]) - {"verdict", "card", "line"}
+    assert offered == set(RENDERERS[name]) - {"verdict", "card", "line", "corner"}
     assert set(RENDERERS[name]) & {"card", "line"} <= {
         "card" * hasattr(result, "_repr_html_"),
         "line" * is_one_line(result),

@@ -98,21 +98,24 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
 
 def correlation_lags(residual: FloatArray) -> int:
     """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
+    inflation = mean_inflation(residual)
+    return 0 if inflation < WHITE else min(max(int(4.0 * inflation), 1), len(residual) // 2)
+
+
+def mean_inflation(residual: FloatArray) -> float:
+    """How many times the variance of a residual's mean is that of as many independent samples; 1 if it is white."""
     count = len(residual)
     centred = residual - residual.mean()
     variance = float(centred @ centred) / count
     if variance == 0.0 or count < 20:
-        return 0
+        return 1.0
     spectrum = np.abs(np.fft.rfft(centred, 2 * count)) ** 2
     autocovariance = np.fft.irfft(spectrum)[: count // 2] / count / variance
     # Sum up to the first lag that is not above chance (Sokal's window would need one more choice).
     chance = 2.0 / np.sqrt(count)
     below = np.flatnonzero(autocovariance[1:] < chance)
     last = int(below[0]) if below.size else len(autocovariance) - 1
-    inflation = 1.0 + 2.0 * float(autocovariance[1 : last + 1].sum())
-    if inflation < WHITE:
-        return 0
-    return min(max(int(4.0 * inflation), 1), count // 2)
+    return 1.0 + 2.0 * float(autocovariance[1 : last + 1].sum())
 
 
 def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:

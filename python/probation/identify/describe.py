@@ -11,16 +11,18 @@ from scipy.special import stdtrit
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance, correlation_lags
 from probation.identify.ends import ends_of
+from probation.identify.likelihood import log_likelihood
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
 from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.weighting import known_of
 from probation.inference.information import correlation, estimated
-from probation.inference.parameter import SYMBOLS, UNITS, Parameter
+from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_name
 from probation.records.noise import scatter
+from probation.results.labelled import LabelledMatrix
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping, Sequence
 
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
@@ -93,6 +95,7 @@ def describe(
     if weighting == "plain":
         warnings += strain_noise_warnings(problem.records, law)
     largest_error, shift = scheme_error(problem, problem.records, law, jacobian, known)
+    likelihood, noise_parameters = log_likelihood(problem, law)
     return Fit(
         campaign=campaign.name,
         law=law,
@@ -114,9 +117,20 @@ def describe(
         scheme_error_MPa=largest_error,
         scheme_shift={names[index]: float(moved) for index, moved in zip(free, shift, strict=True)},
         profiles=profiles,
+        covariance=_labelled(known, [names[i] for i in free], ends.withdrawn),
+        log_likelihood=likelihood,
+        noise_parameters=noise_parameters,
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,
     )
+
+
+def _labelled(known: Covariance, names: Sequence[str], withdrawn: Collection[str]) -> LabelledMatrix:
+    """The covariance by outside names; NaN for what has no standard error."""
+    unknown = ~np.isfinite(known.relative_error) | np.array([name in withdrawn for name in names], dtype=bool)
+    matrix = known.matrix.copy()
+    matrix[unknown, :] = matrix[:, unknown] = np.nan
+    return LabelledMatrix(tuple(outside_name(name) for name in names), matrix)
 
 
 def _used(weighted: Weighted) -> str:

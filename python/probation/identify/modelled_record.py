@@ -54,6 +54,11 @@ class ModelledRecord(WithCurves):
         return float(np.max(np.abs(self.fit_residual)))
 
     @from_curves
+    def samples(self) -> int:
+        """How many there are."""
+        return len(self.time)
+
+    @from_curves
     def largest_stress_MPa(self) -> float:
         """Largest measured stress, without its sign."""
         return float(np.max(np.abs(self.true_stress)))

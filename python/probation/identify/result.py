@@ -7,20 +7,29 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
+from probation._arrays import one_of
+from probation.identify.covariance import mean_inflation
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
 from probation.results.data import CURVE, Stored, from_curves
-from probation.results.rendering import Result
+from probation.results.labelled import LabelledMatrix
+from probation.results.rendering import Result, rendered
 from probation.wording import percentage
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+
     from probation._arrays import FloatArray
+    from probation.identify.band import StressBand
     from probation.identify.bias import Bias
+    from probation.identify.draws import Draws
     from probation.identify.profile import Profile
     from probation.inference.gap import Gap
+    from probation.law.history import AnyHistory
     from probation.law.modal import Law
-    from probation.law.schemes import SchemeName, Start
+    from probation.law.schemes import Scheme, SchemeName, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")
@@ -50,6 +59,11 @@ class RecordFit(ModelledRecord):
     noise_correlation: float = 0.0
     strain_noise_weighed: bool = False
 
+    @from_curves
+    def effective_samples(self) -> float:
+        """Independent samples that would say as much of the scatter around the law."""
+        return self.samples / mean_inflation(self.fit_residual)
+
     def to_json(self) -> dict[str, Any]:
         """Numbers only."""
         return {
@@ -69,8 +83,6 @@ class RecordFit(ModelledRecord):
 @dataclass(frozen=True, eq=False)
 class Fit(Result, Stored):
     """Parameters identified on a campaign, and what is known about them.
-
-    `plot` draws stress against strain with the fit residuals below, as the paper's Figure 2.
 
     Attributes
     ----------
@@ -103,6 +115,12 @@ class Fit(Result, Stored):
         How far the scheme is from SA3 at most: its own error, not the law's.
     scheme_shift : dict of str to float
         What that error does to the identified parameters, in standard errors, to first order.
+    covariance : LabelledMatrix
+        Of the identified parameters, by their names with units; NaN where the records do not determine one.
+    log_likelihood : float
+        ln L of the records, the noise as it was found; larger is better, on the same records only.
+    noise_parameters : int
+        How many parameters of the noise were estimated.
     warnings : tuple of str
     data_sha256 : str
     """
@@ -127,6 +145,9 @@ class Fit(Result, Stored):
     profiles: dict[str, Profile] = field(default_factory=dict)
     scheme_error_MPa: float = 0.0  # noqa: N815 - as it leaves the program
     scheme_shift: dict[str, float] = field(default_factory=dict)
+    covariance: LabelledMatrix = field(default_factory=LabelledMatrix)
+    log_likelihood: float = np.nan
+    noise_parameters: int = 0
     warnings: tuple[str, ...] = field(default=())
     data_sha256: str = ""
     gap: Gap | None = None
@@ -146,6 +167,115 @@ class Fit(Result, Stored):
     def bias_MPa(self) -> float:
         """Its low-frequency part: what the law does not describe."""
         return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
+
+    @property
+    def samples(self) -> int:
+        """Of all records."""
+        return sum(each.samples for each in self.records.values())
+
+    @property
+    def effective_samples(self) -> float:
+        """Independent samples that would say as much of the scatter: fewer where the fit residual is autocorrelated."""
+        return sum(each.effective_samples for each in self.records.values())
+
+    @property
+    def degrees(self) -> float:
+        """Of freedom: effective samples less identified parameters."""
+        return max(self.effective_samples - len(self.names), 1.0)
+
+    @property
+    def scatter_MPa(self) -> float:
+        """Standard deviation of measured samples around the law, from the fit residual."""
+        return self.rms_MPa * float(np.sqrt(max(self.effective_samples / self.degrees, 1.0)))
+
+    @property
+    def aic(self) -> float:
+        """Akaike's information criterion, parameters of the noise counted: the lower the better."""
+        return 2.0 * (len(self.names) + self.noise_parameters) - 2.0 * self.log_likelihood
+
+    @property
+    def bic(self) -> float:
+        """Schwarz's (Bayesian) information criterion, parameters of the noise counted: the lower the better."""
+        count = len(self.names) + self.noise_parameters
+        return count * float(np.log(self.samples)) - 2.0 * self.log_likelihood
+
+    def predict(
+        self,
+        history: AnyHistory | ArrayLike,
+        true_strain: ArrayLike | None = None,
+        *,
+        level: float = 0.95,
+        scheme: Scheme | SchemeName = "sa3",
+    ) -> StressBand:
+        """The stress along a history, with its confidence and prediction bands.
+
+        The confidence band is that of the law's stress if the law is right. It widens with the errors of the
+        parameters, which autocorrelated noise widens. The prediction band is that of a measured sample: it has on top
+        what scatters the fitted records around the law, their noise and what the law leaves out.
+
+        Parameters
+        ----------
+        history : StrainHistory, or array_like, shape (n_times,) [s]
+            Or two arrays, time and true strain.
+        true_strain : array_like, shape (n_times,) [-], optional
+        level : float
+            Probability of each band, at each instant by itself.
+        scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+
+        Returns
+        -------
+        StressBand
+
+        Raises
+        ------
+        InputError
+            For a history that is not possible, or a level that is no probability.
+        """
+        from probation.identify.band import predicted  # noqa: PLC0415 - it draws
+
+        return predicted(self, history, true_strain, level=level, scheme=scheme)
+
+    def sample(self, n: int = 1000, *, seed: int = 0) -> Draws:
+        """Draws of the identified parameters from the Laplace approximation of their posterior.
+
+        A normal distribution around the estimates with `covariance`, without what is negative. Where a parameter is
+        only weakly identifiable, ``fit(…, intervals="profile")`` says how far that is from the likelihood.
+
+        Parameters
+        ----------
+        n : int
+        seed : int
+
+        Returns
+        -------
+        Draws
+            `to_arviz()` and `to_dataframe()` hand them on.
+
+        Raises
+        ------
+        InputError
+            If the records do not determine a parameter.
+        """
+        from probation.identify.draws import draw  # noqa: PLC0415
+
+        return draw(self, n, seed)
+
+    def plot(self, kind: Literal["curves", "corner"] = "curves") -> Figure:
+        """The fit as a figure.
+
+        Parameters
+        ----------
+        kind : {"curves", "corner"}
+            Stress against strain with the fit residuals below; or the joint confidence of the parameters, two by two.
+
+        Raises
+        ------
+        InputError
+            For another kind; or for curves of a fit that was read from JSON without them.
+        """
+        one_of(kind, "kind", ("curves", "corner"))
+        figure: Figure = rendered(self, "plot" if kind == "curves" else "corner")
+        return figure
 
     @property
     def verdict(self) -> str:
@@ -192,7 +322,11 @@ class Fit(Result, Stored):
             "fixed": {outside_name(n): p.value for n, p in self.parameters.items() if p.status == "held"},
             "products": {f"unrelaxed_modulus_MPa*{second}": self.product.to_json()},
             "correlation": {"names": [outside_name(name) for name in self.names], "matrix": self.correlation},
+            "covariance": self.covariance.to_dict(),
             "condition_number": self.condition_number,
+            "log_likelihood": self.log_likelihood,
+            "aic": self.aic,
+            "bic": self.bic,
             "weighting": self.weighting,
             "intervals": "profile" if self.profiles else "standard-error",
             "autocorrelated": self.autocorrelated,

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+from scipy.special import stdtrit
+
+from probation.identify.band import standard_error
 from probation.inference.parameter import SYMBOLS, Parameter
 from probation.provenance import provenance
 from probation.report.fit_summary import estimate_text, noise_text
@@ -22,7 +26,7 @@ if TYPE_CHECKING:
 
 def fit_figure(fit: Fit) -> Figure:
     """Stress over strain, measured and identified, with the fit residuals below: the paper's Figure 2."""
-    return stress_strain_with_residuals([_curve(record) for record in fit.records.values()], title=fit.campaign)
+    return stress_strain_with_residuals([_curve(fit, record) for record in fit.records.values()], title=fit.campaign)
 
 
 def sensitivity_figure(fit: Fit, record: RecordFit) -> Figure:
@@ -45,8 +49,10 @@ def write_fit_page(fit: Fit, path: Path) -> None:
     ).write(path)
 
 
-def _curve(record: RecordFit) -> Curve:
-    return Curve(record.id, record.true_strain, record.true_stress, record.model_stress, record.noise_MPa)
+def _curve(fit: Fit, record: RecordFit) -> Curve:
+    reach = float(stdtrit(fit.degrees, 0.975)) * np.hypot(standard_error(fit, record.sensitivity), record.rms_MPa)
+    band = reach if np.all(np.isfinite(reach)) else None
+    return Curve(record.id, record.true_strain, record.true_stress, record.model_stress, record.noise_MPa, band)
 
 
 def _parameters(fit: Fit) -> Section:

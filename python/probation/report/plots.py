@@ -35,6 +35,8 @@ class Curve:
     model : ndarray, shape (n_times,) [MPa]
     noise_MPa : float or None
         Standard deviation, drawn as a band of two either way around zero.
+    band95 : ndarray, shape (n_times,) [MPa], or None
+        Half the width of the 95 % band of measured samples, drawn as dashed lines around zero.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Curve:
     measured: FloatArray
     model: FloatArray
     noise_MPa: float | None = None  # noqa: N815 - the unit is part of the name, as in JSON
+    band95: FloatArray | None = None
 
 
 def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Figure:
@@ -79,7 +82,11 @@ def _residual(axes: Axes, curve: Curve, shade: str) -> None:
     axes.plot(*thinned(curve.true_strain, curve.model - curve.measured), color=shade, lw=0.8)
     if curve.noise_MPa:
         axes.axhspan(-2 * curve.noise_MPa, 2 * curve.noise_MPa, color=colour("data"), alpha=0.18, lw=0)
-        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa", left=False)
+        dashed = "" if curve.band95 is None else "; dashed: 95 % prediction"
+        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa{dashed}", left=False)
+    if curve.band95 is not None:
+        for side in (-1.0, 1.0):
+            axes.plot(*thinned(curve.true_strain, side * curve.band95), "--", color=colour("muted"), lw=0.8)
     axes.axhline(0.0, color=colour("muted"), lw=0.8)
     axes.margins(y=0.3)
     axes.set_ylabel("residual [MPa]")

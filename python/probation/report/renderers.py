@@ -29,7 +29,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "line": "cards.fit_line",
         "summary": "fit_summary.fit_summary",
         "plot": "fit_page.fit_figure",
+        "corner": "band_figures.corner_figure",
         "report": "fit_page.write_fit_page",
+    },
+    "identify.band.StressBand": {
+        "plot": "band_figures.band_figure",
     },
     "certificate.result.Certificate": {
         "card": "cards.certificate_card",

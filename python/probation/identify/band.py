@@ -1,0 +1,155 @@
+"""The stress that an identified law gives along any history, with its confidence and prediction bands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.special import stdtrit
+
+from probation._arrays import as_number
+from probation.errors import InputError
+from probation.law.history import as_history
+from probation.results.extras import needed
+from probation.results.rendering import Plotted
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from probation._arrays import FloatArray
+    from probation.identify.result import Fit
+    from probation.law.history import AnyHistory
+    from probation.law.schemes import Scheme, SchemeName
+
+
+@dataclass(frozen=True, eq=False)
+class StressBand(Plotted):
+    """A predicted stress with what is known of it; the bands hold at each instant by itself.
+
+    `plot` draws the stress with both bands over strain.
+
+    Attributes
+    ----------
+    name : str
+        What was predicted by what, for the figure.
+    time, true_strain, true_stress : ndarray, shape (n_times,) [s], [-], [MPa]
+    standard_error : ndarray, shape (n_times,) [MPa]
+        Of the law's stress, by the uncertainty of its parameters; inf where the records do not determine one that
+        matters here.
+    scatter_MPa : float
+        Standard deviation of measured samples around the law: noise, and what the law leaves out, as on the records
+        that it was identified on.
+    level : float
+        Probability of the bands, such as 0.95.
+    degrees : float
+        Of freedom of Student's t; fewer where the noise is autocorrelated.
+    """
+
+    name: str
+    time: FloatArray
+    true_strain: FloatArray
+    true_stress: FloatArray
+    standard_error: FloatArray
+    scatter_MPa: float  # noqa: N815 - as it leaves the program
+    level: float
+    degrees: float
+
+    @cached_property
+    def quantile(self) -> float:
+        """Half the width of a band in standard deviations."""
+        return float(stdtrit(self.degrees, 0.5 + 0.5 * self.level))
+
+    @property
+    def confidence(self) -> FloatArray:
+        """Lower and upper end of the band of the law's own stress, shape (2, n_times) [MPa]."""
+        return self._band(self.standard_error)
+
+    @property
+    def prediction(self) -> FloatArray:
+        """Lower and upper end of the band of a measured sample, shape (2, n_times) [MPa]."""
+        return self._band(np.hypot(self.standard_error, self.scatter_MPa))
+
+    def _band(self, deviation: FloatArray) -> FloatArray:
+        reach = self.quantile * deviation
+        return np.stack([self.true_stress - reach, self.true_stress + reach])
+
+    def to_dataframe(self) -> Any:
+        """As a pandas DataFrame, a row an instant.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return needed("pandas", "to_dataframe").DataFrame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """As an xarray Dataset over "time_s".
+
+        Raises
+        ------
+        InputError
+            Where xarray is not installed.
+        """
+        columns = self._columns()
+        time = columns.pop("time_s")
+        return needed("xarray", "to_xarray").Dataset(
+            {name: ("time_s", values) for name, values in columns.items()}, coords={"time_s": time}
+        )
+
+    def _columns(self) -> dict[str, FloatArray]:
+        return {
+            "time_s": self.time,
+            "true_strain": self.true_strain,
+            "true_stress_MPa": self.true_stress,
+            "standard_error_MPa": self.standard_error,
+            "confidence_low_MPa": self.confidence[0],
+            "confidence_high_MPa": self.confidence[1],
+            "prediction_low_MPa": self.prediction[0],
+            "prediction_high_MPa": self.prediction[1],
+        }
+
+
+def predicted(
+    fit: Fit,
+    history: AnyHistory | ArrayLike,
+    true_strain: ArrayLike | None,
+    *,
+    level: float,
+    scheme: Scheme | SchemeName,
+) -> StressBand:
+    """The stress of a fit's law along a history; `Fit.predict` says the arguments."""
+    if not 0.0 < as_number(level, "level") < 1.0:
+        raise InputError(f"level is {level!r}; expected a probability between 0 and 1, such as 0.95")
+    driven = as_history(history, true_strain)
+    stress, sensitivity = fit.law.sensitivity(driven, scheme=scheme)
+    return StressBand(
+        name=fit.campaign,
+        time=driven.time,
+        true_strain=driven.true_strain,
+        true_stress=stress,
+        standard_error=standard_error(fit, sensitivity),
+        scatter_MPa=fit.scatter_MPa,
+        level=float(level),
+        degrees=fit.degrees,
+    )
+
+
+def standard_error(fit: Fit, sensitivity: FloatArray) -> FloatArray:
+    """Of the stress by the uncertainty of a fit's parameters, shape (n_times,) [MPa].
+
+    Parameters
+    ----------
+    fit : Fit
+    sensitivity : ndarray, shape (n_times, 3)
+        Along `law.parameters`.
+    """
+    slopes = sensitivity[:, [fit.law.parameter_names.index(name) for name in fit.names]]
+    matrix = fit.covariance.matrix
+    unknown = ~np.isfinite(np.diag(matrix))
+    known = np.where(np.isfinite(matrix), matrix, 0.0)
+    variance = np.einsum("ij,jk,ik->i", slopes, known, slopes)
+    matters = np.any(slopes[:, unknown] != 0.0, axis=1)
+    return np.asarray(np.where(matters, np.inf, np.sqrt(np.maximum(variance, 0.0))))

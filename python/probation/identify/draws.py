@@ -1,0 +1,100 @@
+"""Draws of the parameters from the Laplace approximation of their posterior."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from inspect import signature
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation._arrays import as_whole_number
+from probation.errors import InputError
+from probation.inference.parameter import outside_name
+from probation.results.extras import needed
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.identify.result import Fit
+
+ROUNDS = 100
+"""Times that draws below zero are drawn again before it is given up."""
+
+
+@dataclass(frozen=True, eq=False)
+class Draws:
+    """Draws of the identified parameters.
+
+    Attributes
+    ----------
+    names : tuple of str
+        With units: "unrelaxed_modulus_MPa".
+    values : ndarray, shape (n_draws, n_parameters)
+    """
+
+    names: tuple[str, ...]
+    values: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """The draws of one parameter, shape (n_draws,).
+
+        Raises
+        ------
+        InputError
+            For a name that is not there.
+        """
+        if name not in self.names:
+            raise InputError(f"draws: found no {name!r}, expected one of {', '.join(self.names)}")
+        return np.asarray(self.values[:, self.names.index(name)])
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} draws of {', '.join(self.names)}>"
+
+    def to_dataframe(self) -> Any:
+        """As a pandas DataFrame, a row a draw.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return needed("pandas", "to_dataframe").DataFrame(self.values, columns=self.names)
+
+    def to_arviz(self) -> Any:
+        """As ArviZ takes them, in one chain: `arviz.plot_pair(draws.to_arviz())`.
+
+        Raises
+        ------
+        InputError
+            Where arviz is not installed.
+        """
+        arviz = needed("arviz", "to_arviz")
+        posterior = {name: self[name][None] for name in self.names}
+        if "posterior" in signature(arviz.from_dict).parameters:  # arviz before 1.0
+            return arviz.from_dict(posterior=posterior)
+        return arviz.from_dict({"posterior": posterior})
+
+
+def draw(fit: Fit, count: int, seed: int) -> Draws:
+    """Draws from a normal distribution around the estimates; `Fit.sample` says the arguments."""
+    if as_whole_number(count, "n") < 1:
+        raise InputError(f"n is {count}; expected at least 1")
+    matrix = fit.covariance.matrix
+    if not np.all(np.isfinite(matrix)):
+        lost = [name for name, value in zip(fit.covariance.names, np.diag(matrix), strict=True) if not value < np.inf]
+        raise InputError(f"sample: found no standard error of {', '.join(lost)}, expected one; hold it, or add records")
+    centre = np.array([getattr(fit.law, name) for name in fit.names])
+    size = np.where(centre != 0.0, np.abs(centre), 1.0)
+    spread, basis = np.linalg.eigh(matrix / np.outer(size, size))
+    root = size[:, None] * basis * np.sqrt(np.maximum(spread, 0.0))
+    random = np.random.default_rng(as_whole_number(seed, "seed"))
+    values = np.empty((0, len(centre)))
+    for _ in range(ROUNDS):
+        drawn = centre + random.standard_normal((count - len(values), len(centre))) @ root.T
+        values = np.concatenate([values, drawn[np.all(drawn >= 0.0, axis=1)]])
+        if len(values) == count:
+            return Draws(tuple(outside_name(name) for name in fit.names), values)
+    raise InputError("sample: found almost no draw with positive parameters; the records hardly determine them")
