@@ -11,9 +11,9 @@ from campaigns import gap_noise
 from probation import InputError
 from probation.noise.arma import LEAST_RISE, Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
+from probation.noise.outliers import find_outliers
 from probation.noise.quantisation import quantisation_step
 from probation.noise.smooth_basis import waves
-from probation.noise.spikes import find_spikes
 
 
 def rng(seed=0):
@@ -129,14 +129,14 @@ def test_a_single_outlier_is_a_spike_and_leaves_the_noise_alone():
     hit = records[0].residual.copy()
     hit[300] += 2.0
     noise = estimate_noise([replace(records[0], residual=hit), *records[1:]])[0]
-    assert noise.spikes == (300,)
+    assert noise.outliers == (300,)
     assert noise.sigma == pytest.approx(0.04, rel=0.1)
 
 
 def test_a_step_is_no_spike_and_neither_is_a_transient_after_a_jump():
     noisy = 0.04 * rng(8).standard_normal(400)
-    assert find_spikes(noisy + (np.arange(400) > 200)) == ()
-    assert find_spikes(noisy + np.where(np.arange(400) == 201, 1.0, 0.0), jumps=(200,)) == ()
+    assert find_outliers(noisy + (np.arange(400) > 200)) == ()
+    assert find_outliers(noisy + np.where(np.arange(400) == 201, 1.0, 0.0), jumps=(200,)) == ()
 
 
 def test_a_repeat_of_the_test_tells_the_noise_down_to_the_lowest_frequencies():

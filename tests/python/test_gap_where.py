@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import gap_noise
-from probation.detection.sharp import find_lines, find_steps
+from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.signatures import parameter_drift, sequential_estimates
 from probation.detection.where import contribution_regions, locate
 from probation.noise.regions import runs

@@ -96,7 +96,7 @@ def change_noise(
     strain = propagated_noise(law, view, excitation, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
-    return replace(own, carried=np.hstack([own.carried, *columns]), spikes=())
+    return replace(own, carried=np.hstack([own.carried, *columns]), outliers=())
 
 
 def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:

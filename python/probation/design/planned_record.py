@@ -119,6 +119,6 @@ def noise_like(view: RecordView, arma: Arma) -> NoiseModel:
         carried=np.zeros((count, 0)),
         level_variance=0.0,
         shape_variance=0.0,
-        spikes=(),
+        outliers=(),
         source="as given",
     )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
-from probation.noise.beside import whitened_beside
+from probation.noise.joint_noise import jointly_whitened
 from probation.noise.local_noise import local_noise_sd, samples_within
 from probation.noise.smooth_basis import WAVES, smooth_basis
 from probation.noise.span import orthonormal, span_of, without
@@ -115,8 +115,8 @@ class GapTester:
         self._reduced = whitened.reduced(np.hstack([waves, *given.values()]))
         span = self._reduced.of(whitened.span)
         # No wave is a sign of an effect that the rest of the drift makes, too.
-        waves = self._beside_drift(self._reduced.of(waves))
-        waves = without(waves, span_of(self._beside_drift(span)))
+        waves = self._with_drift(self._reduced.of(waves))
+        waves = without(waves, span_of(self._with_drift(span)))
         smooth, kept = orthonormal(waves)
         full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
@@ -175,7 +175,7 @@ class GapTester:
         seen = self._reduced.of(z)
         smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
         directed_scores = directed.T @ seen / local_noise_sd(self._directions, z, whitened.slices)
-        products = np.concatenate([smooth.T @ self._beside_drift(seen), directed_scores])[None]
+        products = np.concatenate([smooth.T @ self._with_drift(seen), directed_scores])[None]
         single = self._p_values(products)
         p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
@@ -196,7 +196,7 @@ class GapTester:
             p[0], p[1], p[2], level, statistics, values, scores, dict(zip(names, share.tolist(), strict=True))
         )
 
-    def _beside_drift(self, values: FloatArray) -> FloatArray:
+    def _with_drift(self, values: FloatArray) -> FloatArray:
         """Reduced coordinates in which the rest of the drift is white, too."""
         found = values.copy()
         first = 0
@@ -204,7 +204,7 @@ class GapTester:
             part = slice(first, first + frame.shape[1])
             first = part.stop
             if noise.nuisance_drift is not None:
-                found[part] = whitened_beside(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
+                found[part] = jointly_whitened(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
         return found
 
     def _p_values(self, products: FloatArray) -> dict[str, FloatArray]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import stdtr
 
-from probation.detection.sharp import SLOWEST, left_beside_slow_waves
+from probation.detection.lines_and_steps import SLOWEST, left_by_slow_waves
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -100,7 +100,7 @@ class _Share:
 
 def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> _Share | None:
     away = (whitened.records[index].true_strain[:, None] - places) / width
-    left, white = left_beside_slow_waves(whitened, index, SLOWEST)
+    left, white = left_by_slow_waves(whitened, index, SLOWEST)
     bumps = whitened.noises[index].whiten(np.exp(-0.5 * away**2))
     size = np.linalg.norm(bumps, axis=0)
     bumps = bumps - white @ (white.T @ bumps)

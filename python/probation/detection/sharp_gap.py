@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.recurring import find_recurring
-from probation.detection.ripples import find_ripples
-from probation.detection.sharp import find_lines, find_steps
+from probation.detection.strain_periodic import find_strain_periodic
 
 if TYPE_CHECKING:
     from probation.detection.gap_test import GapTest
@@ -32,7 +32,7 @@ def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
     sharp = {
         "lines": min((line.p_value for line in find_lines(whitened)), default=1.0),
         "steps": min((step.p_value for step in find_steps(whitened, size=500)), default=1.0),
-        "ripples": min((ripple.p_value for ripple in find_ripples(whitened)), default=1.0),
+        "ripples": min((component.p_value for component in find_strain_periodic(whitened)), default=1.0),
         "recurring": min((bump.p_value for bump in find_recurring(whitened)), default=1.0),
     }
     least = min(sharp.values()) / SHARP_SHARE

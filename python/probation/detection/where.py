@@ -220,7 +220,7 @@ def contribution_regions(
         masks.append(np.abs(values) > SURE * error)
     sure = [np.where(mask, own, 0.0) for mask, own in zip(masks, energy, strict=True)]
     total = float(sum(own.sum() for own in sure))
-    masks = [_shortest_stretch(own, NEGLIGIBLE * total) for own in sure]
+    masks = [_shortest_part(own, NEGLIGIBLE * total) for own in sure]
     return _report(records, masks, energy, float(sum(e.sum() for e in energy)), [p_value] * len(records))
 
 
@@ -268,7 +268,7 @@ def _outline(values: FloatArray, error: FloatArray) -> NDArray[np.bool_]:
     return inside
 
 
-def _shortest_stretch(energy: FloatArray, least: float) -> NDArray[np.bool_]:
+def _shortest_part(energy: FloatArray, least: float) -> NDArray[np.bool_]:
     """Samples of the shortest stretch with the part `MOST` of a record's energy; none where that is `least` or less."""
     inside = np.zeros(len(energy), dtype=bool)
     passed = np.concatenate([[0.0], np.cumsum(energy)])

@@ -15,8 +15,8 @@ from probation.diagnosis.result import UNKNOWN
 from probation.inference.candidate import cause_key
 from probation.inference.refit import refit
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
-from probation.noise.spikes import without_spikes
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
@@ -188,7 +188,7 @@ def _mean_square(base: BaseFit, found: Refit, own: FloatArray) -> float:
 def _errors(base: BaseFit, found: Refit) -> list[FloatArray]:
     """The fit residual by record, outliers set apart [MPa]."""
     raw = found.model.residual(found.parameters)
-    return [without_spikes(raw[found.model.rows(noise.name)], noise.spikes) for noise in base.whitened.noises]
+    return [without_outliers(raw[found.model.rows(noise.name)], noise.outliers) for noise in base.whitened.noises]
 
 
 def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> dict[str, float]:

@@ -39,7 +39,7 @@ from probation.effects.large_faults import with_large_faults
 from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.inference.base_fit import BaseFit, fit_law, with_noise_beside
+from probation.inference.base_fit import BaseFit, fit_law, with_joint_noise
 from probation.inference.gap import find_gap, predictions
 from probation.inference.thinning import thin
 from probation.law.schemes import identifying
@@ -345,7 +345,7 @@ def _searched(
     leading = search.ranked()
     if not leading:
         return base, found
-    base = with_noise_beside(search.base, leading[0].refit)
+    base = with_joint_noise(search.base, leading[0].refit)
     return base, search.reconsidered(base)
 
 
@@ -358,7 +358,7 @@ def _law_text(campaign: Campaign) -> str:
     return f"modal (DNLR) law, {modes}, {companion}"
 
 
-def _spikes_text(count: int) -> str:
+def _outliers_text(count: int) -> str:
     if count == 1:
         return "1 reading is an outlier and was left out"
     return f"{count} readings are outliers and were left out"
@@ -381,8 +381,8 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
             "one record only: nothing can be left out, and a cause that acts alike in it cannot be discriminated"
         )
     for noise in base.whitened.noises:
-        if noise.spikes:
-            found.append(f"{noise.name}: {_spikes_text(len(noise.spikes))}")
+        if noise.outliers:
+            found.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])
     if levels.size > 1 and levels.max() > 10.0 * levels.min():
         found.append("the noise of the records differs more than tenfold; each is weighed by its own")

@@ -14,7 +14,7 @@ from probation.diagnosis.probabilities import leading, normalised
 from probation.diagnosis.result import UNKNOWN
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.spikes import without_spikes
+from probation.noise.outliers import without_outliers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,7 +99,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     worse = []
     for record, noise in zip(base.held_out, base.held_out_noises, strict=True):
         rows = everywhere.rows(record.name)
-        first, last = (without_spikes(error[rows], noise.spikes) for error in (before, after))
+        first, last = (without_outliers(error[rows], noise.outliers) for error in (before, after))
         change = last - first
         count = len(change)
         rise = float(np.mean(last**2 - first**2))

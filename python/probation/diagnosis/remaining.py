@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.detection.gap_test import GapTest, GapTester
 from probation.inference.form_error import form_columns
-from probation.noise.beside import whitened_beside
+from probation.noise.joint_noise import jointly_whitened
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Shrink
@@ -49,5 +49,5 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD
     discrepancy = base.discrepancy
     energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
     allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, base.whitener)])
-    both = whitened_beside(allowed, np.column_stack([found.residual, found.jacobian]))
+    both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.sharp import find_lines, find_steps
+from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
-from probation.inference.base_fit import with_noise_beside
+from probation.inference.base_fit import with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_columns
@@ -135,7 +135,7 @@ class Search:
         """What specimens do, around the best single effect: a law that lacks one may be far from what they are."""
         leading = self.ranked(1)
         if leading:
-            self.base = with_noise_beside(self.base, leading[0].refit)
+            self.base = with_joint_noise(self.base, leading[0].refit)
             self.found = self.reconsidered(self.base, RECONSIDERED, np.inf)
 
     def reconsidered(self, base: BaseFit, count: int = RECONSIDERED, hopeless: float = HOPELESS) -> list[Hypothesis]:

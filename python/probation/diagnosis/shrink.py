@@ -10,9 +10,9 @@ from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
 from probation.noise.smooth_basis import smooth_basis
-from probation.noise.spikes import without_spikes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -60,8 +60,8 @@ def shrink_of(
     before, after = ({name: values - own.get(name, 0.0) for name, values in each.items()} for each in (before, after))
     pieces = {
         view.id: Piece(
-            without_spikes(before[view.id] - view.data, noises[view.id].spikes),
-            without_spikes(after[view.id] - view.data, noises[view.id].spikes),
+            without_outliers(before[view.id] - view.data, noises[view.id].outliers),
+            without_outliers(after[view.id] - view.data, noises[view.id].outliers),
             noises[view.id],
         )
         for view in base.views
@@ -127,7 +127,8 @@ def _of_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[st
     """What of the residuals of the identify records their specimens' deviations make; by record [MPa]."""
     noises, views = base.whitened.noises, base.model.views
     residuals = [
-        without_spikes(predicted[view.id] - view.data, noise.spikes) for view, noise in zip(views, noises, strict=True)
+        without_outliers(predicted[view.id] - view.data, noise.outliers)
+        for view, noise in zip(views, noises, strict=True)
     ]
     return {view.id: part for view, part in zip(views, own_deviations(residuals, noises), strict=True)}
 

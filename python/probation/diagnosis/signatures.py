@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.sharp import find_lines, find_steps
+from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
 from probation.wording import listed

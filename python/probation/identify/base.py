@@ -14,7 +14,7 @@ from probation.inference.base_fit import BaseFit, fit_views
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.time_range import time_range
 from probation.law.schemes import scheme_of
-from probation.noise.stretches import leftover
+from probation.noise.segments import leftover
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:

@@ -271,7 +271,7 @@ def _settled(
     return found, noises, list(residuals)
 
 
-def with_noise_beside(base: BaseFit, explained: Refit) -> BaseFit:
+def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     """The same with the noise as an explanation leaves it: a gap makes slow noise look larger than it is.
 
     Parameters

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.ripples import ripple_waves
+from probation.detection.strain_periodic import strain_periodic_waves
 from probation.noise.nuisance_drift import nuisance_drift
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import span_of
@@ -49,10 +49,10 @@ class Discrepancy:
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
     specimens : ndarray, shape (N, m)
         What other parameters in one record alone do, whitened; none where there is one record.
-    ripples : ndarray, shape (N, m)
+    strain_periodic : ndarray, shape (N, m)
         Whitened waves of what is periodic in the strain; none where nothing certainly is.
-    log_ripple_share : float
-        What the choice of their period costs; see `gap.ripples.Ripple.log_share`.
+    log_strain_periodic_share : float
+        What the choice of their period costs; see `StrainPeriodic.log_share`.
     """
 
     columns: tuple[FloatArray, ...]
@@ -62,8 +62,8 @@ class Discrepancy:
     drift: FloatArray
     common: FloatArray
     specimens: FloatArray
-    ripples: FloatArray
-    log_ripple_share: float
+    strain_periodic: FloatArray
+    log_strain_periodic_share: float
 
     @classmethod
     def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
@@ -87,7 +87,7 @@ class Discrepancy:
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         drift = nuisance_drift(whitened, columns, signals)
-        ripples, log_ripple_share = ripple_waves(whitened)
+        strain_periodic, log_strain_periodic_share = strain_periodic_waves(whitened)
         return cls(
             columns=tuple(columns),
             spectrum=tuple(spectrum),
@@ -96,8 +96,8 @@ class Discrepancy:
             drift=drift,
             common=_over_strain(whitened),
             specimens=_of_specimens(whitened),
-            ripples=ripples,
-            log_ripple_share=log_ripple_share,
+            strain_periodic=strain_periodic,
+            log_strain_periodic_share=log_strain_periodic_share,
         )
 
     def __len__(self) -> int:

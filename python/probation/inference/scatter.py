@@ -15,7 +15,7 @@ import numpy as np
 
 from probation.inference.deviations import AREA, START, deviation_names, kind_of_deviation
 from probation.inference.parameter import SYMBOLS, outside_name
-from probation.noise.spikes import without_spikes
+from probation.noise.outliers import without_outliers
 from probation.records.specimens import USUAL
 from probation.wording import listed, percentage
 
@@ -193,7 +193,7 @@ def _drawn(
             record, noise = records[index], noises[index].alike
             common = record.time - record.time[0] <= shortest * (1.0 + 1e-9)
             white = noise.whiten(
-                np.column_stack([columns[index] * usual, without_spikes(record.residual, noise.spikes)])
+                np.column_stack([columns[index] * usual, without_outliers(record.residual, noise.outliers)])
             )[common]
             left, size, right = np.linalg.svd(white[:, :-1], full_matrices=False)
             seen = size > 1e-6 * size[0]

@@ -59,7 +59,9 @@ def log_evidence_of_unknown(
     one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
     scores = [
         np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
-        np.log(PERIODIC) + discrepancy.log_ripple_share + _along(found, discrepancy, forms, discrepancy.ripples),
+        np.log(PERIODIC)
+        + discrepancy.log_strain_periodic_share
+        + _along(found, discrepancy, forms, discrepancy.strain_periodic),
         np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
         np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
         np.log(IN_ONE / count) + float(logsumexp(one)),

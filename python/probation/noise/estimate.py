@@ -27,15 +27,14 @@ if TYPE_CHECKING:
 def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tuple[NoiseModel, ...]:
     """The noise of every record, by what is rougher than any law's error.
 
-    (1) Spikes are set aside; the growth of the noise along the record is found: constant, with e^eps (a constant force
-    noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 segments are projected out;
-    Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a stretch is
+    (1) Outliers are set aside; the growth of the noise along the record is found: constant, with e^eps (a constant
+    force noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 segments are projected
+    out; Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a segment is
     gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
-    agree with that ARMA(1,1) in every record, or else in those records where the others predict them: then noise
-    and only noise is there, and it is fitted with them.
-    (4) Where the lowest band of the fit holds more than the fit says (1/f), its own level counts. Quiet segments and
-    replicates override (2) and (3). (5) A record whose noise would be many times that of all others, though its
-    neighbouring samples scatter as theirs, is given theirs.
+    agree with that ARMA(1,1) in every record, or else in those records where the others predict them: then noise and
+    only noise is there, and it is fitted with them. (4) Where the lowest band of the fit holds more than the fit says
+    (1/f), its own level counts. Quiet segments and replicates override (2) and (3). (5) A record whose noise would be
+    many times that of all others, though its neighbouring samples scatter as theirs, is given theirs.
 
     Parameters
     ----------
@@ -72,7 +71,7 @@ def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
         _carried(each.record),
         known.level_variance,
         known.shape_variance,
-        each.spikes,
+        each.outliers,
         source,
         specimen=each.record.specimen,
         specimen_id=each.record.specimen_id,
@@ -97,7 +96,7 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
         _carried(record),
         0.0 if record.given_noise else 5.0 / len(record),
         0.0,
-        each.spikes,
+        each.outliers,
         "as given" if record.given_noise and record.given_noise >= each.white else each.source,
         specimen=record.specimen,
         specimen_id=record.specimen_id,

@@ -10,11 +10,11 @@ from scipy.fft import dct
 
 from probation.noise.arma import Periodogram
 from probation.noise.growth import growth_of
+from probation.noise.outliers import find_outliers, without_outliers
 from probation.noise.quantisation import quantisation_noise, quantisation_step
+from probation.noise.segments import BLOCK, DEGREE, in_segments, legendre
 from probation.noise.smooth_basis import WAVES, smooth_basis, waves
 from probation.noise.span import span_of
-from probation.noise.spikes import find_spikes, without_spikes
-from probation.noise.stretches import BLOCK, DEGREE, in_stretches, legendre
 from probation.records.noise import scatter
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class NoiseEvidence:
     Attributes
     ----------
     record : RecordResidual
-    spikes : tuple of int
+    outliers : tuple of int
         Samples that are set aside.
     white : float
         Scatter of neighbouring samples [MPa], no less than the readings' step makes it.
@@ -61,7 +61,7 @@ class NoiseEvidence:
     """
 
     record: RecordResidual
-    spikes: tuple[int, ...]
+    outliers: tuple[int, ...]
     white: float
     quantum: float
     growth: Growth
@@ -74,8 +74,8 @@ class NoiseEvidence:
 def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     """What a record says: its repeat before its dwells, these before what no smooth curve takes."""
     count = len(record)
-    spikes = find_spikes(record.residual, record.jumps)
-    residual = without_spikes(record.residual, spikes)
+    outliers = find_outliers(record.residual, record.jumps)
+    residual = without_outliers(record.residual, outliers)
     white = scatter(record.time, residual)
     quantum = 0.0 if record.measured is None else quantisation_step(record.measured)
     if record.measured is not None and quantum == 0.0:
@@ -83,22 +83,22 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     white = max(white, quantisation_noise(quantum))
     coarse = quantum > COARSE * white
     nothing = NoiseEvidence(
-        record, spikes, white, quantum, "constant", np.ones(count), None, None, "robust differences: a short record"
+        record, outliers, white, quantum, "constant", np.ones(count), None, None, "robust differences: a short record"
     )
     if count < FEW or white <= 1e-12 * float(np.max(np.abs(residual), initial=0.0)) or white == 0.0:
         return nothing
     if record.replicate is not None:
-        values = without_spikes(record.replicate, find_spikes(record.replicate))
+        values = without_outliers(record.replicate, find_outliers(record.replicate))
         growth, profile = growth_of(record, values, coarse)
         whole = _whole(values, waves(count, 2), 2, profile)
         return replace(nothing, growth=growth, profile=profile, rough=whole, source="the difference from its repeat")
     quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= BLOCK]
     if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= QUIET:
-        stretches = [residual[part] for part in quiet]
-        rough = _rough(stretches, [np.ones(len(part)) for part in stretches], degree=3, robust=False)
+        segments = [residual[part] for part in quiet]
+        rough = _rough(segments, [np.ones(len(part)) for part in segments], degree=3, robust=False)
         return replace(nothing, rough=rough, source="dwells and pre-load")
     growth, profile = growth_of(record, residual, coarse)
-    rough = _rough(in_stretches(residual, record.jumps), in_stretches(profile, record.jumps), DEGREE, robust=True)
+    rough = _rough(in_segments(residual, record.jumps), in_segments(profile, record.jumps), DEGREE, robust=True)
     if rough is None:
         return nothing
     smooth = smooth_basis(record.time, record.jumps).columns
@@ -109,10 +109,10 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     )
 
 
-def _rough(stretches: list[FloatArray], profiles: list[FloatArray], degree: int, robust: bool) -> Periodogram | None:
+def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, robust: bool) -> Periodogram | None:
     """Cosine coefficients of the segments, polynomials projected out; segments with a transient left out."""
     rows: list[tuple[FloatArray, FloatArray, FloatArray]] = []
-    for values, profile in zip(stretches, profiles, strict=True):
+    for values, profile in zip(segments, profiles, strict=True):
         each = _whole(values, legendre(len(values), degree), degree + 1, profile)
         rows.append((each.frequency, each.power, each.weight))
     if not rows:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from probation.noise.local_size import local_size
-from probation.noise.stretches import leftover
+from probation.noise.segments import leftover
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

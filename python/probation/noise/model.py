@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.noise.beside import directions_beside
+from probation.noise.joint_noise import joint_directions
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -42,7 +42,7 @@ class NoiseModel:
     level_variance, shape_variance : float
         Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
         records may share.
-    spikes : tuple of int
+    outliers : tuple of int
         Readings that are kept out.
     source : str
         Where the estimate is from, in words.
@@ -68,7 +68,7 @@ class NoiseModel:
     carried: FloatArray
     level_variance: float
     shape_variance: float
-    spikes: tuple[int, ...]
+    outliers: tuple[int, ...]
     source: str
     drift: FloatArray | None = None
     nuisance_drift: FloatArray | None = None
@@ -153,4 +153,4 @@ class NoiseModel:
         slow = self._slow
         if not slow.shape[1]:
             return np.zeros((len(self), 0)), np.zeros(0)
-        return directions_beside(self.arma.whiten(slow / self.profile[:, None]))
+        return joint_directions(self.arma.whiten(slow / self.profile[:, None]))

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import specimens_of
-from probation.noise.spikes import without_spikes
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -41,7 +41,7 @@ class Whitener:
     def residual(self, residual: FloatArray) -> FloatArray:
         """L r of a stacked residual (N,), its outliers set aside."""
         parts = zip(self.noises, self.slices, strict=True)
-        own = [noise.whiten(without_spikes(residual[part], noise.spikes)) for noise, part in parts]
+        own = [noise.whiten(without_outliers(residual[part], noise.outliers)) for noise, part in parts]
         return self._apart(np.concatenate(own))
 
     def columns(self, matrix: FloatArray) -> FloatArray:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.noise.estimate import estimate_noise
+from probation.noise.outliers import without_outliers
 from probation.noise.span import span_of, without
-from probation.noise.spikes import without_spikes
 from probation.noise.whitener import Whitener
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ class Whitened:
 
     def clean(self, index: int) -> FloatArray:
         """A record's residual without its outliers, shape (n_r,) [MPa]."""
-        return without_spikes(self.records[index].residual, self.noises[index].spikes)
+        return without_outliers(self.records[index].residual, self.noises[index].outliers)
 
     def whiten(self, blocks: Sequence[FloatArray]) -> FloatArray:
         """One (n_r, m) block per record, all of the same m, whitened and stacked: shape (N, m)."""

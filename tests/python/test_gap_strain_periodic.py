@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.detection.ripples import find_ripples, ripple_waves
+from probation.detection.strain_periodic import find_strain_periodic, strain_periodic_waves
 from probation.noise.arma import Arma
 from probation.noise.record_residual import RecordResidual
 from probation.noise.whitening import Whitened
@@ -36,7 +36,7 @@ def test_teeth_of_one_pitch_in_all_records_are_found_where_no_record_shows_them_
     residuals = noise(0)
     _, strains = whitened(residuals)
     teeth = [0.8 * problem.SIGMA * ((strain / 0.07) % 1.0 - 0.5) for strain in strains]
-    found = find_ripples(whitened([a + b for a, b in zip(residuals, teeth, strict=True)])[0])
+    found = find_strain_periodic(whitened([a + b for a, b in zip(residuals, teeth, strict=True)])[0])
     best = found[0]
     assert best.record is None
     assert best.p_value < 1e-3
@@ -55,11 +55,11 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
         records.append(RecordResidual(name, time, strain, np.full(COUNT, 0.01), rough + teeth, strain[:, None]))
         noises.append(replace(problem.white(COUNT, name), arma=Arma(0.95, -0.5, 1.4 * problem.SIGMA)))
     seen = Whitened.of(records, noises)
-    best = find_ripples(seen)[0]
+    best = find_strain_periodic(seen)[0]
     assert best.record is None
     assert best.p_value < 1e-10
     assert best.period_strain == pytest.approx(0.1, rel=0.02)
-    waves, _ = ripple_waves(seen)
+    waves, _ = strain_periodic_waves(seen)
     assert np.sum(waves**2) == pytest.approx(1.0)
     told = seen.whiten([(record.residual - rough)[:, None] for record, rough in zip(records, noise(3, 3), strict=True)])
     rest = told[:, 0] - waves @ np.linalg.lstsq(waves, told[:, 0], rcond=None)[0]
@@ -67,7 +67,7 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
 
 
 def test_noise_offers_no_waves_of_a_ripple():
-    waves, log_share = ripple_waves(whitened(noise(1))[0])
+    waves, log_share = strain_periodic_waves(whitened(noise(1))[0])
     assert waves.shape == (5 * COUNT, 0)
     assert log_share == 0.0
 
@@ -83,7 +83,7 @@ def test_the_choice_of_a_period_costs_what_laplace_says_of_a_flat_prior(size):
     values = problem.SIGMA * (rng.standard_normal(COUNT) + size * np.sin(2.0 * np.pi * 20.3 * place))
     rate = np.full(COUNT, 0.01)
     record = RecordResidual("r", 100.0 * place, place, rate, values, np.ones((COUNT, 1)))
-    best = find_ripples(Whitened.of([record], [problem.white(COUNT, "r")]))[0]
+    best = find_strain_periodic(Whitened.of([record], [problem.white(COUNT, "r")]))[0]
     frequency = np.linspace(17.0, 23.0, 6001)
     waves = np.exp(-2j * np.pi * np.outer(frequency, place))
     power = np.abs(waves @ (values / problem.SIGMA)) ** 2 / COUNT
@@ -95,7 +95,7 @@ def test_a_ripple_of_one_record_is_found_there():
     residuals = noise(1)
     _, strains = whitened(residuals)
     residuals[2] += 0.5 * problem.SIGMA * np.sin(2.0 * np.pi * strains[2] / 0.05)
-    best = next(each for each in find_ripples(whitened(residuals)[0]) if each.record)
+    best = next(each for each in find_strain_periodic(whitened(residuals)[0]) if each.record)
     assert best.record == "r2"
     assert best.p_value < 1e-4
     assert abs(best.period_strain - 0.05) < 0.002
@@ -103,11 +103,11 @@ def test_a_ripple_of_one_record_is_found_there():
 
 def test_noise_makes_few_ripples():
     """40 campaigns of noise: the smallest p-value, an upper bound for each, is below 5 % in six or fewer (p = 0.01)."""
-    least = [find_ripples(whitened(noise(seed + 10))[0])[0].p_value for seed in range(40)]
+    least = [find_strain_periodic(whitened(noise(seed + 10))[0])[0].p_value for seed in range(40)]
     assert np.sum(np.array(least) < 0.05) <= 6
 
 
 def test_records_without_strain_have_none():
     time = np.linspace(0.0, 1.0, COUNT)
     still = RecordResidual("r", time, np.zeros(COUNT), np.zeros(COUNT), noise(0, 1)[0], np.ones((COUNT, 1)))
-    assert find_ripples(Whitened.of([still], [problem.white(COUNT, "r")])) == ()
+    assert find_strain_periodic(Whitened.of([still], [problem.white(COUNT, "r")])) == ()

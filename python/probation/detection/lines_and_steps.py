@@ -90,7 +90,7 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         count = len(record)
         if count < 8 * SLOWEST:
             continue
-        left, white = left_beside_slow_waves(whitened, index, SLOWEST)
+        left, white = left_by_slow_waves(whitened, index, SLOWEST)
         duration = float(record.time[-1] - record.time[0]) * count / (count - 1)
         # By sample: where samples are uneven, so is their phase; the exact sums are then taken in time.
         frequency = np.arange(OVERSAMPLING * SLOWEST // 2, OVERSAMPLING * count // 2) / (OVERSAMPLING * duration)
@@ -131,7 +131,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         count = len(record)
         if count < 4 * SLOWEST:
             continue
-        left, white = left_beside_slow_waves(whitened, index, None)
+        left, white = left_by_slow_waves(whitened, index, None)
         stride = -(-count // CANDIDATES)
         coarse = np.arange(max(stride, 3), count - 2, stride)
         steps, norm = _steps(whitened, index, white, coarse)
@@ -183,7 +183,7 @@ def _freedom(values: FloatArray) -> float:
     return 4.0 + 6.0 / excess if excess > 0.0 else np.inf
 
 
-def left_beside_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
+def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
     """Whitened residual of a record without slow waves and its own refit, and the orthonormal columns taken out."""
     record, noise = whitened.records[index], whitened.noises[index]
     smooth = smooth_basis(record.time, () if waves else record.jumps, waves or SLOWEST)

@@ -21,7 +21,7 @@ MOST = 0.005
 """More than this fraction of a record are no outliers but the record's noise."""
 
 
-def find_spikes(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, ...]:
+def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, ...]:
     """Indices of isolated readings, far from both of their sides, which agree with each other.
 
     A sample is compared with the median of the three before and the three after a window of `LONGEST` around it; the
@@ -59,12 +59,12 @@ def find_spikes(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, .
     return tuple(lone)
 
 
-def without_spikes(values: FloatArray, spikes: Sequence[int]) -> FloatArray:
+def without_outliers(values: FloatArray, outliers: Sequence[int]) -> FloatArray:
     """`values` with the outliers replaced by the straight line between their neighbours."""
-    if not len(spikes):
+    if not len(outliers):
         return values
     keep = np.ones(len(values), dtype=bool)
-    keep[list(spikes)] = False
+    keep[list(outliers)] = False
     index = np.arange(len(values))
     cleaned = values.copy()
     cleaned[~keep] = np.interp(index[~keep], index[keep], values[keep])

@@ -14,14 +14,14 @@ import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.special import gammaincc
 
-from probation.detection.sharp import NEIGHBOURS, SLOWEST, left_beside_slow_waves, running_median
+from probation.detection.lines_and_steps import NEIGHBOURS, SLOWEST, left_by_slow_waves, running_median
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
 CERTAIN = 1e-4
-"""p-value below which a strain-periodic component may explain something (`ripple_waves`)."""
+"""p-value below which a strain-periodic component may explain something (`strain_periodic_waves`)."""
 
 HARMONICS = (1, 4, 16)
 """The first so many are added up: a wave has one, teeth have many."""
@@ -41,7 +41,7 @@ SHORTEST, RESOLVED = 8, 2.5
 
 
 @dataclass(frozen=True)
-class Ripple:
+class StrainPeriodic:
     """The strongest strain-periodic component of a record, or of all together.
 
     Attributes
@@ -73,7 +73,7 @@ class Ripple:
         return float(min(np.log(1.38 / (self.tried * np.sqrt(2.0 * self.power))), 0.0))
 
 
-def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
+def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
     """The strongest part of every record, and of all together, that is periodic in the recorded strain, by p-value.
 
     As `gap.sharp.find_lines`, over the strain: where the strain rate changes, teeth of one pitch are no line in time.
@@ -93,7 +93,7 @@ def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
         return ()
     most = max(spectrum.count for spectrum in spectra)
     families = len(HARMONICS) * (len(spectra) + 1)
-    best: dict[str | None, Ripple] = {}
+    best: dict[str | None, StrainPeriodic] = {}
     for harmonics in HARMONICS:
         step = OVERSAMPLING * harmonics
         frequency = np.arange(step * SLOWEST // 2, step * most // SHORTEST) / (step * longest)
@@ -108,10 +108,10 @@ def find_ripples(whitened: Whitened) -> tuple[Ripple, ...]:
         for each in found:
             if each is not None and (each.record not in best or each.p_value < best[each.record].p_value):
                 best[each.record] = each
-    return tuple(sorted(best.values(), key=lambda ripple: ripple.p_value))
+    return tuple(sorted(best.values(), key=lambda component: component.p_value))
 
 
-def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
+def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     """Whitened waves of the most certain strain period, and what the choice of its period costs.
 
     Its period and the harmonics of that, of one phase in all records where it is in all, as they are and growing with
@@ -126,9 +126,9 @@ def ripple_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     columns : ndarray, shape (N, m)
         The energies of all sum to 1; none if no period is certain.
     log_share : float
-        See `Ripple.log_share`; 0 if none is certain.
+        See `StrainPeriodic.log_share`; 0 if none is certain.
     """
-    found = next((each for each in find_ripples(whitened) if each.p_value < CERTAIN), None)
+    found = next((each for each in find_strain_periodic(whitened) if each.p_value < CERTAIN), None)
     if found is None:
         return np.zeros((len(whitened), 0)), 0.0
     orders = np.arange(1, HARMONICS[-1] + 1)
@@ -170,7 +170,7 @@ class _Spectrum:
         """Over the noise model or the power of the neighbouring frequencies, whichever is larger."""
         record = whitened.records[index]
         extent = float(np.ptp(record.true_strain))
-        left, _ = left_beside_slow_waves(whitened, index, SLOWEST)
+        left, _ = left_by_slow_waves(whitened, index, SLOWEST)
         most = _height(np.abs(left))
         left = np.clip(left, -most, most)
         spacing = 1.0 / (FINE * longest)
@@ -213,7 +213,7 @@ def _power(strain: FloatArray, values: FloatArray, spacing: float, count: int) -
 
 def _strongest(
     record: str | None, frequency: FloatArray, power: FloatArray, terms: FloatArray, step: int, families: int
-) -> Ripple | None:
+) -> StrainPeriodic | None:
     """The least probable sum of so many exponential variables, among all frequencies of so many families."""
     tried = np.flatnonzero(terms)
     if not tried.size:
@@ -222,4 +222,4 @@ def _strongest(
     best = int(np.argmin(chances))
     p_value = float(-np.expm1(tried.size * families * np.log1p(-min(float(chances[best]), 1.0 - 1e-15))))
     at = tried[best]
-    return Ripple(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)
+    return StrainPeriodic(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)

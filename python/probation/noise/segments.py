@@ -1,4 +1,4 @@
-"""Stretches of a record, and what polynomials on each of them leave: no law's error is as rough."""
+"""Segments of a record, and what polynomials on each of them leave: no law's error is as rough."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ BLOCK = 40
 """Least samples of a stretch."""
 
 
-def in_stretches(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
-    """Stretches of nearly equal length that end at the jumps, without those that are too short to tell anything."""
-    return [part for part in _stretches(values, jumps) if len(part) >= BLOCK // 2]
+def in_segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
+    """Segments of nearly equal length that end at the jumps, without those that are too short to tell anything."""
+    return [part for part in _segments(values, jumps) if len(part) >= BLOCK // 2]
 
 
 def leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:
     """What polynomials on segments leave, every sample; short segments give zeros."""
     parts = []
-    for part in _stretches(values, jumps):
+    for part in _segments(values, jumps):
         basis = legendre(len(part), min(DEGREE, max(len(part) - 2, 0))) if len(part) else np.zeros((0, 1))
         parts.append(part - basis @ (basis.T @ part))
     return np.concatenate(parts)
@@ -41,7 +41,7 @@ def legendre(count: int, degree: int) -> FloatArray:
     return np.linalg.qr(np.polynomial.legendre.legvander(place, degree))[0]
 
 
-def _stretches(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
+def _segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
     target = max(len(values) // BLOCKS, BLOCK)
     borders = [0, *sorted(jumps), len(values)]
     return [
