@@ -8,8 +8,8 @@ import numpy as np
 
 from probation._complaint import bad_input
 from probation.calibration.rate_table import RateTable
+from probation.records.opening import open_file
 from probation.records.options import ReadOptions
-from probation.records.reading import open_file
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 NAME = "init"
 
 _ROLES = ("identify", "held-out")
-_LISTS = ("column", "unit", "specimen", "control", "role")
+_LISTS = ("column", "unit", "specimen", "strain_column", "strain_unit", "control", "role")
+_TEXTS = ("profile", "sheet", "test_rate", "strain_file")
 _DESCRIPTION = """\
 Make a campaign of the files of a laboratory: a folder with a commented campaign.toml, the files, and records.html with
 a plot of every record.
@@ -136,7 +137,7 @@ def _parted(
             found = own(entry)
             where, value = found or (general, entry)
             getattr(where, option).append(value)
-    for option in ("profile", "sheet", "test_rate"):
+    for option in _TEXTS:
         if (found := own(getattr(options, option))) is not None:
             setattr(found[0], option, found[1])
             setattr(general, option, None)
@@ -144,7 +145,7 @@ def _parted(
 
 
 def _nothing_said() -> argparse.Namespace:
-    nothing = dict.fromkeys(("profile", "specimen_index", "sheet", "test_rate"))
+    nothing = dict.fromkeys((*_TEXTS, "specimen_index", "strain_gauge_length", "strain_shift"))
     return argparse.Namespace(**nothing, **{option: [] for option in _LISTS})
 
 

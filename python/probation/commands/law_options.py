@@ -143,8 +143,8 @@ def companion_from(text: str) -> Companion:
 def _table_from(path: Path) -> Table:
     """Rates and relaxation times from a file with the headings rate_per_s,tau_max_s."""
     from probation._complaint import bad_input, listed  # noqa: PLC0415 - only a table needs them
+    from probation.records.opening import open_file  # noqa: PLC0415
     from probation.records.options import ReadOptions  # noqa: PLC0415
-    from probation.records.reading import open_file  # noqa: PLC0415
 
     table = open_file(path, ReadOptions())[2].tables[0]
     columns: dict[str, FloatArray] = {}

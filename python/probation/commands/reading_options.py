@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation.commands.delivery import named_numbers
@@ -11,7 +12,7 @@ from probation.errors import InputError
 if TYPE_CHECKING:
     from probation.records.options import ReadingKeys
 
-_OPTIONS = ("profile", "column", "unit", "specimen", "specimen_index", "sheet", "test_rate")
+_OPTIONS = ("profile", "column", "unit", "specimen", "specimen_index", "sheet", "test_rate", "strain_file")
 
 
 def add_reading(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
@@ -40,6 +41,18 @@ def add_reading(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     group.add_argument(
         "--test-rate", metavar="RATE", help='of a file without time: "0.001 1/s", or "2 mm/min" by gauge_length_mm'
     )
+    film = parser.add_argument_group(
+        "strain from another file, on a clock of its own", "A video extensometer, image correlation."
+    )
+    film.add_argument("--strain-file", metavar="FILE", help="where the strain is; the shift is estimated and shown")
+    film.add_argument(
+        "--strain-column", metavar="ROLE=HEADING", action="append", default=[], help="of that file, as --column"
+    )
+    film.add_argument("--strain-unit", metavar="ROLE=UNIT", action="append", default=[], help="of that file, as --unit")
+    film.add_argument(
+        "--strain-gauge-length", metavar="MM", type=float, help="of that file, where it holds a displacement"
+    )
+    film.add_argument("--strain-shift", metavar="S", type=float, help="what is added to its time, where it is known")
     return group
 
 
@@ -59,6 +72,23 @@ def reading_from(options: argparse.Namespace) -> ReadingKeys:
         "specimen_index": options.specimen_index,
         "sheet": options.sheet,
         "test_rate": options.test_rate,
+        "strain_from": _strain_from(options),
+    }
+
+
+def _strain_from(options: argparse.Namespace) -> dict[str, object] | None:
+    if options.strain_file is None:
+        for name in ("strain_column", "strain_unit", "strain_gauge_length", "strain_shift"):
+            if getattr(options, name) not in (None, []):
+                raise InputError(f"found --{name.replace('_', '-')} without --strain-file, expected both or neither")
+        return None
+    length = options.strain_gauge_length
+    return {
+        "file": str(Path(options.strain_file).absolute()),
+        "columns": {role: _heading(text) for role, text in _pairs(options.strain_column, "--strain-column").items()},
+        "units": _pairs(options.strain_unit, "--strain-unit"),
+        "specimen": {} if length is None else {"gauge_length_mm": length},
+        "shift_s": options.strain_shift,
     }
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from probation._complaint import bad_input, listed, quoted
 from probation.histories import ImposedHistory
 from probation.records.checks import find_excess, find_short_step, refusal
+from probation.records.opening import open_file
 from probation.records.options import ReadingKeys, ReadOptions
-from probation.records.reading import open_file
 from probation.records.roles import ROLES, role_of
 from probation.records.source import Source
 from probation.records.strain_history import read_strain_history

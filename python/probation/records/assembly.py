@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from probation.records.conversions import true_stress_from
 from probation.records.extraction import dimension, dimension_warning, extract
+from probation.records.joining import Film
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
 from probation.records.record import Noise, Record
@@ -26,6 +27,7 @@ def assemble(
     noise: Noise | None = None,
     start: str = "relaxed",
     specimen_id: str | None = None,
+    film: Film | None = None,
 ) -> Record:
     """Turn the columns of one specimen into a record; `source` is None for what is in memory.
 
@@ -34,7 +36,7 @@ def assemble(
     InputError
         At the first thing that is wrong, by file, row and column.
     """
-    found = extract(table, reading, options)
+    found = extract(table, reading, options, film=film)
     measure = next(name for name in STRESS_ROLES if name in found.samples)
     area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
     record = Record(

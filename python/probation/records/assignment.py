@@ -52,6 +52,8 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
                     "leave test_rate out"
                 )
             continue
+        if role is None and options.strain_from is not None and group == STRAIN_ROLES:
+            continue
         if role is None:
             raise _nothing_for(table, group)
         assigned[role] = named.get(role) or implied[role]

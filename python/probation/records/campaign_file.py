@@ -13,6 +13,7 @@ from probation.law.calibration_settings import CALIBRATION_KEYS, CalibrationSett
 from probation.law.settings import COMPANION_FORMS, FIXABLE, CompanionSettings, LawSettings
 from probation.limits import TOML_BYTES
 from probation.records.encoding import decode
+from probation.records.film import KEYS as STRAIN_FROM_KEYS
 from probation.records.options import SPECIMEN_KEYS
 from probation.records.profiles import PROFILES
 from probation.records.reading import read_record
@@ -37,6 +38,7 @@ _RECORD_KEYS = (
     "specimen_index",
     "sheet",
     "test_rate",
+    "strain_from",
     "noise",
     "start",
     "temperature_file",
@@ -203,6 +205,7 @@ def _record(folder: Path, entry: TomlTable) -> Record:
         specimen_index=index,
         sheet=entry.text("sheet") if "sheet" in entry.values else None,
         test_rate=entry.text("test_rate") if "test_rate" in entry.values else None,
+        strain_from=_strain_from(folder, entry) if "strain_from" in entry.values else None,
         record_id=entry.text("id"),
         control=entry.text("control", default="other", known=CONTROLS),
         role=entry.text("role", default="identify", known=RECORD_ROLES),
@@ -218,6 +221,31 @@ def _record(folder: Path, entry: TomlTable) -> Record:
     if record.temperature is not None:
         raise entry.complain("temperature_C", "it beside a column of temperatures", "one of the two", "leave it out")
     return replace(record, temperature=np.full(len(record), entry.number("temperature_C")))
+
+
+def _strain_from(folder: Path, entry: TomlTable) -> dict[str, object]:
+    """What the record says of its strain file, relative to the campaign's folder as `file` is."""
+    given = entry.table("strain_from")
+    given.only(STRAIN_FROM_KEYS)
+    columns, units, specimen = given.table("columns"), given.table("units"), given.table("specimen")
+    columns.only(ROLES)
+    units.only(ROLES)
+    specimen.only(SPECIMEN_KEYS)
+    found: dict[str, object] = {
+        "file": str(_existing(folder, given, "file").absolute()),
+        "columns": {role: _label(columns, role) for role in columns.values},
+        "units": {role: units.text(role) for role in units.values},
+        "specimen": {key: specimen.number(key) for key in specimen.values},
+    }
+    for key, read in (
+        ("shift_s", given.number),
+        ("specimen_index", given.whole_number),
+        ("sheet", given.text),
+        ("profile", given.text),
+    ):
+        if key in given.values:
+            found[key] = read(key)
+    return found
 
 
 def _label(columns: TomlTable, role: str) -> str | int:

@@ -11,10 +11,11 @@ from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
 from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step, refusal
 from probation.records.conversions import stretch_from, true_strain_from
+from probation.records.joining import Film, join
 from probation.records.made_time import parse_rate, time_along
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
-from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES
+from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES
 from probation.records.strain_limits import (
     expected_strain,
     impossible_sample,
@@ -63,6 +64,7 @@ def extract(
     *,
     with_stress: bool = True,
     minimum: int = MINIMUM_SAMPLES,
+    film: Film | None = None,
 ) -> Extraction:
     """Read, check and convert the columns of one specimen.
 
@@ -76,6 +78,8 @@ def extract(
         False for a strain history, which needs no stress column.
     minimum : int
         Fewest samples.
+    film : Film, optional
+        Another file, whose strain is taken.
 
     Raises
     ------
@@ -93,6 +97,8 @@ def extract(
         role: _in_internal_units(table, role, columns[role], values, options) for role, values in raw.samples.items()
     }
     _check_extent(table, columns, samples)
+    if film is not None:
+        return _filmed(table, reading, options, columns, raw, samples, film)
     role = next(role for role in STRAIN_ROLES if role in columns)
     column = columns[role]
     stated = role in options.units or column.unit is not None or bool(table.roles)  # a profile knows its strain
@@ -111,6 +117,34 @@ def extract(
         *strain_doubts(role, column, samples[role], stated),
     )
     return Extraction(samples=samples, true_strain=true_strain, stretch=stretch, warnings=warnings)
+
+
+def _filmed(
+    table: Table,
+    reading: Reading,
+    options: ReadOptions,
+    columns: dict[str, Column],
+    raw: _Raw,
+    samples: dict[str, FloatArray],
+    film: Film,
+) -> Extraction:
+    """The force of this file over the strain of another; a displacement here only sets the clocks."""
+    measure = next(role for role in STRESS_ROLES if role in columns)
+    own = next((samples[role] for role in STRAIN_ROLES if role in samples), None)
+    joined = join(table.path, film, samples["time"], samples[measure], own)
+    return Extraction(
+        samples={name: values[joined.within] for name, values in samples.items()},
+        true_strain=joined.true_strain,
+        stretch=np.exp(joined.true_strain),
+        warnings=(
+            *reading.warnings,
+            *raw.notes,
+            joined.note,
+            *film.warnings,
+            *_unit_warnings(columns, options),
+            *_unstated_units(table, columns, raw.samples, options),
+        ),
+    )
 
 
 def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, role: str) -> float:

@@ -39,6 +39,9 @@ class ReadingKeys(TypedDict, total=False):
     test_rate : str
         For a file without time: the rate at which its strain went (``"0.001 1/s"``), or its crosshead
         (``"2 mm/min"``, by ``gauge_length_mm``).
+    strain_from : mapping
+        The strain from another file, on its own clock: ``file`` (relative to this one), ``shift_s`` (added to its
+        time; estimated where left out), and ``columns``, ``units``, ``specimen``, … of that file.
     """
 
     profile: str | None
@@ -48,6 +51,7 @@ class ReadingKeys(TypedDict, total=False):
     specimen_index: int | None
     sheet: str | None
     test_rate: str | None
+    strain_from: Mapping[str, object] | None
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,8 @@ class ReadOptions:
         Sheet of an Excel workbook.
     test_rate : str or None
         Rate at which a file without time was driven.
+    strain_from : mapping or None
+        The file of the strain, its shift, and how it is read.
     """
 
     profile: str | None = None
@@ -79,6 +85,7 @@ class ReadOptions:
     specimen_index: int | None = None
     sheet: str | None = None
     test_rate: str | None = None
+    strain_from: Mapping[str, object] | None = None
 
     @property
     def labels(self) -> list[str]:
@@ -121,6 +128,7 @@ def read_options(path: Path, **how: Unpack[ReadingKeys]) -> ReadOptions:
         specimen_index=how.get("specimen_index"),
         sheet=how.get("sheet"),
         test_rate=_rate(path, how.get("test_rate")),
+        strain_from=how.get("strain_from") or None,
     )
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from probation.records.assignment import assign_columns
+from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadingKeys, ReadOptions, read_options
 from probation.records.profiles import Reading
 from probation.records.profiles.excel import recognises as is_workbook
-from probation.records.reading import assemble_all, chosen_tables, open_file
+from probation.records.reading import assemble_all
 from probation.records.record import Record
 from probation.records.table import Column, Table
 from probation.results.rendering import Plotted, Summarised

@@ -6,16 +6,16 @@ from os import PathLike
 from pathlib import Path
 from typing import Unpack
 
-from probation._complaint import bad_input, quoted, suggestion
+from probation._complaint import bad_input, suggestion
 from probation.errors import InputError
 from probation.records.assembly import assemble
+from probation.records.film import read_film
+from probation.records.opening import chosen_tables, open_file, several_specimens
 from probation.records.options import ReadingKeys, ReadOptions, read_options
-from probation.records.profiles import Profile, Reading, find_profile
-from probation.records.profiles.excel import recognises as is_workbook
+from probation.records.profiles import Profile, Reading
 from probation.records.record import Noise, Record
 from probation.records.source import Source
 from probation.records.start import STARTS
-from probation.records.table import Table
 
 
 def read_records(
@@ -107,26 +107,6 @@ def read_record(
     return records[0]
 
 
-def several_specimens(path: Path, count: int) -> InputError:
-    """Build the error for a file of several specimens where one is wanted."""
-    return bad_input(
-        path,
-        f"{count} specimens side by side",
-        "a choice",
-        remedy=f"say specimen_index = 1 … {count}",
-    )
-
-
-def open_file(path: Path, options: ReadOptions) -> tuple[Source, Profile, Reading]:
-    """Open a file, recognise it, and find its columns."""
-    source = Source.open(path)
-    profile = find_profile(source, options.profile)
-    if options.sheet is not None and not is_workbook(source):
-        raise InputError(f"{path}: found sheet = {quoted(options.sheet)} for a text file, expected none; drop it")
-    reading = profile.read(source, options)
-    return source, find_profile(source, reading.machine) if reading.machine else profile, reading
-
-
 def assemble_all(
     source: Source,
     profile: Profile,
@@ -141,6 +121,7 @@ def assemble_all(
 ) -> tuple[Record, ...]:
     """Turn the specimens asked for into records, named after the file unless named."""
     stem = record_id or _stem(source.path)
+    film = None if options.strain_from is None else read_film(source.path, options.strain_from)
     several = record_id is None and len(reading.tables) > 1
     return tuple(
         assemble(
@@ -154,6 +135,7 @@ def assemble_all(
             role=role,
             noise=noise,
             start=start,
+            film=film,
         )
         for number, table in chosen_tables(source.path, reading, options.specimen_index)
     )
@@ -162,17 +144,3 @@ def assemble_all(
 def _stem(path: Path) -> str:
     """The file's name without endings."""
     return path.name.split(".")[0] or path.name
-
-
-def chosen_tables(path: Path, reading: Reading, specimen_index: int | None) -> list[tuple[int, Table]]:
-    """Pick the specimens asked for, each with its number in the file."""
-    numbered = list(enumerate(reading.tables, start=1))
-    if specimen_index is None:
-        return numbered
-    if isinstance(specimen_index, bool) or not 1 <= specimen_index <= len(numbered):
-        held = f"{len(numbered)} specimens" if len(numbered) > 1 else "1 specimen"
-        raise InputError(
-            f"{path}: specimen_index: found {specimen_index!r}, expected at most {len(numbered)} "
-            f"and counted from 1; the file holds {held}"
-        )
-    return [numbered[specimen_index - 1]]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from probation._complaint import bad_input
 from probation.records.extraction import extract
+from probation.records.opening import chosen_tables, open_file, several_specimens
 from probation.records.options import ReadingKeys, read_options
-from probation.records.reading import chosen_tables, open_file, several_specimens
 
 FloatArray = NDArray[np.float64]
 

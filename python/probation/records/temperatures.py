@@ -7,8 +7,8 @@ import numpy as np
 
 from probation._complaint import bad_input, quoted
 from probation.records.checks import find_excess, find_fault, find_short_step, refusal
+from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadOptions
-from probation.records.reading import chosen_tables, open_file
 from probation.records.record import Record
 
 _ROLES = ("time", "temperature")

@@ -16,8 +16,9 @@ from probation.records.campaign_file import FILE_NAME
 from probation.records.initial.control import guess_control
 from probation.records.initial.questions import Question, answered, next_question
 from probation.records.initial.text import Entry, campaign_text
+from probation.records.opening import chosen_tables, open_file
 from probation.records.options import SPECIMEN_KEYS, ReadingKeys, read_options
-from probation.records.reading import assemble_all, chosen_tables, open_file
+from probation.records.reading import assemble_all
 from probation.records.record import CONTROLS, RECORD_ROLES, Record
 from probation.results.rendering import Result
 
@@ -106,7 +107,7 @@ def init_campaign(
         own = dict(single.get(path.name, {}))
         choices = {"control": own.pop("control", control), "role": own.pop("role", role)}
         merged = _merged(_where_not_stated(path, how, own), own)
-        entries += _entries(path, merged, choices, target.name(path), ask)
+        entries += _entries(path, merged, choices, target, ask)
     entries = _with_unique_ids(entries)
     if all(entry.record.role != "identify" for entry in entries):
         raise InputError('found held-out records only, expected at least one with the role "identify"')
@@ -130,6 +131,9 @@ class _Target:
 
     def name(self, path: Path) -> str:
         """What campaign.toml calls a file."""
+        named = next((name for name, source in self._sources.items() if source == path), None)
+        if named is not None:
+            return named
         within = os.path.relpath(os.path.realpath(path), os.path.realpath(self._folder))
         if self._link or not within.startswith(".."):
             return Path(within).as_posix()
@@ -181,8 +185,11 @@ def _merged(how: Mapping[str, Any], own: Mapping[str, Any]) -> ReadingKeys:
 
 
 def _entries(
-    path: Path, how: ReadingKeys, choices: Mapping[str, str | None], file: str, ask: Ask | None
+    path: Path, how: ReadingKeys, choices: Mapping[str, str | None], target: "_Target", ask: Ask | None
 ) -> list[Entry]:
+    file, film = target.name(path), how.get("strain_from")
+    if film is not None:
+        film = {**film, "file": target.name(path.parent / str(film.get("file", "")))}
     while (question := next_question(path, how)) is not None:
         how = answered(path, how, question, _answer(question, ask))
     options = read_options(path, **how)
@@ -204,6 +211,7 @@ def _entries(
                 "sheet": sheet,
                 "specimen_index": number if len(reading.tables) > 1 else None,
                 "test_rate": chosen.test_rate,
+                "strain_from": None if film is None else {key: value for key, value in film.items() if value},
                 "profile": options.profile,
             }
             named = replace(record, id=f"{record.id}-{sheet}") if len(sheets) > 1 else record

@@ -9,8 +9,8 @@ from typing import Any, cast
 from probation._complaint import quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns
+from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadingKeys, read_options, with_area
-from probation.records.reading import chosen_tables, open_file
 from probation.records.roles import STRAIN_ROLES, STRESS_ROLES, VAGUE, normalised, role_of
 from probation.records.table import Column, Table
 from probation.records.units import measures
@@ -74,13 +74,14 @@ def next_question(path: Path, how: ReadingKeys) -> Question | None:
             '--test-rate "0.001 1/s" (or --column time=HEADING)',
         )
     for quantity, group in (("strain", STRAIN_ROLES), ("stress", STRESS_ROLES)):
-        if not (named | implied) & set(group):
+        if not (named | implied) & set(group) and not (quantity == "strain" and options.strain_from):
             question = _about_column(path, table, quantity)
             if question is not None:
                 return question
     columns = assign_columns(table, options)
     stated = {**reading.specimen, **table.specimen, **options.specimen}
-    if ("displacement" in columns or _is_speed(options.test_rate)) and "gauge_length_mm" not in stated:
+    strained = "displacement" in columns and options.strain_from is None
+    if (strained or _is_speed(options.test_rate)) and "gauge_length_mm" not in stated:
         return Question(
             path.name,
             "gauge_length",
