@@ -1,8 +1,10 @@
 """The command line as a whole: help, exit statuses, one line for every error."""
 
 import os
+import re
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -150,7 +152,7 @@ def test_a_reader_that_goes_away_is_no_error_to_speak_of():
     assert done.stderr == ""
 
 
-def test_progress_shows_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
+def test_progress_shows_on_a_terminal_where_something_lasts(capsys, monkeypatch):
     with shown("working") as advance:
         advance(1, 2, "half")
     assert capsys.readouterr().err == ""
@@ -158,7 +160,25 @@ def test_progress_shows_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
     monkeypatch.setenv("TERM", "xterm-256color")
     with shown("working") as advance:
         advance(1, 2, "half")
-    assert "working: half" in capsys.readouterr().err
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr("probation.commands.progress.SHOWN_AFTER", 0.0)
+    with shown("working") as advance:
+        advance(1, 2, "half")
+        time.sleep(0.3)
+    told = capsys.readouterr().err
+    assert "working: half" in told
+    assert "left" in told
+
+
+def test_a_log_gets_a_line_at_every_tenth_of_what_lasts(capsys, monkeypatch):
+    monkeypatch.setattr("probation.commands.progress.LOGGED_AFTER", 0.0)
+    with shown("working") as advance:
+        for done in range(101):
+            advance(done, 100, "")
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 10
+    assert re.fullmatch(r"working: 40 %, \d+:\d\d so far, about \d+:\d\d left", lines[3])
+    assert re.fullmatch(r"working: 100 %, \d+:\d\d so far", lines[-1])
 
 
 def test_the_verdict_is_bold_on_a_terminal(capsys, monkeypatch):

@@ -30,6 +30,7 @@ from probation.calibration.regression import Regression, excess_scatter, regress
 from probation.calibration.result import Calibration, Candidate
 from probation.errors import InputError
 from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
+from probation.progress import shows_progress
 from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
 from probation.smoothing.excitation import excite
@@ -50,6 +51,7 @@ _FEWEST_CHOICES = 3  # distinct rates from which on one can be left out
 _FAR = 0.05  # scatter of E_u between records that is worth a word
 
 
+@shows_progress
 def calibrate_companion(
     source: Campaign | RateTable,
     *,

@@ -19,6 +19,7 @@ from probation.errors import InputError
 from probation.identify.fit import gap_of
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
+from probation.progress import shows_progress
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -41,6 +42,7 @@ TOLERANCE = 0.05
 """Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."""
 
 
+@shows_progress
 def certify(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "be2",

@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
 def _example(options: argparse.Namespace) -> int:
     from probation.field.example.make import make_example  # noqa: PLC0415 - xarray and zarr are an extra
 
-    with shown("making the field", lines=True) as advance, cluster(options.scheduler) as executor:
+    with shown("making the field") as advance, cluster(options.scheduler) as executor:
         field, truth = make_example(
             options.out,
             size=options.size,
@@ -124,7 +124,7 @@ def _identify(options: argparse.Namespace) -> int:
     source = open_field(options.field, columns, sparse=options.sparse)
     begun = time.perf_counter()
     try:
-        with shown("identifying", lines=True) as advance, cluster(options.scheduler) as executor:
+        with shown("identifying") as advance, cluster(options.scheduler) as executor:
             done = identify_field(
                 source,
                 options.out,

@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 import sys
+import time
 from contextlib import contextmanager
+from threading import Timer
 from typing import TYPE_CHECKING
 
 from probation._text import printable, raw_stream
 from probation.commands.streams import say
+from probation.progress import SHOWN_AFTER, said
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+LOGGED_AFTER = 10.0
+"""Seconds that work lasts before a log gets a line."""
+
 
 @contextmanager
-def shown(title: str, *, lines: bool = False) -> Iterator[Callable[[int, int, str], None]]:
-    """Show a bar on standard error while the block runs; it vanishes at the end.
+def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
+    """Show on standard error how far the block is: on a terminal a bar that vanishes at the end, else lines.
+
+    The bar comes after `SHOWN_AFTER` seconds. Where standard error is no terminal, there is a line at every tenth that
+    is reached after `LOGGED_AFTER` seconds.
 
     Parameters
     ----------
     title : str
-    lines : bool
-        Whether to print a line at every tenth where standard error is no terminal; else nothing is printed there.
 
     Yields
     ------
@@ -29,28 +36,53 @@ def shown(title: str, *, lines: bool = False) -> Iterator[Callable[[int, int, st
         ``advance(done, total, what)``.
     """
     if not sys.stderr.isatty():
-        yield _tenths(title) if lines else lambda done, total, what: None
+        yield _tenths(title)
         return
     from rich.console import Console  # noqa: PLC0415 - not every command shows progress
-    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+    from rich.progress import (  # noqa: PLC0415
+        BarColumn,
+        Progress,
+        SpinnerColumn,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
-    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(file=raw_stream(sys.stderr)), transient=True) as progress:
-        task = progress.add_task(printable(title), total=None)
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(compact=True),
+    )
+    progress = Progress(*columns, console=Console(file=raw_stream(sys.stderr)), transient=True)
+    task = progress.add_task(printable(title), total=None)
+    late = Timer(SHOWN_AFTER, progress.start)
+    late.daemon = True
+    late.start()
 
-        def advance(done: int, total: int, what: str) -> None:
-            progress.update(
-                task, completed=done, total=total, description=printable(f"{title}: {what}" if what else title)
-            )
+    def advance(done: int, total: int, what: str) -> None:
+        progress.update(task, completed=done, total=total, description=printable(f"{title}: {what}" if what else title))
 
+    try:
         yield advance
+    finally:
+        late.cancel()
+        late.join()
+        progress.stop()
 
 
 def _tenths(title: str) -> Callable[[int, int, str], None]:
     """Prints at every tenth."""
+    started, told = time.monotonic(), 0
 
     def advance(done: int, total: int, what: str) -> None:
-        if 10 * done // total > 10 * (done - 1) // total:
-            say(f"{title}: {done} of {total}")
+        nonlocal told
+        tenths = 10 * done // total if total else 0
+        elapsed = time.monotonic() - started
+        if tenths > told and elapsed >= LOGGED_AFTER:
+            told = tenths
+            say(f"{title}: {said(done / total, elapsed)}")
 
     return advance

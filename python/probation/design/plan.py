@@ -22,6 +22,7 @@ from probation.inference.parameter import UNITS, by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
+from probation.progress import shows_progress
 from probation.records.campaign import Campaign
 from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised, rendered
@@ -145,6 +146,7 @@ class Plan(Summarised, Plotted, Stored):
         }
 
 
+@shows_progress
 def plan(
     law: Law,
     histories: Mapping[str, History],

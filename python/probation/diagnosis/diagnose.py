@@ -45,6 +45,7 @@ from probation.inference.thinning import thin
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
+from probation.progress import shows_progress
 from probation.records.checks import require_signal
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
+@shows_progress
 def diagnose(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "sa3",

@@ -26,6 +26,7 @@ from probation.law.modal import Law
 from probation.law.schemes import BE2, Scheme, SchemeName, identifying
 from probation.origin import commit
 from probation.pool import WorkersLostError, run_all
+from probation.progress import shows_progress
 
 if TYPE_CHECKING:
     import os
@@ -62,6 +63,7 @@ class FieldRun:
     again: int
 
 
+@shows_progress
 def identify_field(
     field: str | os.PathLike[str] | FieldSource,
     out: str | os.PathLike[str],

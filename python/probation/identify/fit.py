@@ -27,6 +27,7 @@ from probation.inference.thinning import thin
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, identifying
+from probation.progress import shows_progress
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ PARAMETERS = 3
 """Of the law: E_u, tau_max or alpha, G."""
 
 
+@shows_progress
 def fit(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "be2",

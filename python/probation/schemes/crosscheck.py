@@ -9,6 +9,7 @@ import numpy as np
 from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
 from probation.law.schemes import BE2
+from probation.progress import shows_progress
 from probation.schemes.candidates import CANDIDATES, Candidate, Solve, solve
 from probation.schemes.cases import Case, record_case, twin_case
 from probation.schemes.result import CrossCheck, RecordCheck, SchemeCheck
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["CrossCheck", "RecordCheck", "SchemeCheck", "StepStudy", "crosscheck"]
 
 
+@shows_progress
 def crosscheck(
     records: Sequence[Record] | None = None,
     law: Law | None = None,

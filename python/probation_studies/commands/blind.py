@@ -86,7 +86,7 @@ def _make(options: argparse.Namespace) -> int:
         warn(
             f"--count: found {options.count}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them"
         )
-    with shown(f"making {options.split}", lines=True) as advance, cluster(options.scheduler) as executor:
+    with shown(f"making {options.split}") as advance, cluster(options.scheduler) as executor:
         layout = make_split(
             options.out,
             seed=options.seed,
@@ -109,7 +109,7 @@ def _solve(options: argparse.Namespace) -> int:
 
     named = [options.solver] if options.solver in BASELINES and options.answers is None else []
     solver = None if named else solver_named(options.solver or "diagnose")
-    with shown("solving", lines=True) as advance, cluster(options.scheduler) as executor:
+    with shown("solving") as advance, cluster(options.scheduler) as executor:
         solved = solve_split(
             options.folder,
             solver,
