@@ -7,6 +7,7 @@ short.
 import argparse
 import inspect
 import re
+import shutil
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -61,6 +62,7 @@ def setup(app: "Sphinx") -> dict[str, bool]:
 def _write_all(app: "Sphinx") -> None:
     built = Path(app.srcdir) / "built"
     (built / "figures").mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(built / "api", ignore_errors=True)  # pages of names that are no more
     _keep(built / "api", api_page())
     _keep(built / "command-help", commands_page())
     _keep(built / "effects", effects_page())

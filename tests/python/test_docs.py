@@ -8,11 +8,12 @@ import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 
 import probation
 from probation.cli import build_parser
-from probation.effects.registry import effects
+from probation.effects.registry import effects, unregister
 
 DOCS = Path(__file__).parents[2] / "docs"
 PICTURES = ("overview", "curves", "where", "which")
@@ -52,6 +53,26 @@ def test_the_third_tutorial_finds_the_effect_that_it_put_in():
     diagnosis = names["diagnosis"]
     assert diagnosis.best.effects == ("self_heating",)
     assert diagnosis.shrink.held_out.after_MPa < 0.05
+
+
+def test_the_python_of_the_recipes_runs(tmp_path, monkeypatch):
+    """All blocks in turn, on the arrays that the first one takes."""
+    monkeypatch.chdir(tmp_path)
+    test = probation.named_history("ramp", samples=101, strain=0.5)
+    law = probation.Law(unrelaxed_modulus=3000.0, tau_max=5.0, hardening_modulus=2.0)
+    stress = law.stress(test.time, test.true_strain)
+    names = {
+        "time": test.time,
+        "strain": 100.0 * np.expm1(test.true_strain),
+        "force": 22e-3 * stress * np.exp(-test.true_strain),
+    }
+    try:
+        for block in re.findall(r"```python\n(.*?)```", (DOCS / "recipes.md").read_text(encoding="utf-8"), re.DOTALL):
+            exec(block, names)
+    finally:
+        if any(effect.name == "amplifier" for effect in effects()):
+            unregister("amplifier")
+    assert names["campaign"].records[0].true_stress[-1] == pytest.approx(stress[-1], rel=1e-6)
 
 
 @pytest.fixture(scope="module")
