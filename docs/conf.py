@@ -10,6 +10,9 @@ import matplotlib as mpl  # noqa: E402
 
 mpl.use("agg")
 
+from matplotlib.figure import Figure  # noqa: E402
+from sphinx_gallery.scrapers import figure_rst  # noqa: E402
+
 import probation  # noqa: E402
 from probation.report.style import MATPLOTLIB  # noqa: E402
 
@@ -76,6 +79,20 @@ def _plain_figures(gallery_conf: dict[str, object], fname: str) -> None:
     mpl.use("agg")
 
 
+_SHOWN: set[Figure] = set()
+
+
+def _program_figures(block: tuple, block_vars: dict, gallery_conf: dict) -> str:
+    """The figure that a block ends with, where it is the program's own: those are bound to no window."""
+    shown = block_vars["example_globals"].get("___")
+    if not isinstance(shown, Figure) or shown in _SHOWN:
+        return ""
+    _SHOWN.add(shown)
+    path = next(block_vars["image_path_iterator"])
+    shown.savefig(path, dpi=200)
+    return figure_rst([path], gallery_conf["src_dir"])
+
+
 sphinx_gallery_conf = {
     "examples_dirs": ["tutorials", "cases"],
     "gallery_dirs": ["built/tutorials", "built/cases"],
@@ -93,4 +110,6 @@ sphinx_gallery_conf = {
     "nested_sections": True,
     "min_reported_time": 1,
     "image_srcset": ["2x"],
+    "image_scrapers": ("matplotlib", _program_figures),
+    "capture_repr": ("_repr_html_",),
 }
