@@ -29,6 +29,7 @@ from probation.diagnosis.probabilities import (
     with_unknown_leading,
     with_unseen,
 )
+from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
@@ -53,8 +54,10 @@ if TYPE_CHECKING:
 
     from probation.design.isolability import Isolability
     from probation.detection.where import Where
+    from probation.diagnosis.closure import Closure
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import Checks, NextTest
     from probation.effects.effect import Effect
     from probation.inference.gap import Gap
@@ -166,9 +169,9 @@ def diagnose(
     best = weighed[0]
     explanations = explanations_of(weighed, judged)
     parts = attribution(base, weighed, found, shrink.identify, workers)
+    left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
-    localised = 0 < len(explanations[0].records) < len(base.model.views)
     following, apart = (
         _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed)
         if design
@@ -197,7 +200,12 @@ def diagnose(
         judged_on=case.judge,
         rms_MPa=fitted.misfit[0] if case.predicted_only else shrink.identify.before_MPa,
         noise_MPa=fitted.misfit[1] if case.predicted_only else shrink.identify.noise_MPa,
-        located=acts if localised and verdict == "explained" and acts and not case.predicted_only else where.located,
+        located=acts
+        if 0 < len(explanations[0].records) < len(base.model.views)
+        and verdict == "explained"
+        and acts
+        and not case.predicted_only
+        else where.located,
         where=where,
         acts=acts,
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
@@ -211,6 +219,7 @@ def diagnose(
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
+        remainder=left,
         skipped=skipping.entries(found),
         scatter=base.scatter,
         hangs_on_scatter=gap.hangs_on_scatter,
@@ -271,6 +280,12 @@ def _explained(
         weighed = _with_unknown(weighed, judged)
     verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
     return base, found, weighed, judged, verdict
+
+
+def _left(base: BaseFit, best: Hypothesis, closure: Closure, campaign: Campaign) -> Remainder | None:
+    """What the best explanation leaves, described; None where that is noise."""
+    specimens = {record.id: record.specimen_id for record in campaign.records}
+    return remainder_of(base, best.refit, closure, specimens) if is_left(closure) else None
 
 
 def _designed(

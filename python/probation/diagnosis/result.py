@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from probation.detection.where import Located, Where
     from probation.diagnosis.attribution import EffectShare
     from probation.diagnosis.closure import Closure
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.skipped import Skipped
     from probation.inference.gap import GapSize, HeldOutGap
     from probation.inference.scatter import Scatter
@@ -238,6 +239,8 @@ class Diagnosis(Result, Stored):
         Which effects these tests could tell apart, whatever they show.
     effects : tuple of EffectShare
         How probable each effect is, and how much of the gap it closes; by share.
+    remainder : Remainder or None
+        What the best explanation leaves beyond the noise, described; None where it leaves nothing.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
     """
@@ -268,6 +271,7 @@ class Diagnosis(Result, Stored):
     isolability: Isolability | None = None
     effects: tuple[EffectShare, ...] = ()
     skipped: tuple[Skipped, ...] = ()
+    remainder: Remainder | None = None
     held_out: Mapping[str, HeldOutGap] = field(default_factory=dict)
     size: GapSize | None = None
     judged_on: str | None = None
@@ -332,6 +336,7 @@ class Diagnosis(Result, Stored):
                 "probability_after": self.next_test.probability_after,
             },
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
+            "remainder": None if self.remainder is None else self.remainder.to_dict(),
             "skipped": [each.to_dict() for each in self.skipped],
             "warnings": list(self.warnings),
         }

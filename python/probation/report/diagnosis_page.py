@@ -24,6 +24,7 @@ from probation.report.isolability_figure import isolability_figure
 from probation.report.isolability_page import HOW_TO_READ_THE_MAP
 from probation.report.isolability_table import in_words, isolability_table
 from probation.report.page import Gallery, Page, Section, picture
+from probation.report.remainder_page import remainder_section
 from probation.report.residual_map import residual_map
 from probation.report.skipped_words import skipped_lines
 from probation.report.table import Table
@@ -48,6 +49,7 @@ def write_diagnosis_page(found: Diagnosis, path: Path) -> None:
 def diagnosis_page(found: Diagnosis) -> Page:
     """The page: the verdict, where, before and after, which, how far, the next test, isolability, details."""
     sections = [_short(found), _where(found), _records(found), _which(found), _shrink(found)]
+    sections += [remainder_section(found.remainder)] if found.remainder is not None else []
     sections += [_next_test(found)] if found.next_test is not None else []
     sections += [_isolability(found)] if found.isolability is not None else []
     return Page(
@@ -73,6 +75,8 @@ def _short(found: Diagnosis) -> Section:
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     rows.append(("How far", _capital(_how_far(found))))
+    if found.remainder is not None:
+        rows.append(("Left", found.remainder.description))
     if found.next_test is not None:
         rows.append(("Next test", found.next_test.what))
     rows += [("Mind" if at == 0 else "", f"{each.rstrip('.')}.") for at, each in enumerate(found.warnings)]

@@ -50,6 +50,8 @@ def summary(found: Diagnosis) -> str:
     if found.verdict != "no_gap":
         parts.append(_shown(*effects_table(found, MOST)))
     parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
+    if found.remainder is not None:
+        parts.append(fill(found.remainder.description, WIDTH))
     if found.next_test is not None:
         parts.append(fill(next_test_text(found), WIDTH))
     parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found, MOST_SKIPPED)))

@@ -1,0 +1,394 @@
+"""What the gap that is left depends on: a free function of one variable, judged on records left out.
+
+docs/diagnosis-method.md, section 11.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+from probation.diagnosis.remainder_words import description
+from probation.diagnosis.variables import phases_of, variables_of
+from probation.inference.unsolvable import UNSOLVABLE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.closure import Closure
+    from probation.diagnosis.variables import Variable
+    from probation.inference.base_fit import BaseFit
+    from probation.inference.refit import Refit
+    from probation.noise.model import NoiseModel
+
+Acts = Literal["added", "factor"]
+
+SIZES = (2, 4, 6)
+"""Coefficients of a free function: a straight line, and cubic splines."""
+
+PARTS = 8
+"""Contiguous parts of a record that are left out one by one where whole records cannot be."""
+
+ROUNDS = 3
+"""Times that the law is linearised, each beside the best function of the round before: a gap bends its parameters."""
+
+CERTAIN = 4.0
+"""Standard errors of the noise's mean square by which what is left must exceed it."""
+
+RIDGE, SMOOTH = 1e-6, 1e-4
+"""Precision of a coefficient, and of its difference from the mean of its neighbours, over the mean information on one:
+between values that no sample has, a function runs straight."""
+
+PER_COEFFICIENT, PER_PHASE, IN_PARTS = 0.002, 0.01, 0.2
+"""By how much more a function must explain for each coefficient, for acting in one phase only, and where it was judged
+on parts of records though there are several: a neighbouring part tells more than another test."""
+
+WORTH_TELLING = 0.2
+"""Part of the remainder below which a variable is not reported."""
+
+MOST = 4
+"""Variables that are reported."""
+
+POINTS = 300
+"""Samples and points of the function that are kept for the figure."""
+
+LEFT = 0.25
+"""Mean square left beyond the noise's, over it, from which on what an explanation leaves is described."""
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """The remainder as a function of one variable.
+
+    Attributes
+    ----------
+    variable : str
+        "strain", "strain_rate", "time", "temperature", "largest_strain", "strain_below_largest", "specimen", "order"
+        or "loading_or_unloading".
+    title : str
+        For people.
+    when : str or None
+        Phase of the test in which it acts, a key of `variables.PHASES`; None: always.
+    acts : {"added", "factor"}
+        Whether the function is a stress, or a factor of the predicted stress less 1.
+    explained : float
+        Part of the remainder's mean square, the noise set apart, that it predicts where it was not fitted.
+    judged_on : {"records", "parts"}
+        What was left out: whole records, or contiguous parts.
+    """
+
+    variable: str
+    title: str
+    when: str | None
+    acts: Acts
+    explained: float
+    judged_on: Literal["records", "parts"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `remainder` of docs/formats.md."""
+        return {
+            "variable": self.variable,
+            "when": self.when,
+            "acts": self.acts,
+            "explained": self.explained,
+            "judged_on": self.judged_on,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class RemainderCurve:
+    """The remainder against the variable that it depends on most.
+
+    Attributes
+    ----------
+    label, unit : str
+        Of the variable's axis, with its unit; "MPa" or "%" of the predicted stress.
+    x, y : ndarray, shape (n,)
+        Measured less predicted at some samples, what refitted parameters follow taken off.
+    inside, unloading : ndarray of bool, shape (n,)
+        Samples of the phase in which the function acts, and those where the strain falls.
+    function_x, function_y : ndarray, shape (m,)
+        The function, without what the law's parameters follow.
+    """
+
+    label: str
+    unit: str
+    x: FloatArray
+    y: FloatArray
+    inside: NDArray[np.bool_]
+    unloading: NDArray[np.bool_]
+    function_x: FloatArray
+    function_y: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Remainder:
+    """What the best explanation leaves, described.
+
+    Attributes
+    ----------
+    rms_MPa, noise_MPa : float
+        Root mean square of what is left on the fitted records, and of the noise.
+    depends_on : tuple of Dependence
+        The most that explains first; empty where nothing does.
+    description : str
+        One sentence.
+    curve : RemainderCurve or None
+    """
+
+    rms_MPa: float  # noqa: N815 - as it leaves the program
+    noise_MPa: float  # noqa: N815
+    depends_on: tuple[Dependence, ...]
+    description: str
+    curve: RemainderCurve | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `remainder` of docs/formats.md."""
+        return {
+            "rms_MPa": self.rms_MPa,
+            "noise_MPa": self.noise_MPa,
+            "depends_on": [each.to_dict() for each in self.depends_on],
+            "description": self.description,
+        }
+
+
+class _Term(NamedTuple):
+    """A variable in a phase, as a stress or as a factor, with so many coefficients."""
+
+    variable: Variable
+    when: str | None
+    acts: Acts
+    size: int
+
+
+class _Trial(NamedTuple):
+    term: _Term
+    explained: float
+    judged_on: Literal["records", "parts"]
+    rank: float
+
+
+def is_left(closure: Closure) -> bool:
+    """Whether more than noise is left."""
+    return closure.after_MPa**2 > (1.0 + LEFT) * closure.noise_MPa**2
+
+
+def remainder_of(
+    base: BaseFit, found: Refit, closure: Closure, specimens: Mapping[str, str | None] | None = None
+) -> Remainder:
+    """Describe what an explanation leaves on the fitted records.
+
+    Parameters
+    ----------
+    base : BaseFit
+    found : Refit
+        The explanation's; the base fit's where nothing is explained.
+    closure : Closure
+        Of the explanation.
+    specimens : dict of str to str, optional
+        Of which specimen a record is, by its id; each its own if left out.
+    """
+    views = found.model.views
+    known = specimens or {}
+    variables = variables_of(views, [known.get(view.id) or view.id for view in views])
+    phases = phases_of(views)
+    problem = _Problem(base, found, found.parameters, phases, closure.noise_MPa)
+    before = problem.before
+    for _ in range(ROUNDS):
+        trials = sorted(
+            (problem.trial(term, before) for term in _terms(variables, problem)), key=lambda each: -each.rank
+        )
+        moved = problem.with_function(trials[0].term)
+        try:
+            problem = _Problem(base, found, moved, phases, closure.noise_MPa)
+        except UNSOLVABLE:
+            break
+    best: dict[str, _Trial] = {}
+    for trial in trials:
+        best.setdefault(trial.term.variable.name, trial)
+    leading = [each for each in best.values() if each.explained > WORTH_TELLING][:MOST]
+    depends_on = tuple(
+        Dependence(
+            variable=trial.term.variable.name,
+            title=trial.term.variable.title,
+            when=trial.term.when,
+            acts=trial.term.acts,
+            explained=min(trial.explained, 1.0),
+            judged_on=trial.judged_on,
+        )
+        for trial in leading
+    )
+    curve = problem.curve(leading[0].term) if leading else None
+    most = max((each.explained for each in trials), default=0.0)
+    text = description(closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
+    return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve)
+
+
+def _terms(variables: Sequence[Variable], problem: _Problem) -> Iterator[_Term]:
+    """Every variable, alone and in every phase, as a stress and as a factor."""
+    for variable in variables:
+        if variable.is_category:
+            levels = len(np.unique(variable.values))
+            yield from (_Term(variable, None, acts, levels) for acts in ("added", "factor"))
+            continue
+        for when in (None, *problem.phases):
+            inside = variable.values[problem.inside(when)]
+            distinct = len(np.unique(np.round(inside, 6)))
+            for size in SIZES:
+                if size < distinct or size == SIZES[0]:
+                    yield from (_Term(variable, when, acts, size) for acts in ("added", "factor"))
+
+
+class _Problem:
+    """What is left beside what refitted parameters follow, linearised at some parameters.
+
+    Samples are weighed by the noise's standard deviation alone: beside a gap the noise's slow part is not known.
+    """
+
+    def __init__(
+        self, base: BaseFit, found: Refit, parameters: FloatArray, phases: dict[str, NDArray[np.bool_]], noise: float
+    ) -> None:
+        self.phases = phases
+        self._found, self._parameters, self._noise = found, parameters, noise
+        self._precision = found.coordinates.prior.precision
+        residual, jacobian = found.model.residual_and_jacobian(parameters)
+        self._missing = -residual
+        self._stress = residual + found.model.data
+        self._tangent = jacobian * found.coordinates.slopes(parameters)
+        self._weight = np.concatenate([_weights(each) for each in base.whitened.noises])
+        self._slices = base.whitener.slices
+        records = [np.arange(part.start, part.stop) for part in self._slices]
+        parts = [np.array(block) for rows in records for block in np.array_split(rows, PARTS)]
+        self._folds: dict[Literal["records", "parts"], list[NDArray[np.int_]]] = {"records": records, "parts": parts}
+        self.before: dict[str, float] = {
+            kind: self._square_left_out(None, folds) for kind, folds in self._folds.items() if len(folds) > 1
+        }
+
+    def with_function(self, term: _Term) -> FloatArray:
+        """Parameters of the explanation refitted beside a function, to first order."""
+        solved = self._beside(term)[: len(self._precision)]
+        coordinates = self._found.coordinates
+        moved = np.clip(coordinates.of(self._parameters) + solved, coordinates.bounds.lower, coordinates.bounds.upper)
+        return coordinates.parameters(np.asarray(moved))
+
+    def inside(self, when: str | None) -> NDArray[np.bool_]:
+        """Samples of a phase."""
+        return np.ones(len(self._missing), dtype=bool) if when is None else self.phases[when]
+
+    def trial(self, term: _Term, before_of: Mapping[str, float]) -> _Trial:
+        """How much of what is left a function explains where it was not fitted, of so much `before`."""
+        kind: Literal["records", "parts"] = "records" if self._is_elsewhere(term) else "parts"
+        before, least = before_of[kind], self._noise**2
+        after = self._square_left_out(term, self._folds[kind])
+        surely = before - least > CERTAIN * np.sqrt(2.0 / len(self._missing)) * least
+        explained = 1.0 - (after - least) / (before - least) if surely else 0.0
+        rank = explained - PER_COEFFICIENT * term.size - PER_PHASE * (term.when is not None)
+        return _Trial(term, explained, kind, rank - IN_PARTS * (kind == "parts" and len(self._slices) > 1))
+
+    def _is_elsewhere(self, term: _Term) -> bool:
+        """Whether there are several records with what the function says something about: each group of a category."""
+        values, inside = term.variable.values, self.inside(term.when)
+        groups = np.unique(values[inside]) if term.variable.is_category else [None]
+        member = [inside if group is None else inside & (values == group) for group in groups]
+        return all(sum(bool(each[part].any()) for part in self._slices) > 1 for each in member)
+
+    def curve(self, term: _Term) -> RemainderCurve:
+        """For a figure."""
+        count = self._tangent.shape[1]
+        solved = self._beside(term)
+        followed = self._tangent @ solved[:count]
+        size = np.maximum(np.abs(self._stress), 0.05 * float(np.max(np.abs(self._stress)))) / 100.0
+        scale = size if term.acts == "factor" else np.ones(len(self._missing))
+        inside, x = self.inside(term.when), term.variable.values
+        some = np.unique(np.linspace(0, len(x) - 1, POINTS).astype(int))
+        grid = np.unique(x[inside])
+        if not term.variable.is_category:
+            grid = np.linspace(float(grid[0]), float(grid[-1]), POINTS)
+        function = _basis(grid, x[inside], term) @ solved[count:]
+        return RemainderCurve(
+            label=term.variable.label,
+            unit="%" if term.acts == "factor" else "MPa",
+            x=x[some],
+            y=((self._missing - followed) / scale)[some],
+            inside=inside[some],
+            unloading=self.phases.get("unloading", np.zeros(len(x), dtype=bool))[some],
+            function_x=grid,
+            function_y=100.0 * function if term.acts == "factor" else function,
+        )
+
+    def _columns(self, term: _Term) -> FloatArray:
+        """The stress that each coefficient of a function adds, shape (n_samples, size) [MPa]."""
+        inside, values = self.inside(term.when), term.variable.values
+        columns = np.zeros((len(values), term.size))
+        columns[inside] = _basis(values[inside], values[inside], term)
+        return columns * self._stress[:, None] if term.acts == "factor" else columns
+
+    def _beside(self, term: _Term) -> FloatArray:
+        """Change of the parameters and coefficients of a function that together describe what is left best."""
+        columns, smooth = self._columns(term), _is_smooth(term)
+        together = self._weight[:, None] * np.hstack([self._tangent, columns])
+        return _solved(
+            together.T @ together, together.T @ (self._weight * self._missing), self._precision, smooth=smooth
+        )
+
+    def _square_left_out(self, term: _Term | None, folds: Sequence[NDArray[np.int_]]) -> float:
+        """Mean square of every fold as the others predict it, with a function or without [MPa^2]."""
+        raw, smooth = self._tangent, False
+        if term is not None:
+            raw, smooth = np.hstack([raw, self._columns(term)]), _is_smooth(term)
+        together, left = self._weight[:, None] * raw, self._weight * self._missing
+        normal, along = together.T @ together, together.T @ left
+        total = 0.0
+        for rows in folds:
+            own = together[rows]
+            solved = _solved(normal - own.T @ own, along - own.T @ left[rows], self._precision, smooth=smooth)
+            used = self._weight[rows] > 0.0
+            total += float(np.sum((self._missing[rows] - raw[rows] @ solved)[used] ** 2))
+        return total / max(int(np.count_nonzero(self._weight)), 1)
+
+
+def _weights(noise: NoiseModel) -> FloatArray:
+    """1 over the noise of every sample; 0 for outliers."""
+    weight = 1.0 / noise.deviation
+    weight[list(noise.spikes)] = 0.0
+    return np.asarray(weight)
+
+
+def _is_smooth(term: _Term) -> bool:
+    return not term.variable.is_category and term.size > SIZES[0]
+
+
+def _solved(normal: FloatArray, along: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
+    """Least squares with the priors of what was there before; of the function hardly more than that it is smooth."""
+    normal = normal.copy()
+    diagonal = np.diag(normal).copy()
+    count = len(precision)
+    size = len(diagonal) - count
+    if size:
+        bent = np.diff(np.eye(size), 2, axis=0) if smooth else np.zeros((0, size))
+        own = max(float(diagonal[count:].mean()), 1e-12 * max(float(diagonal.max()), 1e-300))
+        normal[count:, count:] += own * (RIDGE * np.eye(size) + SMOOTH * bent.T @ bent)
+    normal[:count, :count] += np.diag(precision)
+    scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
+    return np.asarray(np.linalg.lstsq(normal / np.outer(scale, scale), along / scale, rcond=1e-10)[0] / scale)
+
+
+def _basis(values: FloatArray, samples: FloatArray, term: _Term) -> FloatArray:
+    """Splines on the quantiles of the samples, constant beyond these, or a level for each group; shape (n, size)."""
+    if term.variable.is_category:
+        return np.asarray(values[:, None] == np.unique(samples)[None, :], dtype=np.float64)
+    low, high = float(samples.min()), float(samples.max())
+    if high <= low:
+        return np.column_stack([np.ones(len(values)), np.zeros((len(values), term.size - 1))])
+    x = (np.clip(values, low, high) - low) / (high - low)
+    if term.size == SIZES[0]:
+        return np.column_stack([np.ones(len(x)), x])
+    inner = np.quantile((samples - low) / (high - low), np.linspace(0.0, 1.0, term.size - 2)[1:-1])
+    knots = np.concatenate([np.zeros(4), np.clip(inner, 1e-6, 1.0 - 1e-6), np.ones(4)])
+    return np.asarray(BSpline.design_matrix(np.clip(x, 0.0, 1.0), knots, 3).toarray())

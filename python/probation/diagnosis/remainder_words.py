@@ -1,0 +1,75 @@
+"""A remainder in one sentence that a mechanician can act on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.diagnosis.variables import PHASES
+from probation.wording import listed, percent
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.diagnosis.remainder import Dependence, RemainderCurve
+
+ALIKE = 0.05
+"""Difference in what two variables explain below which the records do not tell which of them it is."""
+
+
+def description(
+    left_MPa: float,
+    noise_MPa: float,
+    depends_on: Sequence[Dependence],
+    curve: RemainderCurve | None,
+    most: float,
+) -> str:
+    """One sentence.
+
+    Parameters
+    ----------
+    left_MPa, noise_MPa : float
+    depends_on : sequence of Dependence
+    curve : RemainderCurve or None
+        Of the first of these.
+    most : float
+        The most that any function explains.
+    """
+    size = f"What is left, {left_MPa:.3g} MPa (noise {noise_MPa:.2g} MPa),"
+    if not depends_on or curve is None:
+        return (
+            f"{size} follows no single variable: a free function of the strain, the rate, the time or what else was "
+            f"recorded closes at most {percent(max(most, 0.0))} of it where it was not fitted."
+        )
+    first, *others = depends_on
+    judged = "records left out" if first.judged_on == "records" else "parts of the records left out"
+    text = f"{size} is a function of {function_name(first)}, which closes {percent(first.explained)} of it in {judged}"
+    text += f": {_size(curve)}"
+    alike = [function_name(each) for each in others if each.explained > first.explained - ALIKE]
+    if alike:
+        text += f"; these records do not tell it from a function of {listed(alike)}"
+    return f"{text}."
+
+
+def function_name(each: Dependence) -> str:
+    """Such as "the largest strain so far, on unloading only"."""
+    return each.title if each.when is None else f"{each.title}, {PHASES[each.when]}"
+
+
+def _size(curve: RemainderCurve) -> str:
+    """Where the function is largest, and how large: "the measured stress is up to 12 % below the law's"."""
+    at = int(np.argmax(np.abs(curve.function_y)))
+    value = float(curve.function_y[at])
+    unit = "%" if curve.unit == "%" else "MPa"
+    side = "above" if value > 0.0 else "below"
+    return f"the measured stress is up to {abs(value):.2g} {unit} {side} the law's, at {_place(curve, at)}"
+
+
+def _place(curve: RemainderCurve, at: int) -> str:
+    name, _, unit = curve.label.partition(" [")
+    value = float(curve.function_x[at])
+    if unit.startswith("log₁₀"):
+        return f"a strain rate of {10.0**value:.2g} 1/s"
+    shown = f"{value:.3g} {unit.rstrip(']')}".removesuffix(" –")
+    return f"{name} {shown}" if name[0].isupper() else f"a {name} of {shown}"
