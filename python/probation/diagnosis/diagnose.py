@@ -30,6 +30,7 @@ from probation.diagnosis.probabilities import (
     with_unseen,
 )
 from probation.diagnosis.remainder import is_left, remainder_of
+from probation.diagnosis.remainder_words import with_remainder
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
 from probation.diagnosis.search import Search
@@ -181,15 +182,18 @@ def diagnose(
     return Diagnosis(
         campaign=campaign.name,
         verdict="not_predicted" if case.predicted_only else verdict,
-        headline=headline(
-            verdict,
-            explanations,
-            parts,
-            chosen,
-            shrink,
-            gap,
-            worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
-            judge=case.judge,
+        headline=with_remainder(
+            headline(
+                verdict,
+                explanations,
+                parts,
+                chosen,
+                shrink,
+                gap,
+                worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
+                judge=case.judge,
+            ),
+            left,
         ),
         law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
         scheme=scheme_name,

@@ -1,6 +1,6 @@
 """What the gap that is left depends on: a free function of one variable, judged on records left out.
 
-docs/diagnosis-method.md, section 11.
+docs/diagnosis-method.md, section 12.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from scipy.interpolate import BSpline
 from probation.diagnosis.remainder_words import description
 from probation.diagnosis.variables import phases_of, variables_of
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.records.noise import scatter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -255,7 +256,7 @@ class _Problem:
         self, base: BaseFit, found: Refit, parameters: FloatArray, phases: dict[str, NDArray[np.bool_]], noise: float
     ) -> None:
         self.phases = phases
-        self._found, self._parameters, self._noise = found, parameters, noise
+        self._found, self._parameters = found, parameters
         self._precision = found.coordinates.prior.precision
         residual, jacobian = found.model.residual_and_jacobian(parameters)
         self._missing = -residual
@@ -263,6 +264,12 @@ class _Problem:
         self._tangent = jacobian * found.coordinates.slopes(parameters)
         self._weight = np.concatenate([_weights(each) for each in base.whitened.noises])
         self._slices = base.whitener.slices
+        # Kinks of a gap make the noise look larger than it is; from sample to sample they do not.
+        rough = [
+            len(view.data) * scatter(view.sampled(view.time), self._missing[part]) ** 2
+            for view, part in found.model.parts
+        ]
+        self._noise = min(noise, float(np.sqrt(sum(rough) / len(self._missing))))
         records = [np.arange(part.start, part.stop) for part in self._slices]
         parts = [np.array(block) for rows in records for block in np.array_split(rows, PARTS)]
         self._folds: dict[Literal["records", "parts"], list[NDArray[np.int_]]] = {"records": records, "parts": parts}
@@ -303,7 +310,8 @@ class _Problem:
         count = self._tangent.shape[1]
         solved = self._beside(term)
         followed = self._tangent @ solved[:count]
-        size = np.maximum(np.abs(self._stress), 0.05 * float(np.max(np.abs(self._stress)))) / 100.0
+        least = 0.05 * float(np.max(np.abs(self._stress)))
+        size = np.copysign(np.maximum(np.abs(self._stress), least), self._stress) / 100.0
         scale = size if term.acts == "factor" else np.ones(len(self._missing))
         inside, x = self.inside(term.when), term.variable.values
         some = np.unique(np.linspace(0, len(x) - 1, POINTS).astype(int))

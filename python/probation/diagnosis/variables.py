@@ -1,4 +1,4 @@
-"""What a gap may depend on: variables and phases of a test at every sample (docs/diagnosis-method.md, section 11)."""
+"""What a gap may depend on: variables and phases of a test at every sample (docs/diagnosis-method.md, section 12)."""
 
 from __future__ import annotations
 

@@ -105,9 +105,9 @@ def effects_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str
         (
             title(each.name),
             percent(each.probability),
-            percent(each.share) if each.name in found.best.effects else "–",
-            "" if each.alone is None else percent(each.alone),
-            "" if each.beside is None else percent(each.beside),
+            _signed(each.share) if each.name in found.best.effects else "–",
+            "" if each.alone is None else _signed(each.alone),
+            "" if each.beside is None else _signed(each.beside),
             "" if set(each.records) >= {*fitted} else ", ".join(names.get(name, name) for name in each.records),
         )
         for each in found.effects
@@ -199,3 +199,8 @@ def _rest(parts: list[float], what: str) -> str:
     few = max(parts)
     size = "below 1 %" if few < WORTH_A_ROW else f"of {percent(few)} at most"
     return f"… and {len(parts)} more {what}{'s' if len(parts) > 1 else ''} {size}"
+
+
+def _signed(part: float) -> str:
+    """A share, which is negative where an effect makes the misfit larger."""
+    return percent(part) if part > -0.005 else f"−{percent(-part)}"
