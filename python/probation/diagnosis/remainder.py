@@ -257,11 +257,13 @@ class _Problem:
     ) -> None:
         self.phases = phases
         self._found, self._parameters = found, parameters
-        self._precision = found.coordinates.prior.precision
         residual, jacobian = found.model.residual_and_jacobian(parameters)
         self._missing = -residual
         self._stress = residual + found.model.data
-        self._tangent = jacobian * found.coordinates.slopes(parameters)
+        own = _of_specimens(base.whitened.noises, base.whitener.slices)
+        self._count = jacobian.shape[1]
+        self._tangent = np.hstack([jacobian * found.coordinates.slopes(parameters), own])
+        self._precision = np.append(found.coordinates.prior.precision, np.ones(own.shape[1]))
         self._weight = np.concatenate([_weights(each) for each in base.whitened.noises])
         self._slices = base.whitener.slices
         # Kinks of a gap make the noise look larger than it is; from sample to sample they do not.
@@ -279,7 +281,7 @@ class _Problem:
 
     def with_function(self, term: _Term) -> FloatArray:
         """Parameters of the explanation refitted beside a function, to first order."""
-        solved = self._beside(term)[: len(self._precision)]
+        solved = self._beside(term)[: self._count]
         coordinates = self._found.coordinates
         moved = np.clip(coordinates.of(self._parameters) + solved, coordinates.bounds.lower, coordinates.bounds.upper)
         return coordinates.parameters(np.asarray(moved))
@@ -361,10 +363,20 @@ class _Problem:
         return total / max(int(np.count_nonzero(self._weight)), 1)
 
 
+def _of_specimens(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> FloatArray:
+    """What the deviations of every specimen do, of one standard deviation each, shape (n_samples, m) [MPa]."""
+    blocks: dict[str, FloatArray] = {}
+    for noise, rows in zip(noises, slices, strict=True):
+        if noise.specimen is not None:
+            shape = (slices[-1].stop, noise.specimen.shape[1])
+            blocks.setdefault(noise.specimen_id or noise.name, np.zeros(shape))[rows] = noise.specimen
+    return np.hstack(list(blocks.values())) if blocks else np.zeros((slices[-1].stop, 0))
+
+
 def _weights(noise: NoiseModel) -> FloatArray:
     """1 over the noise of every sample; 0 for outliers."""
     weight = 1.0 / noise.deviation
-    weight[list(noise.spikes)] = 0.0
+    weight[list(noise.outliers)] = 0.0
     return np.asarray(weight)
 
 
