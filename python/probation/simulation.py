@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from probation.law.creep import creep
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, as_scheme
 from probation.provenance import samples_sha256
+from probation.results.frames import data_frame
 from probation.results.reading import answer_in
 from probation.results.rendering import InOneLine, Plotted, rendered
 
@@ -59,6 +60,16 @@ class Simulation(Plotted, InOneLine):
         """What came out, with a plot for the terminal unless `picture` is off."""
         text: str = rendered(self, "summary", picture=picture)
         return text
+
+    def to_dataframe(self) -> Any:
+        """As a pandas DataFrame, with the headings of `to_csv`.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return data_frame({"time_s": self.time, "true_strain": self.true_strain, "true_stress_MPa": self.true_stress})
 
     def to_csv(self) -> str:
         """``time_s,true_strain,true_stress_MPa``: every number the shortest text that reads back the same."""

@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+import numpy as np
+
+from probation._arrays import one_of
 from probation.results.data import CURVE, Stored, WithCurves
+from probation.results.frames import by_record, rows_frame
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -277,6 +281,51 @@ class Diagnosis(Result, Stored):
     judged_on: str | None = None
     scatter: Scatter | None = None
     hangs_on_scatter: bool = False
+
+    def to_dataframe(self, what: Literal["causes", "where", "curves"] = "causes") -> Any:
+        """As a pandas DataFrame.
+
+        Parameters
+        ----------
+        what : {"causes", "where", "curves"}
+            A row an explanation, a row a region of the gap, or a row a sample of every record.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed, or for curves of a diagnosis that was read from JSON without them.
+        """
+        if one_of(what, "what", ("causes", "where", "curves")) == "causes":
+            causes = [
+                {
+                    "effects": " + ".join(each.effects) or "none",
+                    "probability": each.probability,
+                    "records": ", ".join(each.records),
+                    "in_answer_set": each.effects in self.answer_set,
+                }
+                for each in self.explanations
+            ]
+            return rows_frame(causes, ("effects", "probability", "records", "in_answer_set"))
+        if what == "where":
+            columns = ("record", "start_s", "end_s", "lowest_strain", "highest_strain", "rms_MPa", "share", "p_value")
+            regions = [
+                (each.record, *each.time_s, *each.true_strain, each.rms_MPa, each.share, each.p_value)
+                for each in self.located
+            ]
+            return rows_frame([dict(zip(columns, row, strict=True)) for row in regions], columns)
+        return by_record(
+            {
+                name: {
+                    "time_s": each.time,
+                    "true_strain": each.true_strain,
+                    "true_stress_MPa": each.data,
+                    "base_stress_MPa": each.base,
+                    "explained_stress_MPa": np.nan if each.explained is None else each.explained,
+                    "noise_MPa": each.noise,
+                }
+                for name, each in self.curves.items()
+            }
+        )
 
     @property
     def best(self) -> Explanation:

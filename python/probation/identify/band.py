@@ -12,7 +12,7 @@ from scipy.special import stdtrit
 from probation._arrays import as_number
 from probation.errors import InputError
 from probation.law.history import as_history
-from probation.results.extras import needed
+from probation.results.frames import data_frame, over_time
 from probation.results.rendering import Plotted
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class StressBand(Plotted):
         InputError
             Where pandas is not installed.
         """
-        return needed("pandas", "to_dataframe").DataFrame(self._columns())
+        return data_frame(self._columns())
 
     def to_xarray(self) -> Any:
         """As an xarray Dataset over "time_s".
@@ -93,11 +93,7 @@ class StressBand(Plotted):
         InputError
             Where xarray is not installed.
         """
-        columns = self._columns()
-        time = columns.pop("time_s")
-        return needed("xarray", "to_xarray").Dataset(
-            {name: ("time_s", values) for name, values in columns.items()}, coords={"time_s": time}
-        )
+        return over_time(self._columns())
 
     def _columns(self) -> dict[str, FloatArray]:
         return {

@@ -13,6 +13,7 @@ from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
 from probation.results.data import CURVE, Stored, from_curves
+from probation.results.frames import by_record, rows_frame
 from probation.results.labelled import LabelledMatrix
 from probation.results.rendering import Result, rendered
 from probation.wording import percentage
@@ -167,6 +168,39 @@ class Fit(Result, Stored):
     def bias_MPa(self) -> float:
         """Its low-frequency part: what the law does not describe."""
         return float(np.sqrt(max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)))
+
+    def to_dataframe(self, what: Literal["curves", "parameters"] = "curves") -> Any:
+        """As a pandas DataFrame.
+
+        Parameters
+        ----------
+        what : {"curves", "parameters"}
+            A row a sample of every record, measured and model; or a row a parameter.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed, or for curves of a fit that was read from JSON without them.
+        """
+        if one_of(what, "what", ("curves", "parameters")) == "parameters":
+            columns = ("parameter", "value", "se", "low95", "high95", "status", "unit")
+            rows = [
+                (outside_name(name), p.value, p.se, *(p.interval95 or (None, None)), p.status, p.unit)
+                for name, p in self.parameters.items()
+            ]
+            return rows_frame([dict(zip(columns, row, strict=True)) for row in rows], columns)
+        return by_record(
+            {
+                name: {
+                    "time_s": each.time,
+                    "true_strain": each.true_strain,
+                    "true_stress_MPa": each.true_stress,
+                    "model_stress_MPa": each.model_stress,
+                    "residual_MPa": each.fit_residual,
+                }
+                for name, each in self.records.items()
+            }
+        )
 
     @property
     def samples(self) -> int:

@@ -20,6 +20,7 @@ from probation.records.reading import read_records
 from probation.records.record import Noise, Record
 from probation.records.saving import save_campaign
 from probation.records.specimens import Specimens
+from probation.results.frames import by_record
 from probation.results.rendering import InOneLine
 
 
@@ -272,6 +273,16 @@ class Campaign(InOneLine):
             start=start,
         )
         return cls(name=name, records=records, law=law or LawSettings(), specimens=specimens or Specimens())
+
+    def to_dataframe(self) -> Any:
+        """All records as one pandas DataFrame, with a column "record"; `from_dataframe` takes it back.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return by_record({record.id: record.columns for record in self.records})
 
     def save(self, folder: str | PathLike[str]) -> Path:
         """Write campaign.toml and one CSV per record, every digit kept.

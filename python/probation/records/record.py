@@ -3,6 +3,7 @@
 import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +14,24 @@ from probation.errors import InputError
 from probation.limits import LARGEST, SMALLEST_PARAMETER
 from probation.records.checks import find_excess, find_fault, find_short_step
 from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
+from probation.results.frames import data_frame, over_time
 from probation.results.rendering import InOneLine
 
 FloatArray = NDArray[np.float64]
 
 CONTROLS = ("strain-rate", "displacement-rate", "hold", "cyclic", "other")
 RECORD_ROLES = ("identify", "held-out")
-SAMPLED = ("time", "true_strain", "true_stress", "strain_rate", "transverse_strain", "temperature")
+HEADINGS = {
+    "time": "time_s",
+    "true_strain": "true_strain",
+    "true_stress": "true_stress_MPa",
+    "strain_rate": "strain_rate_per_s",
+    "transverse_strain": "transverse_strain",
+    "temperature": "temperature_C",
+}
+"""What is sampled, and the heading of its column outside."""
+
+SAMPLED = tuple(HEADINGS)
 
 
 @dataclass(frozen=True)
@@ -141,6 +153,31 @@ class Record(InOneLine):
     def samples(self) -> dict[str, FloatArray]:
         """The sampled quantities that there are, by name, time first."""
         return {name: values for name in SAMPLED if (values := getattr(self, name)) is not None}
+
+    @property
+    def columns(self) -> dict[str, FloatArray]:
+        """The same by the headings of the default CSV form."""
+        return {HEADINGS[name]: values for name, values in self.samples.items()}
+
+    def to_dataframe(self) -> Any:
+        """As a pandas DataFrame, a row a sample, with the headings of the default CSV form.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return data_frame(self.columns)
+
+    def to_xarray(self) -> Any:
+        """As an xarray Dataset over "time_s".
+
+        Raises
+        ------
+        InputError
+            Where xarray is not installed.
+        """
+        return over_time(self.columns)
 
     @property
     def samples_sha256(self) -> str:

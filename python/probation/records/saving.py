@@ -10,15 +10,6 @@ from probation.law.settings import CompanionSettings, LawSettings
 from probation.records.record import Record
 from probation.records.specimens import Specimens
 
-_HEADINGS = {
-    "time": "time_s",
-    "true_strain": "true_strain",
-    "true_stress": "true_stress_MPa",
-    "strain_rate": "strain_rate_per_s",
-    "transverse_strain": "transverse_strain",
-    "temperature": "temperature_C",
-}
-
 
 def save_campaign(folder: Path, name: str, law: LawSettings, specimens: Specimens, records: Sequence[Record]) -> Path:
     """Write the CSVs, then the campaign.toml that names them.
@@ -39,9 +30,8 @@ def save_campaign(folder: Path, name: str, law: LawSettings, specimens: Specimen
 
 def csv_text(record: Record) -> str:
     """Write a record in the default CSV form; each number the shortest text that reads back the same."""
-    samples = record.samples
-    lines = [",".join(_HEADINGS[quantity] for quantity in samples)]
-    columns = [values.tolist() for values in samples.values()]
+    lines = [",".join(record.columns)]
+    columns = [values.tolist() for values in record.columns.values()]
     lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
 
