@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from probation._arrays import as_number
 from probation.calibration.calibrated import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
 from probation.certificate.hardening import reaches_hardening, regress_hardening
@@ -17,6 +16,7 @@ from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_cova
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.identify.fit import gap_of
+from probation.inference.gap import as_tolerance
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.progress import shows_progress
@@ -90,8 +90,7 @@ def certify(
     ----------
     André et al., section 5; Figures 3 to 6, S1; Tables 3, 4.
     """
-    if as_number(tolerance, "tolerance") <= 0.0:
-        raise InputError(f"tolerance is {tolerance!r}; a positive fraction of the largest stress is needed")
+    as_tolerance(tolerance)
     if len(campaign.records) < 2:
         raise InputError(
             f"campaign {campaign.name!r}: found one record, expected at least two: "

@@ -66,14 +66,17 @@ def decide(
         f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
     )
-    if gap is not None and not gap.exists:
-        if failing and worst.passes:
-            changes = " and ".join(_change(name, parameters[name]) for name in failing)
-            return (
-                "intrinsic",
-                f"there is no gap: one set of parameters serves every record, though {changes}; {predicted}",
-            )
-        predicted += ", and no record holds more than noise and the uncertainty of the parameters"
+    if gap is not None and not gap.exists and not worst.passes:
+        return "not_intrinsic", (
+            f"{predicted}, though there is no gap: noise, the uncertainty of the parameters and the scatter of "
+            "specimens make as much, so that these records do not determine the law well enough"
+        )
+    if gap is not None and not gap.exists and failing:
+        changes = " and ".join(_change(name, parameters[name]) for name in failing)
+        return "intrinsic", (
+            "there is no gap: one set of parameters serves every record, and noise and the scatter of specimens "
+            f"explain that {changes}; {predicted}"
+        )
     if not failing and worst.passes:
         if gap is not None and gap.exists:
             predicted += f"; {_small_gap(gap)}"

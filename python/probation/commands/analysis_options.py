@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 
 from probation.errors import InputError
 
@@ -71,3 +72,14 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 1")
     return int(text)
+
+
+def fraction(text: str) -> float:
+    """A number between 0 and 1, such as 0.05; for `type=`."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < 1.0:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected a fraction between 0 and 1, such as 0.05")
+    return value

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import math
 
+from probation.commands.analysis_options import fraction
 from probation.commands.campaign_options import add_campaign, add_data_files, add_held_out, campaign_from, with_held_out
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import shown
@@ -33,7 +33,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--tolerance",
         metavar="FRACTION",
-        type=_fraction,
+        type=fraction,
         default=0.05,
         help="systematic error that is let pass, as a fraction of a record's largest stress (0.05)",
     )
@@ -59,13 +59,3 @@ def run(options: argparse.Namespace) -> int:
         )
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
-
-
-def _fraction(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < 1.0:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a fraction between 0 and 1, such as 0.05")
-    return value

@@ -11,6 +11,7 @@ from probation.commands.analysis_options import (
     add_threads,
     check_effects,
     effects_from_options,
+    fraction,
     seconds,
 )
 from probation.commands.campaign_options import (
@@ -97,6 +98,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=seconds,
         help="give the best answer that is found in so many seconds, and say what was not tried (no limit)",
     )
+    parser.add_argument(
+        "--tolerance",
+        metavar="FRACTION",
+        type=fraction,
+        default=0.001,
+        help="gap, as a fraction of a record's largest stress, below which it does not matter (0.001)",
+    )
     add_delivery(parser)
     return parser
 
@@ -128,6 +136,7 @@ def run(options: argparse.Namespace) -> int:
             seed=options.seed,
             threads=options.threads,
             budget=options.budget,
+            tolerance=options.tolerance,
             progress=lambda part: advance(round(100 * part), 100, ""),
         )
     deliver(answer.summary(), outputs_with_report(answer, options))

@@ -42,7 +42,7 @@ from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law, with_joint_noise
-from probation.inference.gap import find_gap, predictions
+from probation.inference.gap import TOLERANCE, as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
@@ -79,6 +79,7 @@ def diagnose(
     threads: int | None = None,
     design: bool = True,
     budget: float | None = None,
+    tolerance: float = TOLERANCE,
     progress: Callable[[float], None] | None = None,
 ) -> Diagnosis:
     """Diagnose the gap between the campaign's base law and its records.
@@ -105,6 +106,9 @@ def diagnose(
     budget : float, optional [s]
         Time after which the best answer so far is given; `skipped` says what was not tried. The base fit and the test
         for a gap are always done.
+    tolerance : float
+        A gap below so much of the largest stress of every record does not matter: the headline says so and names no
+        cause. By default 0.1 %, a fifth of what the force of a testing machine of class 0.5 (ISO 7500-1) may err by.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -115,9 +119,11 @@ def diagnose(
     Raises
     ------
     InputError
-        For an unknown effect or parameter, suggesting the nearest, and for a budget that is not positive.
+        For an unknown effect or parameter, suggesting the nearest, and for a budget or a tolerance that is not
+        positive.
     """
     deadline = Budget(budget)
+    as_tolerance(tolerance)
     scheme_name = identifying(scheme)[0].name
     considered = catalogue(effects)
     workers = as_threads(threads) or usual_threads()
@@ -167,8 +173,7 @@ def diagnose(
     chosen = answer_set(weighed)
     if gap.exists:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
-    best = weighed[0]
-    explanations = explanations_of(weighed, judged)
+    best, explanations = weighed[0], explanations_of(weighed, judged)
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
@@ -192,8 +197,9 @@ def diagnose(
                 gap,
                 worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
                 judge=case.judge,
+                tolerance=tolerance,
             ),
-            left,
+            left if gap.matters(tolerance) else None,
         ),
         law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
         scheme=scheme_name,
@@ -201,6 +207,8 @@ def diagnose(
         gap=gap.test,
         held_out=gap.held_out,
         size=gap.size,
+        tolerance=tolerance,
+        matters=gap.matters(tolerance),
         judged_on=case.judge,
         rms_MPa=fitted.misfit[0] if case.predicted_only else shrink.identify.before_MPa,
         noise_MPa=fitted.misfit[1] if case.predicted_only else shrink.identify.noise_MPa,

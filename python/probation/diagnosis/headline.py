@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from probation.diagnosis.attribution import WORTH_NAMING
 from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effect
-from probation.wording import listed, percent
+from probation.inference.gap import TOLERANCE
+from probation.wording import listed, percent, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,6 +49,7 @@ def headline(
     *,
     worse: Sequence[Worse] = (),
     judge: str | None = None,
+    tolerance: float = TOLERANCE,
 ) -> str:
     """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 
@@ -61,6 +63,8 @@ def headline(
         Held-out records that the best explanation predicts worse than the base law.
     judge : str, optional
         The predicted record that no cause was fitted to, where others were.
+    tolerance : float
+        Part of the largest stress below which a gap does not matter.
     """
     identify, best = shrink.identify, explanations[0]
     fitted = len(shrink.records) - len(gap.held_out)
@@ -71,6 +75,8 @@ def headline(
             f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
             f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g}){_of_specimens(gap)}."
         )
+    if not gap.matters(tolerance):
+        return _small(gap, tolerance, identify.noise_MPa)
     found = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
     if worse:
         found = _refused(best, identify, worse)
@@ -97,6 +103,18 @@ def _of_specimens(gap: Gap) -> str:
     if not gap.hangs_on_scatter:
         return f"; {gap.scatter.text}" if gap.scatter.source == "replicates" else ""
     return f"; {gap.scatter.text}, and if they were alike there would be a gap"
+
+
+def _small(gap: Gap, tolerance: float, noise: float) -> str:
+    """Of a gap that does not matter: no cause is named."""
+    size = gap.size
+    _, high = size.interval_MPa
+    missed = "" if gap.in_fitted else ", which is only predicted"
+    return (
+        f"A gap that does not matter: {size.rms_MPa:.2g} MPa (at most {high:.2g}) in {size.record}{missed}, "
+        f"{percentage(size.relative)} % of its largest stress, where {percentage(tolerance)} % are let pass; "
+        f"the noise is {noise:.2g} MPa."
+    )
 
 
 def _cause(

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
+from probation.certificate.certify import TOLERANCE as CERTIFICATE_TOLERANCE
+from probation.inference.gap import TOLERANCE
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, rows_frame
 from probation.results.rendering import Result
@@ -217,6 +219,10 @@ class Diagnosis(Result, Stored):
         How far specimens differ: estimated, assumed or stated.
     hangs_on_scatter : bool
         Whether there would be a gap if specimens were alike, and is none as they differ.
+    tolerance : float
+        Part of the largest stress below which a gap does not matter.
+    matters : bool
+        Whether the gap may be larger.
     judged_on : str or None
         Where records were not predicted: the one that no cause was fitted to.
     rms_MPa, noise_MPa : float
@@ -281,6 +287,8 @@ class Diagnosis(Result, Stored):
     judged_on: str | None = None
     scatter: Scatter | None = None
     hangs_on_scatter: bool = False
+    tolerance: float = TOLERANCE
+    matters: bool = True
 
     def to_dataframe(self, what: Literal["causes", "where", "curves"] = "causes") -> Any:
         """As a pandas DataFrame.
@@ -354,7 +362,14 @@ class Diagnosis(Result, Stored):
                 "p_value_low_noise": self.gap.p_value_low_noise,
                 "p_value_high_noise": self.gap.p_value_high_noise,
                 "level": self.gap.level,
-                "size": None if self.size is None else self.size.to_dict(),
+                "size": None
+                if self.size is None
+                else {
+                    **self.size.to_dict(),
+                    "tolerance": self.tolerance,
+                    "matters": self.matters,
+                    "of_certificate_tolerance": self.size.relative / CERTIFICATE_TOLERANCE,
+                },
             },
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
             "judged_on": self.judged_on,

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation._arrays import as_number
 from probation.detection.gap_test import GapTest, GapTester
 from probation.detection.sharp_gap import with_sharp
+from probation.errors import InputError
 from probation.inference.candidate import WhitenedColumns
 from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
@@ -27,6 +29,13 @@ if TYPE_CHECKING:
     from probation.inference.scatter import Scatter
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
+
+TOLERANCE = 0.001
+"""Gap, over the largest stress of its record, that is said not to matter: a fifth of what the force of a testing
+machine of class 0.5 (ISO 7500-1) may err by."""
+
+FRACTION = 0.5
+"""Gap, over the noise, below which it is declared only if it survives other models of the noise."""
 
 TWO_SIDED = 1.96
 """Standard errors on either side of an estimate that hold 95 %."""
@@ -158,9 +167,18 @@ class Gap:
 
         Where there is no gap it is that of a fitted record, and what a gap might have that was not seen.
         """
+        return max(self._looked_at, key=lambda each: each.relative)
+
+    def matters(self, tolerance: float = TOLERANCE) -> bool:
+        """Whether the gap may be larger than so much of a record's largest stress, in any record that holds it."""
+        return self.exists and max(each.relative_interval[1] for each in self._looked_at) >= tolerance
+
+    @property
+    def _looked_at(self) -> tuple[GapSize, ...]:
+        """Sizes of the fitted records, or of those missed if only they hold a gap."""
         predicted_only = self.in_held_out and not self.in_fitted
         names = self.missed if predicted_only else [name for name in self.sizes if name not in self.held_out]
-        return max((self.sizes[name] for name in names), key=lambda each: each.relative)
+        return tuple(self.sizes[name] for name in names)
 
     def to_dict(self) -> dict[str, Any]:
         """As in `gap` of docs/formats.md, for fits and certificates."""
@@ -171,6 +189,19 @@ class Gap:
             "size": self.size.to_dict(),
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
         }
+
+
+def as_tolerance(tolerance: float) -> float:
+    """A tolerance that is possible.
+
+    Raises
+    ------
+    InputError
+        Unless it is positive.
+    """
+    if as_number(tolerance, "tolerance") <= 0.0:
+        raise InputError(f"tolerance is {tolerance!r}; a positive fraction of the largest stress is needed")
+    return tolerance
 
 
 def find_gap(
@@ -188,16 +219,16 @@ def find_gap(
         Whether to test the predictions, too.
     threads, seed : int
     """
-    test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
-    alike = None
-    if base.scatter.any and not test.rejected:
-        columns = WhitenedColumns.of(base.signals, Whitener(base.alike.noises), len(base.alike))
-        alike = with_sharp(GapTester(base.alike, columns.by_effect(), seed=seed)(), base.alike)
     stress = {view.id: float(np.max(np.abs(view.data))) for view in base.views}
     sizes = {
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
+    test = _survivor(base, sizes, seed)
+    alike = None
+    if base.scatter.any and not test.rejected:
+        columns = WhitenedColumns.of(base.signals, Whitener(base.alike.noises), len(base.alike))
+        alike = with_sharp(GapTester(base.alike, columns.by_effect(), seed=seed)(), base.alike)
     held_out = {}
     for record, noise in zip(*predictions(base), strict=True) if predicted else ():
         whitened = Whitened.of([record], [noise])
@@ -206,9 +237,39 @@ def find_gap(
         columns = WhitenedColumns.of(signals, Whitener((noise,)), len(record))
         found = with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
         error = whitened.clean(0)
-        sizes[record.name] = _size(error, noise, stress[record.name])
+        sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
     return Gap(test, held_out, sizes, base.scatter, alike)
+
+
+def _survivor(base: BaseFit, sizes: Mapping[str, GapSize], seed: int) -> GapTest:
+    """The test of the fitted records; of a gap that is a fraction of the noise, the most doubtful of its answers.
+
+    Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
+    level 1.25 times as high, and a drift that goes along with an effect as with anything else.
+    """
+    test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
+    noises = base.whitened.noises
+    if not test.rejected or any(sizes[noise.name].rms_MPa > FRACTION * _rms(noise.deviation) for noise in noises):
+        return test
+    drifting = tuple(_drifting(noise) for noise in noises)
+    whitened = Whitened.of(base.whitened.records, drifting)
+    columns = WhitenedColumns.of(base.signals, Whitener(drifting), len(whitened))
+    other = with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
+    return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
+
+
+def _drifting(noise: NoiseModel) -> NoiseModel:
+    """The noise with all of its drift along any direction, that of effects included."""
+    if noise.drift is None or noise.nuisance_drift is None:
+        return noise
+    return replace(noise, drift=np.hstack([noise.drift, noise.nuisance_drift]), nuisance_drift=None)
+
+
+def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:
+    """A record's own noise: without what parameters and specimens do to its prediction."""
+    carried = np.zeros((len(record), 0)) if record.carried is None else record.carried
+    return replace(noise, carried=carried, specimen=None)
 
 
 def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseModel, ...]]:

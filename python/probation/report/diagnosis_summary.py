@@ -5,6 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
+from probation.certificate.certify import TOLERANCE as CERTIFICATE_TOLERANCE
 from probation.report.diagnosis_tables import (
     MOST,
     effects_table,
@@ -67,6 +68,7 @@ def gap_text(found: Diagnosis) -> str:
         f"MPa. A gap is declared where noise alone would look like this in fewer than {100 * gap.level:g} % of all "
         f"cases; here it is {_cases(gap.p_value)}."
     )
+    text += size_text(found)
     if gap.robust:
         return text
     return (
@@ -83,6 +85,25 @@ def specimens_text(found: Diagnosis) -> str:
     if found.scatter.any and found.verdict == "no_gap":
         text += "; if they were alike there would " + ("be a gap" if found.hangs_on_scatter else "still be no gap")
     return f"{text[:1].upper()}{text[1:]}."
+
+
+def size_text(found: Diagnosis) -> str:
+    """How large the gap is beside the stress, and whether that matters; empty where nothing is known of it."""
+    size = found.size
+    if size is None:
+        return ""
+    low, high = size.interval_MPa
+    if found.verdict == "no_gap":
+        return (
+            f" A gap of up to {high:.2g} MPa ({percentage(size.relative_interval[1])} % of the largest stress of "
+            f"{size.record}) could be there unseen."
+        )
+    does = "" if found.matters else ", so that it does not matter"
+    return (
+        f" Without the noise the gap is {size.rms_MPa:.3g} MPa rms (95 %: {low:.3g} to {high:.3g}) in {size.record}: "
+        f"{percentage(size.relative)} % of the largest stress there; {percentage(found.tolerance)} % are let pass"
+        f"{does}, {percentage(CERTIFICATE_TOLERANCE)} % by a certificate."
+    )
 
 
 def _cases(p_value: float) -> str:
