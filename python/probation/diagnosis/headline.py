@@ -109,7 +109,7 @@ def _small(gap: Gap, tolerance: float, noise: float) -> str:
     """Of a gap that does not matter: no cause is named."""
     size = gap.size
     _, high = size.interval_MPa
-    missed = "" if gap.in_fitted else ", which is only predicted"
+    missed = ", which is only predicted" if size.record in gap.held_out else ""
     return (
         f"A gap that does not matter: {size.rms_MPa:.2g} MPa (at most {high:.2g}) in {size.record}{missed}, "
         f"{percentage(size.relative)} % of its largest stress, where {percentage(tolerance)} % are let pass; "

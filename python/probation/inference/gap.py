@@ -163,7 +163,7 @@ class Gap:
 
     @property
     def size(self) -> GapSize:
-        """Of the record in which it is largest beside the stress: of those fitted, or of those missed if only they are.
+        """Of the record in which it is largest beside the stress, among the fitted ones and those that are missed.
 
         Where there is no gap it is that of a fitted record, and what a gap might have that was not seen.
         """
@@ -175,9 +175,9 @@ class Gap:
 
     @property
     def _looked_at(self) -> tuple[GapSize, ...]:
-        """Sizes of the fitted records, or of those missed if only they hold a gap."""
-        predicted_only = self.in_held_out and not self.in_fitted
-        names = self.missed if predicted_only else [name for name in self.sizes if name not in self.held_out]
+        """Sizes of the fitted records, if they hold a gap or none does, and of those that are missed."""
+        fitted = [name for name in self.sizes if name not in self.held_out]
+        names = [*(fitted if self.in_fitted or not self.missed else ()), *self.missed]
         return tuple(self.sizes[name] for name in names)
 
     def to_dict(self) -> dict[str, Any]:
