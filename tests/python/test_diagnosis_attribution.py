@@ -94,7 +94,7 @@ def test_a_headline_without_the_small_effects_does_not_call_what_it_names_its_ow
         parts,
         [("delayed_hardening", "self_heating"), ("self_heating",)],
         SimpleNamespace(identify=Closure(4.0, 0.05, 0.05, 0.999, None, ""), records={"a": None}, held_out=None),
-        SimpleNamespace(held_out={}, in_fitted=True),
+        SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
     )
     assert text.startswith("Self-heating explains the gap: with it the misfit falls from 4 to 0.2 MPa")
     assert "hardening" not in text
