@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.planned_tests import Laboratory, planned_tests
-from probation.design.predicted import Explanation, outcome, predictions
+from probation.design.predicted import Explanation, Prediction, outcome, predictions
 from probation.errors import InputError
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
@@ -49,12 +49,18 @@ class RankedTest:
         The same at three times the noise: room for what no noise model knows, such as other specimens.
     information : float
         Expected gain on which explanation it is [bit].
+    what : str
+        One sentence.
+    separates : list of list of str
+        As in `NextTest`.
     """
 
     test: PlannedTest
     probability_after: float
     probability_in_rough_hands: float
     information: float
+    what: str
+    separates: list[list[str]]
 
     @property
     def worth(self) -> float:
@@ -161,29 +167,63 @@ def next_test(
     known = [Explanation.of(*each, noises) for each in explanations]
     base = known[int(np.argmax(prior))].parameters[: model.base_count]
 
-    def work(test: PlannedTest) -> tuple[RankedTest, FloatArray] | None:
+    titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
+    names = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in answers]
+    before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
+
+    def work(test: PlannedTest) -> RankedTest | None:
         try:
             ways = predictions(test, model, base, known, noises)
         except UNSOLVABLE:
             return None
-        found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
-        rough = outcome([way.through(ROUGH) for way in ways], prior, group, draws=DRAWS, seed=seed)
-        return RankedTest(test, found.probability, rough.probability, found.information), found.pairwise
+        return judged(test, ways, prior, group, [list(each) for each in answers], names, before, seed=seed)
 
     tests = planned_tests(Laboratory.of(model, base))
     worked = [each for each in in_parallel(work, tests, threads) if each is not None]
     if not worked:
         return None
-    worked.sort(key=lambda each: -each[0].worth)
-    ranking = tuple(ranked for ranked, _ in worked)
-    chosen, pairwise = worked[0]
-    separated, surely = _separated(pairwise)
-    before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
-    separates = [list(answers[at]) for at in separated]
-    titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
-    named = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in separates]
-    what = _sentence(chosen, named, surely, before)
-    return NextTest(what, separates, before, chosen.probability_after, chosen.test, ranking)
+    worked.sort(key=lambda each: -each.worth)
+    chosen = worked[0]
+    return NextTest(chosen.what, chosen.separates, before, chosen.probability_after, chosen.test, tuple(worked))
+
+
+def judged(
+    test: PlannedTest,
+    ways: Sequence[Prediction],
+    prior: FloatArray,
+    group: Sequence[int],
+    answers: Sequence[list[str]],
+    names: Sequence[str],
+    before: float,
+    *,
+    seed: int,
+) -> RankedTest:
+    """What to expect of a test.
+
+    Parameters
+    ----------
+    test : PlannedTest
+    ways : sequence of Prediction
+        How it may come out.
+    prior, group
+        As in `outcome`.
+    answers, names : sequence
+        What each group stands for, as it leaves the program and for people.
+    before : float
+        Probability of a right answer without the test.
+    seed : int
+    """
+    found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
+    rough = outcome([way.through(ROUGH) for way in ways], prior, group, draws=DRAWS, seed=seed)
+    separated, surely = _separated(found.pairwise)
+    return RankedTest(
+        test=test,
+        probability_after=found.probability,
+        probability_in_rough_hands=rough.probability,
+        information=found.information,
+        what=_sentence(test.what, found.probability, [names[at] for at in separated], surely, before),
+        separates=[answers[at] for at in separated],
+    )
 
 
 def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
@@ -195,9 +235,8 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
     return (surely, True) if surely else (best, False)
 
 
-def _sentence(chosen: RankedTest, names: Sequence[str], surely: bool, before: float) -> str:
+def _sentence(what: str, after: float, names: Sequence[str], surely: bool, before: float) -> str:
     told = f"{', '.join(names[:-1])} and {names[-1]}"
-    what, after = chosen.test.what, chosen.probability_after
     if after < before + HELPS:
         best = f"{what[0].lower()}{what[1:]}"
         return f"None of the tests considered helps to discriminate between {told}; the best of them: {best}."

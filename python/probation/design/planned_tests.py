@@ -33,6 +33,8 @@ SPECIMEN = 3600.0
 """Effort of making, measuring and mounting a specimen, as time [s]."""
 
 _FEWEST, _MOST = 200, 1000
+_HOURS = 180
+"""Minutes from which on a cost is said in hours."""
 _LOADED = 0.6
 """Part of the yield force that a dead weight hangs on the specimen."""
 
@@ -84,6 +86,17 @@ class PlannedTest:
     def effort(self) -> float:
         """Time that it costs, preparation included [s]."""
         return self.duration + self.preparation
+
+    @property
+    def cost(self) -> str:
+        """What it takes: "one specimen, 20 minutes"; the time on the machine."""
+        specimen = "one specimen" if self.preparation > 0.0 else "no specimen"
+        if self.gauge_length != 1.0:
+            specimen += f" of {self.gauge_length:g} times the gauge length"
+        minutes = max(round(self.duration / 60.0), 1)
+        if minutes < _HOURS:
+            return f"{specimen}, {minutes} minute{'s' if minutes > 1 else ''}"
+        return f"{specimen}, {self.duration / 3600.0:.2g} hours"
 
     def to_dict(self) -> dict[str, object]:
         """For JSON."""

@@ -179,9 +179,7 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     following, apart = (
-        _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed)
-        if design
-        else (None, None)
+        _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed) if design else ((), None)
     )
     told(1.0)
     return Diagnosis(
@@ -225,7 +223,8 @@ def diagnose(
         effects=parts.effects,
         answer_set=chosen,
         shrink=shrink,
-        next_test=following,
+        next_test=following[0] if following else None,
+        next_tests=following,
         curves=curves,
         warnings=(*thinned, *_warnings(base, gap.test.robust)),
         data_sha256=campaign.data_hash,
@@ -310,12 +309,12 @@ def _designed(
     budget: Budget,
     threads: int,
     seed: int,
-) -> tuple[NextTest | None, Isolability | None]:
+) -> tuple[tuple[NextTest, ...], Isolability | None]:
     """The next test, and what these tests can discriminate."""
     if budget.spent(FOR_THE_DESIGN):
         skipping.part("the next test, and what these tests can discriminate", budget.why)
-        return None, None
-    following = None
+        return (), None
+    following: tuple[NextTest, ...] | None = None
     if is_stretched(base):
         following = skipping.tried(
             "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=threads, seed=seed)
@@ -324,7 +323,7 @@ def _designed(
         "what these tests can discriminate",
         lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=threads),
     )
-    return following, apart
+    return following or (), apart
 
 
 def _judged(

@@ -6,18 +6,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.next_test import next_test
+from probation.design.next_test import HELPS, next_test
 from probation.diagnosis.result import UNKNOWN, NextTest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from probation.design.next_test import RankedTest
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.inference.base_fit import BaseFit
 
 MOST = 4
 """Explanations that a test is planned for, the most probable ones."""
+
+MOST_TESTS = 5
+"""Tests that are listed."""
 
 FORMS = 2
 """Forms and places of an explanation that are predicted, the best ones ..."""
@@ -39,8 +43,8 @@ def next_test_of(
     *,
     threads: int,
     seed: int,
-) -> NextTest | None:
-    """What to do next; None where one explanation, or none that could be predicted, is left.
+) -> tuple[NextTest, ...]:
+    """Tests to do next, the most worth first; none where one explanation, or none that could be predicted, is left.
 
     Parameters
     ----------
@@ -54,7 +58,7 @@ def next_test_of(
     """
     open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][:MOST]
     if len(open_still) < 2:
-        return None
+        return ()
     entries = []
     for each in open_still:
         best = each.hypothesis.evidence.log_evidence
@@ -71,7 +75,23 @@ def next_test_of(
             if part > 0.01
         ]
     found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed)
-    if found is None:
-        return None
-    separates = tuple(tuple(effects) for effects in found.separates)
-    return NextTest(found.what, separates, found.probability_before, found.probability_after)
+    return () if found is None else as_answer(found.ranking, found.probability_before)
+
+
+def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, ...]:
+    """The best test of every kind that helps, the most worth first; the best of all in any case."""
+    of_kind: dict[str, RankedTest] = {}
+    for each in ranking:
+        of_kind.setdefault(each.test.name, each)
+    first, *others = of_kind.values()
+    helpful = [each for each in others if each.probability_after >= before + HELPS]
+    return tuple(
+        NextTest(
+            what=each.what,
+            separates=tuple(tuple(names) for names in each.separates),
+            probability_before=before,
+            probability_after=each.probability_after,
+            cost=each.test.cost,
+        )
+        for each in (first, *helpful[: MOST_TESTS - 1])
+    )

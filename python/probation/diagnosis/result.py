@@ -184,12 +184,36 @@ class Shrink:
 
 @dataclass(frozen=True)
 class NextTest:
-    """The experiment that best separates what is still ambiguous."""
+    """An experiment that separates what is still ambiguous.
+
+    Attributes
+    ----------
+    what : str
+        One sentence.
+    separates : tuple of tuple of str
+        Effects of the explanations that it discriminates; where none explains, variables that the remainder may depend
+        on.
+    probability_before, probability_after : float
+        Of the answer being right, now and after the test.
+    cost : str
+        Such as "one specimen, 20 minutes".
+    """
 
     what: str
     separates: tuple[tuple[str, ...], ...]
     probability_before: float
     probability_after: float
+    cost: str = ""
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `next_tests` of docs/formats.md."""
+        return {
+            "what": self.what,
+            "separates": [list(each) for each in self.separates],
+            "probability_before": self.probability_before,
+            "probability_after": self.probability_after,
+            "cost": self.cost,
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,6 +264,7 @@ class Diagnosis(Result, Stored):
         Every explanation that the data cannot tell from the best, best first.
     shrink : Shrink
     next_test : NextTest or None
+        The first of `next_tests`.
     curves : dict of str to RecordCurves
     warnings : tuple of str
         Fall-backs for want of data, records that stand out, ...
@@ -251,6 +276,8 @@ class Diagnosis(Result, Stored):
         How probable each effect is, and how much of the gap it closes; by share.
     remainder : Remainder or None
         What the best explanation leaves beyond the noise, described; None where it leaves nothing.
+    next_tests : tuple of NextTest
+        The best test of every kind that helps, the most worth first.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
     """
@@ -282,6 +309,7 @@ class Diagnosis(Result, Stored):
     effects: tuple[EffectShare, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     remainder: Remainder | None = None
+    next_tests: tuple[NextTest, ...] = ()
     held_out: Mapping[str, HeldOutGap] = field(default_factory=dict)
     size: GapSize | None = None
     judged_on: str | None = None
@@ -391,14 +419,8 @@ class Diagnosis(Result, Stored):
                 "regions": [{**_located(place), **each.to_dict()} for place, each in shrink.regions],
                 "ceiling": None if shrink.ceiling is None else shrink.ceiling.to_dict(),
             },
-            "next_test": None
-            if self.next_test is None
-            else {
-                "what": self.next_test.what,
-                "separates": [list(each) for each in self.next_test.separates],
-                "probability_before": self.next_test.probability_before,
-                "probability_after": self.next_test.probability_after,
-            },
+            "next_test": None if self.next_test is None else self.next_test.to_dict(),
+            "next_tests": [each.to_dict() for each in self.next_tests],
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
             "remainder": None if self.remainder is None else self.remainder.to_dict(),
             "skipped": [each.to_dict() for each in self.skipped],

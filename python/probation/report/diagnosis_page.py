@@ -15,6 +15,7 @@ from probation.report.diagnosis_tables import (
     held_out_table,
     leading,
     mended_by,
+    next_tests_table,
     shrink_table,
     where_table,
     which_table,
@@ -221,7 +222,10 @@ def _next_test(found: Diagnosis) -> Section:
         "explanations that are still open would answer. The chance is a forecast, made with the noise of your own "
         "records."
     )
-    return Section("The next test", (text, how))
+    parts: list[str | Table | Picture] = [text, how]
+    if len(found.next_tests) > 1:
+        parts.append(next_tests_table(found))
+    return Section("The next test", tuple(parts))
 
 
 def _isolability(found: Diagnosis) -> Section:

@@ -117,7 +117,8 @@ def next_test_text(found: Diagnosis) -> str:
     test = found.next_test
     if test is None:
         return ""
-    return f"Next test: {test.what.rstrip('.')}."
+    cost = f" ({test.cost})" if test.cost else ""
+    return f"Next test: {test.what.rstrip('.')}{cost}."
 
 
 def signs(found: Diagnosis) -> list[str]:

@@ -154,6 +154,16 @@ def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]
     return Table(headings, tuple(rows[:kept]), caption), rest
 
 
+def next_tests_table(found: Diagnosis) -> Table:
+    """What could be done next, the most worth first."""
+    rows = tuple(
+        (each.what.partition(": ")[0], each.cost, percent(each.probability_after)) for each in found.next_tests
+    )
+    return Table(
+        ("test", "cost", "right answer after it"), rows, "What could be done next, the most worth first", left=2
+    )
+
+
 def base_table(found: Diagnosis) -> Table:
     """Parameters of the base law as fitted without any effect."""
     rows = tuple(
