@@ -2,9 +2,10 @@
 
 `python -m bench.blind_tempering DIR` after `probation blind make --split calibrate` and `solve`: seconds. For the
 campaigns where a gap was seen, the evidence behind the answers' probabilities is taken to other powers; the one with
-the best mean log score, and whose probabilities come true, is `TEMPERED` of diagnosis/probabilities.py. For the others
-the p-value of the gap test speaks as if gaps that are not declared had other distributions of it: `SHY`. Explanations
-that an answer does not list count as 1e-4; look-alikes from outside are left out, as in the calibration error.
+the best mean log score, and whose probabilities come true, is `EVIDENCE.evidence_power` of diagnosis/probabilities.py.
+For the others the p-value of the gap test speaks as if gaps that are not declared had other distributions of it:
+`EVIDENCE.undeclared_gap_power`. Explanations that an answer does not list count as 1e-4; look-alikes from outside are
+left out, as in the calibration error.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.diagnosis.probabilities import SHY, TEMPERED, TINY, log_prior
+from probation.diagnosis.probabilities import TINY, log_prior
+from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.answer import read_answer
 from probation_studies.blind.scores.case import Case
@@ -42,7 +44,7 @@ def scored(found, truth, power):
     """Log score, probability of the leading explanation, and whether it is right."""
     names = sorted({*found, truth})
     prior = np.array([log_prior(each, EFFECTS) for each in names])
-    evidence = (np.log([max(found.get(each, 0.0), LEAST) for each in names]) - prior) / TEMPERED
+    evidence = (np.log([max(found.get(each, 0.0), LEAST) for each in names]) - prior) / EVIDENCE.evidence_power
     score = power * evidence + prior
     chance = np.exp(score - score.max())
     chance /= chance.sum()
@@ -53,7 +55,7 @@ def scored(found, truth, power):
 def without_a_gap(found, truth, p_value, shy):
     """Log score, and probability of "no effect is needed", which leads."""
     p_value = max(p_value, TINY)
-    told = p_value ** (SHY - shy) * SHY / shy * found[()]
+    told = p_value ** (EVIDENCE.undeclared_gap_power - shy) * EVIDENCE.undeclared_gap_power / shy * found[()]
     whole = told + 1.0 - found[()]
     none = told / whole
     return np.log(none if truth == () else max(found.get(truth, 0.0) / whole, LEAST)), none, truth == ()

@@ -1,5 +1,7 @@
 """The evidence of an explanation is the integral that it claims to be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -12,6 +14,7 @@ from probation.effects.cause import Cause
 from probation.inference import evidence as module
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.evidence import evidence
+from probation.settings.evidence import EVIDENCE
 
 COUNT = 60
 STRAIN = np.linspace(0.0, 1.0, COUNT)
@@ -44,8 +47,8 @@ def judged(views, effect=None, law=None, records=None, **options):
 @pytest.fixture
 def no_form_error(monkeypatch):
     """A form that is taken at its word."""
-    monkeypatch.setattr(module, "FORM_ERRORS", (0.0,))
-    monkeypatch.setattr(module, "FORM_WEIGHTS", (1.0,))
+    exact = replace(EVIDENCE, form_errors=(0.0,), form_error_weights=(1.0,))
+    monkeypatch.setattr(module, "EVIDENCE", exact)
 
 
 def by_numbers(stress, low, high, scale):
@@ -131,7 +134,7 @@ def test_the_forms_error_makes_it_the_density_of_correlated_data():
         waves[rows, place] = own
     done = [float(np.sum((found.residual - base.residual)[rows] ** 2)) for rows in discrepancy.slices]
     scores = []
-    for error, weight in zip(module.FORM_ERRORS, module.FORM_WEIGHTS, strict=True):
+    for error, weight in zip(EVIDENCE.form_errors, EVIDENCE.form_error_weights, strict=True):
         variance = np.concatenate(
             [error**2 * energy * share for energy, share in zip(done, discrepancy.spectrum, strict=True)]
         )

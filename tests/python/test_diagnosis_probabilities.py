@@ -9,8 +9,6 @@ import pytest
 from campaigns import linear_problem as problem
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
-    AGAIN,
-    UNSEEN,
     Weighed,
     answer_set,
     given_a_gap,
@@ -22,6 +20,7 @@ from probation.diagnosis.probabilities import (
 from probation.effects.cause import Cause
 from probation.inference.evidence import Evidence
 from probation.inference.model import CampaignModel
+from probation.settings.evidence import EVIDENCE
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
 BASE = problem.solved(problem.bar(), VIEWS)
@@ -115,7 +114,9 @@ def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_before
     chances = {each.effects: each.probability for each in found}
     assert sum(chances.values()) == pytest.approx(1.0)
     for name in NAMES[1:]:
-        assert chances[(NAMES[0], name)] / chances[(NAMES[0],)] == pytest.approx(UNSEEN * (0.12 / 15) / (0.33 / 6))
+        assert chances[(NAMES[0], name)] / chances[(NAMES[0],)] == pytest.approx(
+            EVIDENCE.unseen_second_effect * (0.12 / 15) / (0.33 / 6)
+        )
     assert chances[(NAMES[0],)] / chances[("unknown",)] == pytest.approx(9.0)
     assert len(found) == 2 + 5
 
@@ -180,7 +181,7 @@ def test_the_same_effect_in_another_record_again_must_earn_its_place():
     twice = {each.effects: each.probability for each in weigh([hypothesis(), hypothesis(*causes), other], 6)}
     odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, twice)]
     places = len(effect.placements(effect.forms[0])) * len(VIEWS)
-    assert odds[1] / odds[0] == pytest.approx(AGAIN / places)
+    assert odds[1] / odds[0] == pytest.approx(EVIDENCE.again_in_another_record / places)
 
 
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():

@@ -6,9 +6,10 @@ from numpy.testing import assert_allclose
 from scipy.fft import idct
 
 from campaigns import linear_problem as problem
-from probation.noise.drift import LEAST, estimate_drift, like_an_effect, with_drift
+from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.record_residual import RecordResidual
 from probation.noise.whitening import Whitened
+from probation.settings.noise import NOISE
 
 COUNT = 1000
 
@@ -50,7 +51,7 @@ def test_the_drift_of_simulated_noise_is_found(drift):
 def test_white_noise_is_given_little_more_than_the_least_drift():
     """What c/k adds at the lowest order looked at, 8, is lost in the noise for c of some units."""
     found = estimates(12)
-    assert np.all(np.array(found) >= LEAST)
+    assert np.all(np.array(found) >= NOISE.least_drift)
     assert np.median(found) < 4.0
     assert np.max(found) < 10.0
 
@@ -80,7 +81,7 @@ def test_a_sharp_fault_of_one_record_does_not_speak_for_the_others():
 
 def test_too_few_samples_say_nothing():
     """The floor, and what a flat opinion up to the usual size adds: far below what a real drift is found at."""
-    assert estimate_drift(whitened([residual(np.random.default_rng(0), count=40)])) >= LEAST
+    assert estimate_drift(whitened([residual(np.random.default_rng(0), count=40)])) >= NOISE.least_drift
     short = whitened([residual(np.random.default_rng(1), drift=100.0, count=40)])
     assert estimate_drift(short) == estimate_drift(whitened([residual(np.random.default_rng(0), count=40)]))
 

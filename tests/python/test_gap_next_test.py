@@ -11,7 +11,7 @@ import probation
 from probation.answers import json_answer
 from probation.design.next_test import next_test
 from probation.design.planned_record import planned_noise, planned_view, white_noise
-from probation.design.planned_tests import LONGEST, Laboratory, planned_tests
+from probation.design.planned_tests import Laboratory, planned_tests
 from probation.design.predicted import Explanation, Prediction, outcome, predictions
 from probation.effects.cause import cause
 from probation.effects.effect import Effect, EffectParameter, Form
@@ -21,6 +21,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.law.companion import WEISSENBERG_AS_PRINTED
 from probation.records.record import Record
+from probation.settings.design import DESIGN
 
 LAW = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
 SAMPLES = 200
@@ -106,7 +107,7 @@ def test_planned_tests_stay_within_what_a_laboratory_does():
     }
     for test in tests:
         assert np.all(np.diff(test.time) > 0.0)
-        assert test.duration <= LONGEST
+        assert test.duration <= DESIGN.longest_test
         assert np.max(test.true_strain) <= 1.2 + 1e-12
         assert 190 <= len(test.time) <= 210
         if test.name not in ("zero_load_hold", "dead_weight"):

@@ -9,11 +9,12 @@ from scipy.linalg import toeplitz
 
 from campaigns import gap_noise
 from probation import InputError
-from probation.noise.arma import LEAST_RISE, Arma, Periodogram, fit_arma
+from probation.noise.arma import Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
 from probation.noise.outliers import find_outliers
 from probation.noise.quantisation import quantisation_step
 from probation.noise.smooth_basis import waves
+from probation.settings.noise import NOISE
 
 
 def rng(seed=0):
@@ -46,7 +47,7 @@ def test_noise_is_never_said_to_vanish_towards_low_frequencies():
     power = (2.0 - 2.0 * np.cos(frequency)) * rng().chisquare(1, 2000)
     fitted = fit_arma([Periodogram(frequency, power, np.ones(2000))], 0.01).models[0]
     assert fitted.theta < -0.3
-    assert LEAST_RISE <= fitted.rise < 2.0 * LEAST_RISE
+    assert NOISE.least_rise <= fitted.rise < 2.0 * NOISE.least_rise
 
 
 def test_a_drawn_series_has_the_variances_of_its_spectrum():

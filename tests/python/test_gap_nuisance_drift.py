@@ -6,10 +6,11 @@ from numpy.testing import assert_allclose
 
 from campaigns import linear_problem as problem
 from probation.noise.drift import with_drift
-from probation.noise.nuisance_drift import ALIKE, nuisance_drift
+from probation.noise.nuisance_drift import nuisance_drift
 from probation.noise.record_residual import RecordResidual
 from probation.noise.smooth_basis import waves
 from probation.noise.whitening import Whitened
+from probation.settings.noise import NOISE
 
 COUNT, SIZE, WAVES = 400, 20.0, 10
 
@@ -36,7 +37,7 @@ def test_a_drift_has_little_along_a_signal_and_all_across_it(whitened):
     it, so that 1 / (3/c + 1 / (ALIKE^2 (1 + c/3))) is left by Bayes' rule; the other waves keep theirs."""
     found = nuisance_drift(whitened, [BASIS], 7.0 * BASIS[:, [3]])
     left = VARIANCES.copy()
-    left[3] = 1.0 / (1.0 / VARIANCES[3] + 1.0 / (ALIKE**2 * (1.0 + VARIANCES[3])))
+    left[3] = 1.0 / (1.0 / VARIANCES[3] + 1.0 / (NOISE.nuisance_drift_size**2 * (1.0 + VARIANCES[3])))
     assert_allclose(found, np.diag(left), rtol=1e-9, atol=1e-9)
 
 

@@ -16,7 +16,8 @@ SOURCES = Path(__file__).parents[2] / "python"
 ORDER = re.findall(
     r"\w+",
     """
-    _core errors _interrupt _text _arrays _complaint limits _files wording answers provenance origin parallel pool
+    _core errors settings
+    _interrupt _text _arrays _complaint limits _files wording answers provenance origin parallel pool
     progress results law records histories published smoothing noise detection effects inference
     identify design calibration certificate diagnosis comparison
     schemes simulation batch bulk exporting field

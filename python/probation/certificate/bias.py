@@ -12,20 +12,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.certificate import CERTIFICATE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.identify.result import RecordFit
 
-BLOCKS = 150
-"""A bias is seen on means over so many blocks of samples."""
 
 LENGTHS = np.geomspace(0.02, 0.3, 8)
 """Correlation lengths that are weighed against each other, as fractions of the record."""
 
-LIKE_WHAT_SHOWS = 0.3
-"""Standard deviation of the logarithm of the bias's amplitude over that of its visible part, beforehand."""
 
 RATIOS = np.geomspace(1e-3, 1e6, 91)
 """Variances of the bias over that of a block's noise that are searched."""
@@ -61,7 +59,7 @@ def model_bias(record: RecordFit, free: Sequence[int]) -> ModelBias:
         Columns of its sensitivity that were identified.
     """
     count = len(record.time)
-    borders = np.unique(np.linspace(0, count, min(BLOCKS, count) + 1).astype(int))
+    borders = np.unique(np.linspace(0, count, min(CERTIFICATE.bias_blocks, count) + 1).astype(int))
 
     def means(values: FloatArray) -> FloatArray:
         return np.array([values[first:last].mean(axis=0) for first, last in pairwise(borders)])
@@ -88,7 +86,7 @@ def model_bias(record: RecordFit, free: Sequence[int]) -> ModelBias:
         total = noise * (1.0 + RATIOS[:, None] * spread)
         score = -0.5 * np.sum(np.log(total) + power / total, axis=1)
         if visible > 0.0:  # it is not likely to be much larger than what shows of it
-            score -= 0.5 * (0.5 * np.log(RATIOS * noise / visible) / LIKE_WHAT_SHOWS) ** 2
+            score -= 0.5 * (0.5 * np.log(RATIOS * noise / visible) / CERTIFICATE.hidden_bias_spread) ** 2
         best = int(np.argmax(score))
         nothing = -0.5 * np.sum(np.log(noise) + power / noise)
         evidence[at], variances[at] = score[best], RATIOS[best] * noise

@@ -20,6 +20,7 @@ from probation.inference.gap import as_tolerance
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.progress import shows_progress
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -35,19 +36,13 @@ if TYPE_CHECKING:
 ByRecord: TypeAlias = "dict[str, dict[str, Estimate]]"
 """Estimates by record and parameter."""
 
-SAME_TEMPERATURE = 3.0
-"""Records whose mean temperatures differ by more confound temperature with whatever else differs [°C]."""
-
-TOLERANCE = 0.05
-"""Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."""
-
 
 @shows_progress
 def certify(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "be2",
     *,
-    tolerance: float = TOLERANCE,
+    tolerance: float = CERTIFICATE.tolerance,
     hold: Mapping[str, float] | None = None,
     excitation: ExcitationMethod = "auto",
     progress: Callable[[float], None] | None = None,
@@ -247,7 +242,7 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
     warm = {
         record.id: float(np.mean(record.temperature)) for record in campaign.records if record.temperature is not None
     }
-    if warm and max(warm.values()) - min(warm.values()) > SAME_TEMPERATURE:
+    if warm and max(warm.values()) - min(warm.values()) > CERTIFICATE.same_temperature:
         cold, hot = min(warm, key=lambda name: warm[name]), max(warm, key=lambda name: warm[name])
         doubts.append(
             f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "

@@ -8,14 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
+from probation.settings.certificate import CERTIFICATE
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-SIGNIFICANCE = 0.01
-"""Probability of failing some parameter of a law that is intrinsic, over all its parameters."""
-
-CLEARLY = 4.0
-"""Standard errors by which a record's value must miss one that is held to contradict it."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +56,7 @@ class Consistency:
     tested : bool
         Whether two records or more determine the parameter.
     passes : bool
-        Not rejected at `SIGNIFICANCE`, shared between the parameters (Holm 1979).
+        Not rejected at `CERTIFICATE.significance`, shared between the parameters (Holm 1979).
     """
 
     by_record: Mapping[str, Estimate]
@@ -76,9 +72,10 @@ class Consistency:
         return max(values) / min(values) - 1.0 if len(values) > 1 and min(values) > 0.0 else 0.0
 
     def contradicts(self, value: float) -> bool:
-        """Whether some record says, by more than `CLEARLY` standard errors, that the parameter has another value."""
+        """Whether some record says clearly, by `CERTIFICATE.clearly`, that the parameter has another value."""
         return any(
-            each.total_se and abs(each.value - value) > CLEARLY * each.total_se for each in self.by_record.values()
+            each.total_se and abs(each.value - value) > CERTIFICATE.clearly * each.total_se
+            for each in self.by_record.values()
         )
 
 
@@ -88,7 +85,7 @@ def judge(estimates: Mapping[str, Mapping[str, Estimate]]) -> dict[str, Consiste
     failing: set[str] = set()
     tested = sorted((name for name in judged if judged[name][2]), key=lambda name: judged[name][1])
     for rank, name in enumerate(tested):
-        if judged[name][1] >= SIGNIFICANCE / (len(tested) - rank):
+        if judged[name][1] >= CERTIFICATE.significance / (len(tested) - rank):
             break  # Holm: once one is let pass, so are all with a larger p-value
         failing.add(name)
     return {

@@ -9,12 +9,11 @@ import numpy as np
 
 from probation.errors import InputError
 from probation.law.kinematics import haward_thackray_strain
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-FROM_STRAIN = 0.4
-"""True strain from which on the regression is taken, Figure S1."""
 
 FEWEST = 3
 
@@ -43,13 +42,13 @@ class HardeningRegression:
     from_strain: float
 
 
-def reaches_hardening(true_strain: FloatArray, from_strain: float = FROM_STRAIN) -> bool:
+def reaches_hardening(true_strain: FloatArray, from_strain: float = CERTIFICATE.hardening_from) -> bool:
     """Whether enough samples exceed that strain for a regression."""
     return int(np.count_nonzero(true_strain > from_strain)) >= FEWEST
 
 
 def regress_hardening(
-    true_strain: FloatArray, true_stress: FloatArray, from_strain: float = FROM_STRAIN
+    true_strain: FloatArray, true_stress: FloatArray, from_strain: float = CERTIFICATE.hardening_from
 ) -> HardeningRegression:
     """G from the slope of the stress over e_HT, eq. (3), Figure S1.
 

@@ -11,9 +11,10 @@ from probation.certificate.bias import model_bias
 from probation.certificate.consistency import Estimate
 from probation.identify.fit import fit
 from probation.identify.given import given
-from probation.inference.parameter import WEAKLY, outside_name
+from probation.inference.parameter import outside_name
 from probation.law.schemes import scheme_of
 from probation.records.campaign import Campaign
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -121,7 +122,7 @@ def estimates(
         known = found.parameters[name]
         own = scatter * known.value if name == "alpha" else 0.0
         error = None if known.se is None else float(np.linalg.norm([known.se, np.sqrt(bias[position]), own]))
-        if error is None or error > WEAKLY * abs(known.value):
+        if error is None or error > CERTIFICATE.weakly_identifiable * abs(known.value):
             result[name] = Estimate(known.value, None, None)
         else:
             result[name] = Estimate(known.value, error, known.se, tuple(moves[position].tolist()))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
+from probation.settings.certificate import CERTIFICATE
 from probation.wording import percentage
 
 if TYPE_CHECKING:
@@ -14,11 +15,6 @@ if TYPE_CHECKING:
     from probation.certificate.prediction import Prediction
     from probation.inference.gap import Gap
 
-OWN_FAULT = 0.5
-"""Part of a prediction's error that must stay with parameters of the record's own for the law's form to be blamed."""
-
-FAR = 0.3
-"""Systematic error of a prediction, over the largest stress, from which on it does not matter what else is shared."""
 
 Verdict = Literal["intrinsic", "intrinsic_except", "not_intrinsic"]
 
@@ -56,7 +52,7 @@ def decide(
         there is no gap. "intrinsic_except": some parameters
         change and others do not, and with those free the law describes every record within tolerance; also where all
         change, but so little that every prediction is within tolerance. "not_intrinsic" otherwise, and where a
-        prediction errs by more than `FAR` of the largest stress.
+        prediction errs by more than `CERTIFICATE.far` of the largest stress.
     reason : str
     """
     failing = [name for name, each in parameters.items() if not each.passes]
@@ -111,7 +107,7 @@ def _why_missed(
     worst: Prediction, left: float, parameters: Mapping[str, Consistency], held: Mapping[str, float]
 ) -> str:
     """Why a prediction errs though no parameter fails; `left` stays with parameters of its own [MPa]."""
-    if left > OWN_FAULT * worst.bias_MPa:
+    if left > CERTIFICATE.own_fault * worst.bias_MPa:
         return f"{left:.2g} MPa stay with parameters of its own: the law's form is at fault rather than a parameter"
     wrong = [name for name, value in held.items() if parameters[name].contradicts(value)]
     if wrong:
@@ -129,7 +125,7 @@ def _exceptions(
         return "intrinsic_except", f"{changes}, but too little to spoil the prediction: {predicted}"
     if not kept:
         return "not_intrinsic", f"no parameter keeps its value from record to record: {changes}; {predicted}"
-    if worst.relative > FAR and not worst.passes:
+    if worst.relative > CERTIFICATE.far and not worst.passes:
         return "not_intrinsic", f"{changes}; {predicted}"
     tested = [name for name in kept if parameters[name].tested]
     if not tested:

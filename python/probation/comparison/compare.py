@@ -25,6 +25,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.thinning import thin
 from probation.inference.view_residual import residual_of
 from probation.parallel import usual_threads
+from probation.settings.comparison import COMPARISON
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -35,13 +36,9 @@ if TYPE_CHECKING:
     from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
 
-NOTHING, ONE, TWO, UNKNOWN, BESIDE = 0.5, 0.35, 0.04, 0.07, 0.04
-"""Probabilities beforehand: nothing changed, one cause, two, something unknown, that beside one cause."""
 
 SPECIMENS = "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs"
 
-TOLD = 1e-4
-"""Probability from which on sizes are reported."""
 
 Z95 = 1.959963984540054
 
@@ -151,19 +148,21 @@ def _weighed(
     """Explanations by probability; forms of one cause in the same records are summed."""
     ids = tuple(view.id for view in search.model.views)
     count = len(search.effects)
-    scores: list[tuple[tuple[str, ...], tuple[str, ...], float, Found | None]] = [((), (), log(NOTHING), None)]
+    scores: list[tuple[tuple[str, ...], tuple[str, ...], float, Found | None]] = [
+        ((), (), log(COMPARISON.nothing), None)
+    ]
     for each in singles:
-        score = log(ONE / count) + _place(each, ids) + each.log_evidence
+        score = log(COMPARISON.one_cause / count) + _place(each, ids) + each.log_evidence
         scores.append((each.effects, each.records, score, each))
     for each in singles[:2]:
         beside = search.beside_unknown(each)
-        score = log(BESIDE / count) + _place(each, ids) + beside.log_evidence_beside_unknown
+        score = log(COMPARISON.unknown_with_one / count) + _place(each, ids) + beside.log_evidence_beside_unknown
         scores.append((tuple(sorted((*each.effects, "unknown"))), each.records, score, each))
     for each in pairs:
-        share = TWO / max(count * (count - 1) / 2, 1)
+        share = COMPARISON.two_causes / max(count * (count - 1) / 2, 1)
         records = tuple(name for name in ids if name in each.records)
         scores.append((each.effects, records, log(share) + _place(each, ids) + each.log_evidence, each))
-    share = log(UNKNOWN / (1 if len(ids) == 1 else 2))
+    share = log(COMPARISON.unknown_change / (1 if len(ids) == 1 else 2))
     for name, own in zip(ids, search.unknown, strict=True):
         scores.append((("unknown",), (name,), share - log(len(ids)) + own, None))
     if len(ids) > 1:
@@ -176,7 +175,7 @@ def _weighed(
     for (effects, records), forms in merged.items():
         found = max(forms, key=lambda form: form[0])[1]
         probability = float(np.exp(logsumexp([score for score, _ in forms]) - total))
-        sizes = _parameters(search, found) if probability > TOLD else ()
+        sizes = _parameters(search, found) if probability > COMPARISON.reported else ()
         result.append((ChangeExplanation(effects, records, probability, sizes), found))
     return sorted(result, key=lambda each: -each[0].probability)
 

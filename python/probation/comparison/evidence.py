@@ -10,6 +10,7 @@ from scipy.special import log_ndtr, logsumexp
 
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import orthonormal
+from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
 SIZES = 10.0 ** np.arange(0.5, 8.1, 0.5)
 """Squared sizes of an unknown change in units of the noise's variance per wave; log-uniform."""
-
-ROUGHEST, SOFTNESS = 16, 2.0
-"""Half periods per record of an unknown change, and the power by which its spectrum falls with their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +39,9 @@ class SmoothChange:
     @classmethod
     def of(cls, record: RecordResidual, noise: NoiseModel) -> SmoothChange:
         """Of one record."""
-        basis = smooth_basis(record.time, record.jumps, ROUGHEST)
+        basis = smooth_basis(record.time, record.jumps, COMPARISON.roughest_change)
         columns, kept = orthonormal(noise.whiten(basis.columns))
-        spectrum = (1.0 + basis.order[kept]) ** -SOFTNESS
+        spectrum = (1.0 + basis.order[kept]) ** -COMPARISON.change_softness
         return cls(columns, spectrum / spectrum.sum())
 
 

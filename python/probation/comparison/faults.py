@@ -13,14 +13,12 @@ from probation.effects.large_faults import crosshead_slack
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation.law.modification import Modification
+from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from probation.effects.record_view import RecordView
-
-_USUAL = 0.1
-"""Natural logarithm by which a law's constants may differ from batch to batch."""
 
 
 def _other_material(view: RecordView, values: Values) -> Modification:
@@ -30,7 +28,9 @@ def _other_material(view: RecordView, values: Values) -> Modification:
 
 
 def _logarithm(name: str) -> EffectParameter:
-    return EffectParameter(f"ln_{name}_ratio", "", -1.0, 1.0, _USUAL, "batches differ by some per cent, rarely by tens")
+    return EffectParameter(
+        f"ln_{name}_ratio", "", -1.0, 1.0, COMPARISON.batch_spread, "batches differ by some per cent, rarely by tens"
+    )
 
 
 MATERIAL = Effect(
@@ -53,18 +53,10 @@ MATERIAL = Effect(
 )
 
 
-PART, TRAVEL = 0.05, 0.03
-"""Usual size of a fault: of the force as part of the largest force, of the compliance as part of the travel."""
-
-WIDER, MOST = 10.0, 10.0
-"""Prior scales of the others over the catalogue's, which says what a sound rig has and not what went wrong with this
-one; and bounds over prior scales."""
-
-
 def _sized(form: Form, scale: float, *, bounded: bool = False) -> Form:
     """The same form with another prior of its amplitude, of either sign if `bounded`."""
     known = form.amplitude
-    low, high = (-MOST * scale, MOST * scale) if bounded else (known.lower, known.upper)
+    low, high = (-COMPARISON.widest * scale, COMPARISON.widest * scale) if bounded else (known.lower, known.upper)
     amplitude = replace(known, lower=low, upper=high, scale=min(scale, max(-low, high)), starts=())
     return replace(form, parameters=(amplitude, *form.parameters[1:]))
 
@@ -73,16 +65,18 @@ def _as_a_change(known: Effect, force: float, elongation: float, duration: float
     """A fault of the rig as it may come, or go, between two campaigns of that largest nominal stress and elongation."""
     forms = {form.name: form for form in known.forms}
     if known.name == "machine_compliance":
-        forms = {"crosshead": _sized(known.form("crosshead"), TRAVEL * elongation / force, bounded=True)}
+        forms = {
+            "crosshead": _sized(known.form("crosshead"), COMPARISON.travel_fault * elongation / force, bounded=True)
+        }
     elif known.name == "force_drift":
         # Within one record both forms are the same.
-        over_record = _sized(known.form("over_record"), PART * force, bounded=True)
-        in_time = _sized(known.form("in_time"), PART * force / duration, bounded=True)
+        over_record = _sized(known.form("over_record"), COMPARISON.force_fault * force, bounded=True)
+        in_time = _sized(known.form("in_time"), COMPARISON.force_fault * force / duration, bounded=True)
         forms = {"over_record": replace(over_record, placements=("one",)), "in_time": in_time}
     elif known.name in ("force_offset", "prestress"):
-        forms = {name: _sized(form, PART * force, bounded=True) for name, form in forms.items()}
+        forms = {name: _sized(form, COMPARISON.force_fault * force, bounded=True) for name, form in forms.items()}
     else:
-        forms = {name: _sized(form, WIDER * form.amplitude.scale) for name, form in forms.items()}
+        forms = {name: _sized(form, COMPARISON.wider_priors * form.amplitude.scale) for name, form in forms.items()}
     if known.name == "strain_offset":
         # What the crosshead travels in vain is an elongation, and so is not quite a constant true strain.
         forms["slack"] = replace(forms["slack"], driving_strain=crosshead_slack)

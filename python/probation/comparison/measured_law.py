@@ -15,6 +15,7 @@ import numpy as np
 
 from probation.comparison.strain_path import branches, progress
 from probation.inference.wrapped_law import WrappedLaw
+from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from probation.inference.modal_law import DnlrLaw
     from probation.law.modification import Modification
 
-KNOTS = 24
-"""Intervals of a branch along which the reference is followed."""
 
 GRADED, SHRINK = 3, 0.7
 """Intervals at the start of a branch that get finer towards it, by this factor: onsets are steep."""
@@ -89,7 +88,7 @@ def followed(time: FloatArray) -> FloatArray:
     from scipy.interpolate import BSpline  # noqa: PLC0415 - slow to load
 
     count = len(time)
-    intervals = max(min(KNOTS, count // LEAST_SAMPLES), 1)
+    intervals = max(min(COMPARISON.branch_intervals, count // LEAST_SAMPLES), 1)
     inner = np.arange(1, intervals) / intervals
     if intervals > GRADED:
         finest = LEAST_AT_START / (count - 1) / (1.0 - SHRINK)

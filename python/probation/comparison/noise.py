@@ -11,8 +11,10 @@ from probation.comparison.measured_law import ENDS, followed
 from probation.comparison.strain_path import branches
 from probation.inference.propagated import propagated_noise
 from probation.inference.view_residual import residual_of
-from probation.noise.drift import LEAST, with_drift
+from probation.noise.drift import with_drift
 from probation.noise.estimate import estimate_noise
+from probation.settings.comparison import COMPARISON
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,12 +29,6 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
-
-FAR = 8.0
-"""Medians of what a smoother takes off the strain, beyond which it is no noise."""
-
-OUTLYING = 100
-"""One in so many samples, the worst, is not asked how large the noise is."""
 
 
 def own_residual(view: RecordView, law: DnlrLaw) -> RecordResidual:
@@ -55,9 +51,9 @@ def record_noises(records: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     """
     noises = []
     for record, noise in zip(records, estimate_noise(records), strict=True):
-        rough = np.sort(noise.whiten(record.residual) ** 2)[: -max(len(record) // OUTLYING, 1)]
+        rough = np.sort(noise.whiten(record.residual) ** 2)[: -max(len(record) // COMPARISON.outlying_one_in, 1)]
         excess = float(np.sum(rough)) / max(len(record) - record.tangent.shape[1], 1)
-        noises.append(with_drift(noise.scaled(max(np.sqrt(excess), 1.0)), LEAST))
+        noises.append(with_drift(noise.scaled(max(np.sqrt(excess), 1.0)), NOISE.least_drift))
     return tuple(noises)
 
 
@@ -102,7 +98,11 @@ def change_noise(
 def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:
     """Samples whose strain a smoother did not follow, and their neighbours; shape (n,)."""
     missed = np.abs(record.true_strain - excitation.true_strain)
-    far = missed > FAR * float(np.median(missed)) if excitation.operators is not None else np.zeros(len(record), bool)
+    far = (
+        missed > COMPARISON.smoother_distance * float(np.median(missed))
+        if excitation.operators is not None
+        else np.zeros(len(record), bool)
+    )
     return np.asarray(np.convolve(far, np.ones(2 * ENDS + 1), mode="same") > 0.0)
 
 

@@ -14,6 +14,7 @@ from probation.identify.fit import fit
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.thinning import thin
 from probation.law.schemes import DIFFERENTIABLE, at_samples
+from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,10 +23,6 @@ if TYPE_CHECKING:
     from probation.law.schemes import Scheme, SchemeName
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
-
-
-SHARP = 8.0
-"""Medians of what smooth curves leave, beyond which a reference shows something that they cannot follow."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +71,6 @@ class Reference:
         noises = record_noises(residuals)
         branches = {}
         for view, rough in zip(views, residuals, strict=True):
-            sharp = np.abs(rough.residual) > SHARP * np.median(np.abs(rough.residual))
+            sharp = np.abs(rough.residual) > COMPARISON.sharp_reference * np.median(np.abs(rough.residual))
             branches[view.id] = reference_branches(view, view.data - law.stress(view, law.start), sharp)
         return cls(campaign, chosen, law, branches, {noise.name: noise for noise in noises})

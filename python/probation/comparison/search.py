@@ -18,6 +18,7 @@ from probation.inference.refit import Refit, refit
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
 from probation.parallel import in_parallel
+from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -27,11 +28,6 @@ if TYPE_CHECKING:
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
 
-STARTS = 2
-"""Starts of a cause that are refitted."""
-
-WORTH = 1.0
-"""Linearised gain below which a cause is judged where it starts: the refit would not move."""
 
 LEVEL, FARTHEST = 3.841458820694124, 20.0
 """Rise of the objective at the ends of a 95 % interval (chi-square, one degree of freedom); most deviations looked at.
@@ -146,7 +142,7 @@ class ChangeSearch:
         ranked = _best_starts(white.candidates(before.residual, np.linalg.qr(before.jacobian)[0]), 1)
         seen: dict[str, Candidate] = {}
         for each in ranked:
-            if each.gain > WORTH:
+            if each.gain > COMPARISON.worth_refitting:
                 seen.setdefault(each.cause.effect.name, each)
         return self._judged([((before,), each) for each in list(seen.values())[:ADDITIONS]])
 
@@ -171,7 +167,9 @@ class ChangeSearch:
         start = np.append(before.parameters if before else self.model.law.start, candidate.values)
         noises = self._noises_of(model)
         try:
-            done = refit(model, start, Whitener(noises), most_steps=15 if candidate.gain > WORTH else 2)
+            done = refit(
+                model, start, Whitener(noises), most_steps=15 if candidate.gain > COMPARISON.worth_refitting else 2
+            )
         except (ConvergenceError, InputError):
             return None
         return Found(causes, tuple(view.id for view in views), (done,), self._log_evidence(done))
@@ -224,7 +222,7 @@ class ChangeSearch:
         return tuple(self.noises[self._index(view.id)] for view in model.views)
 
 
-def _best_starts(candidates: Sequence[Candidate], count: int = STARTS) -> list[Candidate]:
+def _best_starts(candidates: Sequence[Candidate], count: int = COMPARISON.starts) -> list[Candidate]:
     """The best starts of every form and place."""
     taken: dict[Key, int] = {}
     found = []

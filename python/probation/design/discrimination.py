@@ -18,12 +18,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-DETECTED = 5.0
-"""sqrt(lambda) from which on an effect counts as seen: where nine of ten such gaps are to be detected."""
-
-DISCRIMINATED = 0.95
-"""Probability of naming the right one of two from which on they count as discriminated."""
-
 
 def probability_of_the_right_one(
     root_lambda: ArrayLike, cosine: ArrayLike, *, one_sided: bool = False, rival_one_sided: bool = False

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.discrimination import DETECTED
 from probation.design.effect_signals import signal
 from probation.errors import InputError
 from probation.inference.information import inverse_information
@@ -15,6 +14,7 @@ from probation.inference.view_residual import residual_of
 from probation.noise.span import DEPENDENT
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -128,23 +128,23 @@ class Design:
     def _search(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
         end = usual.cause.form.amplitude.upper if usual.values[0] > 0.0 else usual.cause.form.amplitude.lower
         unseen, amplitude = 0.0, usual.values[0]
-        if size < DETECTED:
-            guess = np.clip(amplitude * 1.01 * DETECTED / max(size, 1e-300), min(0.0, end), max(0.0, end))
+        if size < DESIGN.detected:
+            guess = np.clip(amplitude * 1.01 * DESIGN.detected / max(size, 1e-300), min(0.0, end), max(0.0, end))
             unseen, amplitude = amplitude, float(guess)
             size = self._length(usual, amplitude)
-            if size < DETECTED:
+            if size < DESIGN.detected:
                 unseen, amplitude = amplitude, end
                 size = self._length(usual, amplitude)
-        if size < DETECTED:
+        if size < DESIGN.detected:
             return None
         for _ in range(_REFINED):
-            if size < CLOSE * DETECTED:
+            if size < CLOSE * DESIGN.detected:
                 break
-            guess = amplitude * 0.5 * (1.0 + CLOSE) * DETECTED / size
+            guess = amplitude * 0.5 * (1.0 + CLOSE) * DESIGN.detected / size
             if not abs(guess) > abs(unseen):
                 guess = 0.5 * (unseen + amplitude)
             length = self._length(usual, guess)
-            if length < DETECTED:
+            if length < DESIGN.detected:
                 unseen = guess
             else:
                 amplitude, size = guess, length

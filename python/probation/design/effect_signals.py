@@ -11,6 +11,7 @@ from probation.effects.cause import Cause
 from probation.errors import InputError
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,11 +21,6 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
     from probation.inference.model import CampaignModel
 
-_SMALL = 0.02
-"""Part of the usual size that shows what an effect looks like where it is small."""
-
-_FURTHER = (-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5)
-"""Prior scales off the centre at which shapes are tried beside their starts; every other one of two shapes or more."""
 
 _SMALLER = 4.0
 _ATTEMPTS = 4
@@ -218,13 +214,13 @@ def _sizes_and_shapes(form: Form, views: tuple[RecordView, ...]) -> list[tuple[t
     if form.starts is not None:
         return found
     if form.needs_solve:
-        found += [((_SMALL * size, *shapes), False) for shapes in starts]
+        found += [((DESIGN.small_part * size, *shapes), False) for shapes in starts]
     return found + [((size, *shapes), False) for shapes in _further_shapes(form) if shapes not in starts]
 
 
 def _further_shapes(form: Form) -> list[tuple[float, ...]]:
     """A grid over what the priors of the shapes expect."""
-    steps = _FURTHER if len(form.parameters) < 3 else _FURTHER[1::2]
+    steps = DESIGN.further_shapes if len(form.parameters) < 3 else DESIGN.further_shapes[1::2]
     grid: list[tuple[float, ...]] = [()]
     for shape in form.parameters[1:]:
         if not np.isfinite(shape.scale):

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.design.discrimination import DETECTED, DISCRIMINATED
 from probation.design.effect_design import Design
 from probation.design.effect_signals import effect_signals
 from probation.design.isolability_words import headline, sentence
@@ -16,6 +15,7 @@ from probation.design.planned_record import as_predicted
 from probation.design.rivalry import Rivalry
 from probation.errors import InputError
 from probation.parallel import in_parallel
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -27,11 +27,6 @@ if TYPE_CHECKING:
     from probation.inference.model import CampaignModel
     from probation.noise.model import NoiseModel
 
-ABSORBED = 0.9
-"""Part of a signal that the base parameters take up from which on they are blamed for an effect that is not seen."""
-
-NO_SIGNAL = 0.01
-"""Length in standard deviations below which an effect is taken to do nothing at all."""
 
 Status = Literal["named", "ambiguous", "too_small", "absorbed", "without_signal"]
 
@@ -88,10 +83,10 @@ class EffectIsolability:
         "named": seen, no rival; "ambiguous": seen, but with rivals. Not seen: "without_signal", it does
         nothing in these records; "absorbed", the base parameters take it up; "too_small", it drowns in the noise.
         """
-        if self.detectability < DETECTED:
-            if self.signal < NO_SIGNAL:
+        if self.detectability < DESIGN.detected:
+            if self.signal < DESIGN.no_signal:
                 return "without_signal"
-            return "absorbed" if self.absorbable > ABSORBED else "too_small"
+            return "absorbed" if self.absorbable > DESIGN.absorbed else "too_small"
         return "ambiguous" if self.rivals else "named"
 
     @property
@@ -250,9 +245,9 @@ def _described(
     """One effect, of its usual signal (whitened: `raw`), its row of probabilities and the smallest signal seen."""
     cause, size, full = usual.cause, float(rivalry.sizes[rivalry.chosen[row]]), float(np.linalg.norm(raw))
     rivals = {}
-    if size >= DETECTED:
+    if size >= DESIGN.detected:
         order = np.argsort(probability, kind="stable")
-        rivals = {rivalry.names[at]: float(probability[at]) for at in order if probability[at] < DISCRIMINATED}
+        rivals = {rivalry.names[at]: float(probability[at]) for at in order if probability[at] < DESIGN.discriminated}
     names = [parameter.name for parameter in cause.form.parameters]
     return EffectIsolability(
         name=cause.effect.name,

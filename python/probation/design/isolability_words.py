@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.design.discrimination import DETECTED
+from probation.settings.design import DESIGN
 from probation.wording import percentage
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def sentence(each: EffectIsolability) -> str:
             f"which it biases ({_biased(each.biases)}); {_from(each)}."
         )
     if each.status == "too_small":
-        return f"{title} would drown in the noise: {seen} where {DETECTED:g} are needed; {_from(each)}."
+        return f"{title} would drown in the noise: {seen} where {DESIGN.detected:g} are needed; {_from(each)}."
     if each.status == "named":
         return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(each)}."
     likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(each.rivals.items())[:_NAMED]]

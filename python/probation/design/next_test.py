@@ -12,6 +12,7 @@ from probation.design.predicted import Explanation, Prediction, outcome, predict
 from probation.errors import InputError
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,17 +22,6 @@ if TYPE_CHECKING:
     from probation.inference.model import CampaignModel
     from probation.noise.model import NoiseModel
 
-HELPS = 0.01
-"""Gain in the probability of a right answer below which a test is not worth doing."""
-
-HALF_HOUR = 0.01
-"""Gain in that probability that half an hour more of effort must bring."""
-
-ROUGH = 3.0
-"""Times the noise at which a test should decide, too."""
-
-SEPARATED = 0.9
-"""Probability of discriminating two explanations from which on a test separates them."""
 
 DRAWS = 400
 
@@ -66,7 +56,7 @@ class RankedTest:
     def worth(self) -> float:
         """Probability of a right answer, the mean of both, less what the effort costs."""
         both = 0.5 * (self.probability_after + self.probability_in_rough_hands)
-        return both - HALF_HOUR * self.test.effort / 1800.0
+        return both - DESIGN.help_per_half_hour * self.test.effort / 1800.0
 
     def to_dict(self) -> dict[str, object]:
         """For JSON."""
@@ -214,7 +204,7 @@ def judged(
     seed : int
     """
     found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
-    rough = outcome([way.through(ROUGH) for way in ways], prior, group, draws=DRAWS, seed=seed)
+    rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DRAWS, seed=seed)
     separated, surely = _separated(found.pairwise)
     return RankedTest(
         test=test,
@@ -230,14 +220,14 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
     """Explanations that are surely discriminated, and True; or else the two discriminated best, and False."""
     both = np.minimum(pairwise, pairwise.T)
     np.fill_diagonal(both, -1.0)
-    surely = np.flatnonzero((both >= SEPARATED).any(axis=1)).tolist()
+    surely = np.flatnonzero((both >= DESIGN.separated).any(axis=1)).tolist()
     best = sorted(int(at) for at in np.unravel_index(int(np.argmax(both)), both.shape))
     return (surely, True) if surely else (best, False)
 
 
 def _sentence(what: str, after: float, names: Sequence[str], surely: bool, before: float) -> str:
     told = f"{', '.join(names[:-1])} and {names[-1]}"
-    if after < before + HELPS:
+    if after < before + DESIGN.least_help:
         best = f"{what[0].lower()}{what[1:]}"
         return f"None of the tests considered helps to discriminate between {told}; the best of them: {best}."
     does = f"it discriminates between {told}" if surely else f"it helps most between {told}"

@@ -17,6 +17,7 @@ from probation.histories.segments import Leg, piecewise_linear
 from probation.inference.modal_law import DnlrLaw
 from probation.law.creep import creep
 from probation.law.history import jump_indices
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -26,11 +27,6 @@ if TYPE_CHECKING:
 
 DECADE = 10.0
 
-LONGEST = 2.0 * 86400.0
-"""Tests that take longer [s] are not proposed."""
-
-SPECIMEN = 3600.0
-"""Effort of making, measuring and mounting a specimen, as time [s]."""
 
 _FEWEST, _MOST = 200, 1000
 _HOURS = 180
@@ -73,7 +69,7 @@ class PlannedTest:
     time: FloatArray
     true_strain: FloatArray
     jumps: tuple[int, ...] = ()
-    preparation: float = SPECIMEN
+    preparation: float = DESIGN.specimen_effort
     repeats: str | None = None
     gauge_length: float = 1.0
 
@@ -163,7 +159,12 @@ class Laboratory:
         return self.usual / widened, self.usual * widened
 
     def legs(
-        self, name: str, what: str, *legs: tuple[float, float], preparation: float = SPECIMEN, gauge_length: float = 1.0
+        self,
+        name: str,
+        what: str,
+        *legs: tuple[float, float],
+        preparation: float = DESIGN.specimen_effort,
+        gauge_length: float = 1.0,
     ) -> PlannedTest:
         """A test of straight legs (strain at the end, duration [s]) that starts without strain."""
         history = piecewise_linear(name, [Leg(*each) for each in legs], self.samples)
@@ -210,7 +211,7 @@ def other_rates(lab: Laboratory) -> list[PlannedTest]:
             "faster_ramp" if rate > lab.usual else "slower_ramp",
             f"Stretch at {rate:.2g} /s to a true strain of {lab.strain:.2g}",
             (lab.strain, lab.strain / rate),
-            preparation=2.0 * SPECIMEN,
+            preparation=2.0 * DESIGN.specimen_effort,
         )
         for rate in rates
     ]
@@ -276,7 +277,9 @@ def dead_weight(lab: Laboratory) -> list[PlannedTest]:
     what = f"Hang a dead weight of {nominal:.2g} MPa (force over initial section) on the specimen and record its strain"
     end = f"to a true strain of {strain[-1]:.2g}"
     summary = f"{what} {end} ({_time(longest)}, {len(time)} samples, dense at first)"
-    return [PlannedTest("dead_weight", summary, time, strain, (_LOADING_SAMPLES,), preparation=2.0 * SPECIMEN)]
+    return [
+        PlannedTest("dead_weight", summary, time, strain, (_LOADING_SAMPLES,), preparation=2.0 * DESIGN.specimen_effort)
+    ]
 
 
 def _hanging(law: Law, nominal: float, longest: float, samples: int) -> tuple[FloatArray, FloatArray]:
@@ -300,7 +303,7 @@ def other_gauge_length(lab: Laboratory) -> list[PlannedTest]:
         f"strain of {lab.strain:.2g}"
     )
     ramp = (lab.strain, lab.strain / lab.usual)
-    test = lab.legs("double_gauge_length", what, ramp, preparation=2.0 * SPECIMEN, gauge_length=2.0)
+    test = lab.legs("double_gauge_length", what, ramp, preparation=2.0 * DESIGN.specimen_effort, gauge_length=2.0)
     return [test]
 
 
@@ -321,7 +324,7 @@ def planned_tests(lab: Laboratory) -> list[PlannedTest]:
     found = []
     for planner in PLANNERS:
         try:
-            found += [test for test in planner(lab) if test.duration <= LONGEST]
+            found += [test for test in planner(lab) if test.duration <= DESIGN.longest_test]
         except ConvergenceError:
             continue
     return found

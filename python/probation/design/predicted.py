@@ -17,6 +17,7 @@ from scipy.special import entr
 from probation.design.planned_record import planned_noise, planned_view
 from probation.inference.model import CampaignModel
 from probation.noise.whitener import Whitener
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
     from probation.noise.model import NoiseModel
 
-REPEATS_ITSELF = 0.5
-"""Probability that a fault seen in single records is there again in a new test on the same rig."""
 
 PER_GAUGE_LENGTH = ("machine_compliance", "strain_offset", "grip_slip")
 """Effects that add a displacement, so that their strain falls with the gauge length."""
@@ -120,8 +119,8 @@ def predictions(
     """What every explanation predicts of a test.
 
     A cause that touches all records touches the new one too. A fault of single records may or may not be there again
-    (`REPEATS_ITSELF`), unless its form can sit nowhere but in one record: a slip does not repeat itself. One with a
-    size each in several records comes back as it was in the last.
+    (`DESIGN.fault_repeats`), unless its form can sit nowhere but in one record: a slip does not repeat itself. One with
+    a size each in several records comes back as it was in the last.
 
     Parameters
     ----------
@@ -140,7 +139,11 @@ def predictions(
     found = []
     for owner, each in enumerate(explanations):
         confined = {cause.effect.name: cause for cause in each.model.causes if _may_come_back(cause)}
-        ways = [((), 1.0)] if not confined else [((), 1.0 - REPEATS_ITSELF), (tuple(confined.values()), REPEATS_ITSELF)]
+        ways = (
+            [((), 1.0)]
+            if not confined
+            else [((), 1.0 - DESIGN.fault_repeats), (tuple(confined.values()), DESIGN.fault_repeats)]
+        )
         for back, weight in ways:
             stress, slopes = _on(view, each, back, test)
             found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.discrimination import DETECTED, DISCRIMINATED, best_match, probability_of_the_right_one
+from probation.design.discrimination import best_match, probability_of_the_right_one
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,13 +88,13 @@ class Rivalry:
             return None
 
         def named(factor: float) -> bool:
-            return bool(np.all(self._weighed(row, products, length, factor)[1] >= DISCRIMINATED))
+            return bool(np.all(self._weighed(row, products, length, factor)[1] >= DESIGN.discriminated))
 
-        low, high = DETECTED / length, max(most, DETECTED / length)
+        low, high = DESIGN.detected / length, max(most, DESIGN.detected / length)
         if not named(high):
             return None
         if named(low):
-            return DETECTED
+            return DESIGN.detected
         for _ in range(_HALVINGS):
             middle = float(np.sqrt(low * high))
             low, high = (low, middle) if named(middle) else (middle, high)

@@ -13,6 +13,7 @@ from probation.noise.joint_noise import jointly_whitened
 from probation.noise.local_noise import local_noise_sd, samples_within
 from probation.noise.smooth_basis import WAVES, smooth_basis
 from probation.noise.span import orthonormal, span_of, without
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,14 +26,6 @@ if TYPE_CHECKING:
 ORDERS = (2, 5, WAVES)
 """Smooth gaps are looked for in so many half periods per record: a broad one is found by few, a wavy one by many."""
 
-RECORD_ORDER = 6
-"""... and in this many of one record alone."""
-
-DIRECTED_SHARE = 0.7
-"""Part of the level that is spent on the directions of known effects, where there are any."""
-
-LEVEL = 0.005
-"""A gap is declared below this p-value: false alarms of 1 % leave room for noise that is not as it was modelled."""
 
 ABSORBED = 1e-8
 """Squared norm of a projected direction over the whole one's, below which the base parameters hide it altogether."""
@@ -128,7 +121,7 @@ class GapTester:
         at = smooth.shape[1]
         if len(whitened.records) > 1:
             for index, record in enumerate(whitened.records):
-                ours = waves[:, (owner == index) & (full_order < RECORD_ORDER)]
+                ours = waves[:, (owner == index) & (full_order < DETECTION.record_order)]
                 columns = orthonormal(ours)[0]
                 parts.append(columns)
                 self._families.append((f"record {record.name}", slice(at, at + columns.shape[1])))
@@ -161,7 +154,7 @@ class GapTester:
             self._effective = max(np.log1p(-rank / size) / np.log1p(-single), 1.0)
         self._drawn = self._smallest(products)
 
-    def __call__(self, residual: FloatArray | None = None, level: float = LEVEL) -> GapTest:
+    def __call__(self, residual: FloatArray | None = None, level: float = DETECTION.gap_level) -> GapTest:
         """Test z, by default the campaign's own.
 
         Parameters
@@ -225,14 +218,16 @@ class GapTester:
             return np.asarray(smooth, dtype=np.float64)
         largest = np.max(np.abs(products[:, self._effect_slice]), axis=1)
         directed = self._effective * 2.0 * normal_tail(largest, self._spread)
-        return np.asarray(np.minimum(directed / DIRECTED_SHARE, smooth / (1.0 - DIRECTED_SHARE)), dtype=np.float64)
+        return np.asarray(
+            np.minimum(directed / DETECTION.directed_share, smooth / (1.0 - DETECTION.directed_share)), dtype=np.float64
+        )
 
 
 def gap_test(
     whitened: Whitened,
     directions: Mapping[str, FloatArray] | None = None,
     *,
-    level: float = LEVEL,
+    level: float = DETECTION.gap_level,
     size: int = 4000,
     seed: int = 0,
 ) -> GapTest:

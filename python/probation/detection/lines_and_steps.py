@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.detection.tail import family_p_value, normal_tail, student_tail
 from probation.noise.smooth_basis import smooth_basis
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -16,21 +17,8 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
-SLOWEST = 8
-"""Half periods per record from which on a wave counts as periodic; slower ones are a smooth gap."""
 
 OVERSAMPLING = 2
-CANDIDATES = 128
-"""Instants per record at which a step is first looked for."""
-
-AROUND = (6, 14)
-"""Samples on each side of a step by which the noise there is judged, closely and less so."""
-
-TOGETHER = 4
-"""Neighbouring samples that a short burst of noise moves together."""
-
-NEIGHBOURS = 60
-"""Frequencies whose median power a line is measured against, if that is above the noise's."""
 
 
 @dataclass(frozen=True)
@@ -88,19 +76,21 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
     found = []
     for index, record in enumerate(whitened.records):
         count = len(record)
-        if count < 8 * SLOWEST:
+        if count < 8 * DETECTION.slowest_line:
             continue
-        left, white = left_by_slow_waves(whitened, index, SLOWEST)
+        left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         duration = float(record.time[-1] - record.time[0]) * count / (count - 1)
         # By sample: where samples are uneven, so is their phase; the exact sums are then taken in time.
-        frequency = np.arange(OVERSAMPLING * SLOWEST // 2, OVERSAMPLING * count // 2) / (OVERSAMPLING * duration)
+        frequency = np.arange(OVERSAMPLING * DETECTION.slowest_line // 2, OVERSAMPLING * count // 2) / (
+            OVERSAMPLING * duration
+        )
         uniform = np.ptp(np.diff(record.time)) < 1e-3 * duration / count
         if uniform:
             power = np.abs(np.fft.rfft(left, OVERSAMPLING * count)) ** 2 / count
-            power = power[OVERSAMPLING * SLOWEST // 2 : OVERSAMPLING * count // 2]
+            power = power[OVERSAMPLING * DETECTION.slowest_line // 2 : OVERSAMPLING * count // 2]
         else:
             power = uneven_power(record.time, left, frequency)
-        level = np.maximum(running_median(power, NEIGHBOURS) / np.log(2.0), 1.0)
+        level = np.maximum(running_median(power, DETECTION.line_neighbours) / np.log(2.0), 1.0)
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
@@ -129,10 +119,10 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
     found = []
     for index, record in enumerate(whitened.records):
         count = len(record)
-        if count < 4 * SLOWEST:
+        if count < 4 * DETECTION.slowest_line:
             continue
         left, white = left_by_slow_waves(whitened, index, None)
-        stride = -(-count // CANDIDATES)
+        stride = -(-count // DETECTION.step_candidates)
         coarse = np.arange(max(stride, 3), count - 2, stride)
         steps, norm = _steps(whitened, index, white, coarse)
         scores = steps.T @ left
@@ -142,7 +132,14 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         at = int(np.argmax(np.abs(fine.T @ left)))
         along = float(fine[:, at] @ left)
         score = along / _local_noise_sd(left, int(near[at]))
-        freedom = _freedom(np.delete(left, slice(max(int(near[at]) - AROUND[1], 0), int(near[at]) + AROUND[1])))
+        freedom = _freedom(
+            np.delete(
+                left,
+                slice(
+                    max(int(near[at]) - DETECTION.step_neighbours[1], 0), int(near[at]) + DETECTION.step_neighbours[1]
+                ),
+            )
+        )
         spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
         values, vectors = np.linalg.eigh(steps.T @ steps)
         root = vectors * np.sqrt(np.maximum(values, 0.0))
@@ -165,7 +162,7 @@ def _local_noise_sd(left: FloatArray, place: int) -> float:
     The noise model may have missed a burst; a step is looked for with short windows, and would find it.
     """
     found = 1.0
-    for reach in AROUND:
+    for reach in DETECTION.step_neighbours:
         around = np.r_[max(place - reach, 0) : max(place - 1, 0), place + 2 : min(place + reach, len(left))]
         if around.size > reach:
             found = max(found, float(np.sqrt(np.mean(left[around] ** 2))))
@@ -174,10 +171,10 @@ def _local_noise_sd(left: FloatArray, place: int) -> float:
 
 def _freedom(values: FloatArray) -> float:
     """Degrees of freedom of the Student t that has the kurtosis of sums over a few neighbours; infinite if normal."""
-    count = len(values) // TOGETHER
-    sums = values[: count * TOGETHER].reshape(count, TOGETHER).sum(axis=1)
+    count = len(values) // DETECTION.burst_samples
+    sums = values[: count * DETECTION.burst_samples].reshape(count, DETECTION.burst_samples).sum(axis=1)
     variance = float(np.mean(sums**2))
-    if count < TOGETHER or variance == 0.0:
+    if count < DETECTION.burst_samples or variance == 0.0:
         return np.inf
     excess = float(np.mean(sums**4)) / variance**2 - 3.0
     return 4.0 + 6.0 / excess if excess > 0.0 else np.inf
@@ -186,7 +183,7 @@ def _freedom(values: FloatArray) -> float:
 def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
     """Whitened residual of a record without slow waves and its own refit, and the orthonormal columns taken out."""
     record, noise = whitened.records[index], whitened.noises[index]
-    smooth = smooth_basis(record.time, () if waves else record.jumps, waves or SLOWEST)
+    smooth = smooth_basis(record.time, () if waves else record.jumps, waves or DETECTION.slowest_line)
     columns = noise.whiten(np.hstack([smooth.columns, record.tangent]))
     size = np.linalg.norm(columns, axis=0)
     left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.detection import DETECTION
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -19,15 +21,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.detection.where import Located
     from probation.noise.whitening import Whitened
-
-MOST = 8
-"""Places that are left out at most, and that are tried each time."""
-
-EARNS = 20.0
-"""Sum of squares over what its samples would have by noise that leaving a place out must take away."""
-
-AT_LEAST = 0.5
-"""Part of all samples that stays in the fit."""
 
 
 def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
@@ -46,7 +39,7 @@ def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
     Whitened
         As it was where no place disturbs the fit.
     """
-    candidates = [_rows(whitened, place) for place in located[:MOST]]
+    candidates = [_rows(whitened, place) for place in located[: DETECTION.most_places_left_out]]
     for part in whitened.slices:
         whole = np.zeros(len(whitened), dtype=bool)
         whole[part] = True
@@ -54,9 +47,9 @@ def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
     tangent = whitened.whiten([record.tangent for record in whitened.records])
     out, moved = np.zeros(len(whitened), dtype=bool), np.zeros(tangent.shape[1])
     score = float(whitened.residual @ whitened.residual)
-    for _ in range(MOST):
+    for _ in range(DETECTION.most_places_left_out):
         tried = [out | each for each in candidates]
-        tried = [each for each in tried if each.sum() > out.sum() and 1.0 - each.mean() >= AT_LEAST]
+        tried = [each for each in tried if each.sum() > out.sum() and 1.0 - each.mean() >= DETECTION.least_share_kept]
         if not tried:
             break
         moves = [_moved(tangent, whitened.residual, ~each) for each in tried]
@@ -65,7 +58,7 @@ def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
             for move, each in zip(moves, tried, strict=True)
         ]
         best = int(np.argmin(scores))
-        if scores[best] > score - EARNS:
+        if scores[best] > score - DETECTION.least_gain_of_a_place:
             break
         out, moved, score = tried[best], moves[best], scores[best]
     if not out.any():

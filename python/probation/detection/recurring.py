@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import stdtr
 
-from probation.detection.lines_and_steps import SLOWEST, left_by_slow_waves
+from probation.detection.lines_and_steps import left_by_slow_waves
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,15 +18,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
-
-WIDTHS = (0.015, 0.03)
-"""Standard deviations of the bumps that are looked for, as parts of the largest strain."""
-
-FEWEST = 3
-"""Samples within a bump's standard deviation that a record needs to be asked."""
-
-HIDDEN = 0.2
-"""Part of a bump that slow waves leave, below which nothing is asked of it."""
 
 
 @dataclass(frozen=True)
@@ -64,13 +56,14 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
     ends = [end(record.true_strain) for record in whitened.records for end in (np.min, np.max)]
     largest = float(max(ends, key=abs))  # negative in compression
     found = []
-    for part in WIDTHS:
+    for part in DETECTION.bump_widths:
         width = part * abs(largest)
         places = np.sign(largest) * np.arange(width, abs(largest), width)
         shares = {
             record.name: share
             for index, record in enumerate(whitened.records)
-            if len(record) >= 8 * SLOWEST and (share := _share(whitened, index, places, width)) is not None
+            if len(record) >= 8 * DETECTION.slowest_line
+            and (share := _share(whitened, index, places, width)) is not None
         }
         reached = np.sum([share.seen for share in shares.values()], axis=0)
         shared = np.flatnonzero(reached >= 2)
@@ -100,11 +93,13 @@ class _Share:
 
 def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> _Share | None:
     away = (whitened.records[index].true_strain[:, None] - places) / width
-    left, white = left_by_slow_waves(whitened, index, SLOWEST)
+    left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
     bumps = whitened.noises[index].whiten(np.exp(-0.5 * away**2))
     size = np.linalg.norm(bumps, axis=0)
     bumps = bumps - white @ (white.T @ bumps)
-    seen = (np.count_nonzero(np.abs(away) < 1.0, axis=0) >= FEWEST) & (np.linalg.norm(bumps, axis=0) > HIDDEN * size)
+    seen = (np.count_nonzero(np.abs(away) < 1.0, axis=0) >= DETECTION.fewest_bump_samples) & (
+        np.linalg.norm(bumps, axis=0) > DETECTION.hidden_bump_share * size
+    )
     bumps[:, ~seen] = 0.0
     return _Share(seen, bumps.T @ left, bumps.T @ bumps) if seen.any() else None
 
@@ -129,7 +124,7 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
     said = sum(float(share.along[at]) for share in speaking) * np.sign(scores[best])
     size = said / np.sqrt(sum(float(share.alike[at, at]) for share in speaking)) / loud
     single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
-    tried = len(WIDTHS) * len(shared)
+    tried = len(DETECTION.bump_widths) * len(shared)
     p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
     names = tuple(name for name, share in shares.items() if share.seen[at])
     return Recurring(float(places[at]), width, names, p_value)

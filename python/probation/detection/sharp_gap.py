@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.recurring import find_recurring
 from probation.detection.strain_periodic import find_strain_periodic
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from probation.detection.gap_test import GapTest
     from probation.noise.whitening import Whitened
-
-SHARP_SHARE = 0.075
-"""Part of the level that is spent on each: lines, steps, strain periods, and bumps that recur."""
 
 
 def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
@@ -35,8 +33,8 @@ def with_sharp(gap: GapTest, whitened: Whitened) -> GapTest:
         "ripples": min((component.p_value for component in find_strain_periodic(whitened)), default=1.0),
         "recurring": min((bump.p_value for bump in find_recurring(whitened)), default=1.0),
     }
-    least = min(sharp.values()) / SHARP_SHARE
-    share = 1.0 - len(sharp) * SHARP_SHARE
+    least = min(sharp.values()) / DETECTION.sharp_share
+    share = 1.0 - len(sharp) * DETECTION.sharp_share
 
     def family(p_value: float) -> float:
         return min(p_value / share, least, 1.0)

@@ -14,30 +14,21 @@ import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.special import gammaincc
 
-from probation.detection.lines_and_steps import NEIGHBOURS, SLOWEST, left_by_slow_waves, running_median
+from probation.detection.lines_and_steps import left_by_slow_waves, running_median
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
-CERTAIN = 1e-4
-"""p-value below which a strain-periodic component may explain something (`strain_periodic_waves`)."""
-
-HARMONICS = (1, 4, 16)
-"""The first so many are added up: a wave has one, teeth have many."""
 
 OVERSAMPLING = 2
 FINE = 4
 """Frequencies per natural spacing that are tried, at the highest harmonic, and at which power is known."""
 
-TEETH = 4
-"""Jumps that a record must have for a comb: samples are cut to the height of the fourth; a slip or two are none."""
 
 GRID = 16
 """Cells per period of the shortest wave whose power is taken: it loses 1 % in them."""
-
-SHORTEST, RESOLVED = 8, 2.5
-"""Samples per period, on the average, of the shortest period that is searched, and of its highest harmonic."""
 
 
 @dataclass(frozen=True)
@@ -87,16 +78,18 @@ def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
     spectra = [
         _Spectrum.of(whitened, index, longest)
         for index, record in enumerate(whitened.records)
-        if len(record) >= 8 * SLOWEST and float(np.ptp(record.true_strain)) > 0.3 * longest > 0.0
+        if len(record) >= 8 * DETECTION.slowest_line and float(np.ptp(record.true_strain)) > 0.3 * longest > 0.0
     ]
     if not spectra:
         return ()
     most = max(spectrum.count for spectrum in spectra)
-    families = len(HARMONICS) * (len(spectra) + 1)
+    families = len(DETECTION.harmonics) * (len(spectra) + 1)
     best: dict[str | None, StrainPeriodic] = {}
-    for harmonics in HARMONICS:
+    for harmonics in DETECTION.harmonics:
         step = OVERSAMPLING * harmonics
-        frequency = np.arange(step * SLOWEST // 2, step * most // SHORTEST) / (step * longest)
+        frequency = np.arange(step * DETECTION.slowest_line // 2, step * most // DETECTION.shortest_strain_period) / (
+            step * longest
+        )
         together, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
         found = []
         for spectrum in spectra:
@@ -128,10 +121,12 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     log_share : float
         See `StrainPeriodic.log_share`; 0 if none is certain.
     """
-    found = next((each for each in find_strain_periodic(whitened) if each.p_value < CERTAIN), None)
+    found = next(
+        (each for each in find_strain_periodic(whitened) if each.p_value < DETECTION.strain_periodic_level), None
+    )
     if found is None:
         return np.zeros((len(whitened), 0)), 0.0
-    orders = np.arange(1, HARMONICS[-1] + 1)
+    orders = np.arange(1, DETECTION.harmonics[-1] + 1)
     largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
     parts = []
     for record in whitened.records:
@@ -170,19 +165,21 @@ class _Spectrum:
         """Over the noise model or the power of the neighbouring frequencies, whichever is larger."""
         record = whitened.records[index]
         extent = float(np.ptp(record.true_strain))
-        left, _ = left_by_slow_waves(whitened, index, SLOWEST)
+        left, _ = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         most = _height(np.abs(left))
         left = np.clip(left, -most, most)
         spacing = 1.0 / (FINE * longest)
-        power = _power(record.true_strain, left, spacing, int(len(record) / (RESOLVED * extent * spacing)) + 1)
-        level = running_median(power, NEIGHBOURS * FINE // OVERSAMPLING) / np.log(2.0)
+        power = _power(
+            record.true_strain, left, spacing, int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
+        )
+        level = running_median(power, DETECTION.line_neighbours * FINE // OVERSAMPLING) / np.log(2.0)
         return cls(record.name, len(record), extent, spacing, power / np.maximum(level, 1.0))
 
     def comb(self, frequency: FloatArray, harmonics: int) -> tuple[FloatArray, FloatArray]:
         """Power at each frequency and its harmonics, as far as they are resolved, and how many those are."""
         power, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
         periods = frequency * self.extent
-        seen = (periods >= 0.5 * SLOWEST) & (periods * SHORTEST <= self.count)
+        seen = (periods >= 0.5 * DETECTION.slowest_line) & (periods * DETECTION.shortest_strain_period <= self.count)
         for order in range(1, harmonics + 1):
             place = np.rint(order * frequency / self.spacing).astype(np.intp)
             resolved = seen & (place < len(self.power))
@@ -194,9 +191,11 @@ class _Spectrum:
 def _height(size: FloatArray) -> float:
     """Of the fourth largest peak, those within half a shortest period of a larger one not counted."""
     size = size.copy()
-    for _ in range(TEETH - 1):
+    for _ in range(DETECTION.fewest_teeth - 1):
         top = int(np.argmax(size))
-        size[max(top - SHORTEST // 2, 0) : top + SHORTEST // 2 + 1] = 0.0
+        size[max(top - DETECTION.shortest_strain_period // 2, 0) : top + DETECTION.shortest_strain_period // 2 + 1] = (
+            0.0
+        )
     return float(size.max())
 
 

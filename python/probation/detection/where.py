@@ -10,6 +10,7 @@ import numpy as np
 from probation.detection.tail import chi_square_tail, family_p_value
 from probation.noise.regions import Kind, Region, runs, state_regions, time_regions
 from probation.noise.smooth_basis import smooth_basis
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,31 +20,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.record_residual import RecordResidual
     from probation.noise.whitening import Whitened
-
-LEVEL = 0.01
-"""Familywise level at which a region is reported."""
-
-DEGREE = 2
-"""A region's gap is looked for as a parabola over it; as a mean where it has fewer than `ROOMY` samples."""
-
-ROOMY = 12
-WAVES = 16
-"""Half periods of the smooth curve that draws a gap's outline."""
-
-OUTLINE = 0.25
-"""A gap's region ends where the smooth curve falls below this fraction of its largest value in the record ..."""
-
-SURE = 2.0
-"""... or below so many standard errors."""
-
-MOST = 0.9
-"""Part of an effect's energy in a record that is where it acts."""
-
-NEGLIGIBLE = 0.005
-"""Part of its energy in all records below which a record is not one where it acts."""
-
-BRIDGE, SHORTEST = 0.04, 0.01
-"""Parts of a record: shorter interruptions of a region are bridged, shorter regions left out."""
 
 
 @dataclass(frozen=True)
@@ -122,14 +98,14 @@ class Where:
         return tuple(sorted((r for r in self.regions if r.kind == kind), key=lambda r: (r.p_value, -r.statistic)))
 
 
-def locate(whitened: Whitened, *, level: float = LEVEL, size: int = 2000, seed: int = 0) -> Where:
+def locate(whitened: Whitened, *, level: float = DETECTION.region_level, size: int = 2000, seed: int = 0) -> Where:
     """Look for the gap region by region (docs/diagnosis-method.md, section 3).
 
     Partitions: every record in nested intervals of time; all records together by strain, rate and phase. In each region
     the mean, slope and bend of z are tested (a mean where samples are few); familywise p-values come from the draws of
     the largest statistic under the null, the refit that couples all regions included. Contiguous regions of a record
-    are then outlined by a smooth curve through its residual, where that is above `SURE` standard errors and `OUTLINE`
-    of its peak, if a region that is significant by itself lies there.
+    are then outlined by a smooth curve through its residual, where that is above `DETECTION.outline_errors` standard
+    errors and `DETECTION.outline_fraction` of its peak, if a region that is significant by itself lies there.
 
     A refit smears a gap over places where there was none: `contribution_regions` says where an effect acts once it is
     known.
@@ -217,10 +193,10 @@ def contribution_regions(
     masks = []
     for values, slopes in zip(contribution, gradient, strict=True):
         error = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", slopes, covariance, slopes), 0.0))
-        masks.append(np.abs(values) > SURE * error)
+        masks.append(np.abs(values) > DETECTION.outline_errors * error)
     sure = [np.where(mask, own, 0.0) for mask, own in zip(masks, energy, strict=True)]
     total = float(sum(own.sum() for own in sure))
-    masks = [_shortest_part(own, NEGLIGIBLE * total) for own in sure]
+    masks = [_shortest_part(own, DETECTION.negligible_energy * total) for own in sure]
     return _report(records, masks, energy, float(sum(e.sum() for e in energy)), [p_value] * len(records))
 
 
@@ -233,7 +209,7 @@ def _features(whitened: Whitened, regions: list[Region]) -> tuple[list[FloatArra
         where = []
         for index, inside in region.members:
             members = np.flatnonzero(inside)
-            degree = DEGREE if len(members) >= ROOMY else 0
+            degree = DETECTION.region_degree if len(members) >= DETECTION.parabola_samples else 0
             columns = np.zeros((len(inside), degree + 1))
             columns[members] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, len(members)), degree)
             blocks[index].append(columns)
@@ -264,16 +240,21 @@ def _rms(parts: list[FloatArray]) -> float:
 
 def _outline(values: FloatArray, error: FloatArray) -> NDArray[np.bool_]:
     size = np.abs(values)
-    inside: NDArray[np.bool_] = (size > SURE * error) & (size > OUTLINE * float(size.max(initial=0.0)))
+    inside: NDArray[np.bool_] = (size > DETECTION.outline_errors * error) & (
+        size > DETECTION.outline_fraction * float(size.max(initial=0.0))
+    )
     return inside
 
 
 def _shortest_part(energy: FloatArray, least: float) -> NDArray[np.bool_]:
-    """Samples of the shortest stretch with the part `MOST` of a record's energy; none where that is `least` or less."""
+    """Samples of the shortest part of a record with `DETECTION.acting_energy` of its energy.
+
+    None where that is `least` or less.
+    """
     inside = np.zeros(len(energy), dtype=bool)
     passed = np.concatenate([[0.0], np.cumsum(energy)])
     if passed[-1] > least:
-        stop = np.searchsorted(passed, passed[:-1] + MOST * passed[-1] * (1.0 - 1e-12))
+        stop = np.searchsorted(passed, passed[:-1] + DETECTION.acting_energy * passed[-1] * (1.0 - 1e-12))
         length = np.where(stop < len(passed), stop - np.arange(len(energy)), len(passed))
         first = int(np.argmin(length))
         inside[first : stop[first]] = True
@@ -303,7 +284,7 @@ def _located(whitened: Whitened, regions: list[Region], adjusted: FloatArray, le
 def _smooth_curve(whitened: Whitened, index: int) -> tuple[FloatArray, FloatArray]:
     """The smooth part of a record's residual by generalised least squares, and its standard error [MPa]."""
     record, noise = whitened.records[index], whitened.noises[index]
-    basis = smooth_basis(record.time, record.jumps, WAVES).columns
+    basis = smooth_basis(record.time, record.jumps, DETECTION.outline_waves).columns
     white = noise.whiten(basis)
     left, upper = np.linalg.qr(white)
     # R^-1 by least squares: columns that hang on others take no part.
@@ -324,7 +305,11 @@ def _report(
     found = []
     for record, inside, own, p_value in zip(records, masks, energy, p_values, strict=True):
         count = len(record)
-        for part in runs(inside, bridge=int(BRIDGE * count), least=max(int(SHORTEST * count), 1)):
+        for part in runs(
+            inside,
+            bridge=int(DETECTION.bridged_interruption * count),
+            least=max(int(DETECTION.shortest_region * count), 1),
+        ):
             strain = record.true_strain[part]
             found.append(
                 Located(

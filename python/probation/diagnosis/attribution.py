@@ -18,6 +18,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
 from probation.parallel import in_parallel
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -28,12 +29,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.probabilities import Weighed
     from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
-
-WORTH_NAMING = 0.01
-"""Part of the gap below which an effect is not named beside those that close the rest."""
-
-NOTED = 0.01
-"""Probability from which on an effect is listed that is not in the best explanation."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +81,8 @@ class Attribution:
     effects : tuple of EffectShare
         By share, then by probability.
     named : tuple of str
-        The fewest effects of the best explanation that close all of what it closes but `WORTH_NAMING`, by share.
+        The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
+        by share.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -126,7 +122,7 @@ def attribution(
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
         probability = min(sum(each.probability for each in weighed if name in each.effects), 1.0)
         inside = name in known
-        if name not in best.effects and probability < NOTED:
+        if name not in best.effects and probability < EVIDENCE.probability_worth_naming:
             continue
         share = shares.get(name, 0.0)
         if name == UNKNOWN and UNKNOWN in best.effects:
@@ -207,7 +203,9 @@ def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) ->
 def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
     """The fewest that close nearly all."""
     for size in range(1, len(known)):
-        parts = [part for part in combinations(known, size) if closed[part] > closed[known] - WORTH_NAMING]
+        parts = [
+            part for part in combinations(known, size) if closed[part] > closed[known] - EVIDENCE.share_worth_naming
+        ]
         if parts:
             return max(parts, key=lambda part: closed[part])
     return known

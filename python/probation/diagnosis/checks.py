@@ -14,20 +14,13 @@ import numpy as np
 
 from probation.detection.tail import chi_square_tail
 from probation.diagnosis.result import Checks
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.inference.refit import Refit
     from probation.noise.whitening import Whitened
-
-FEWEST = 3
-"""Records below which none can be left out."""
-
-DISAGREE = 1e-3
-"""Below this p-value, and with the amplitude scattering by `SCATTER`, records are said to want different ones."""
-
-SCATTER = 0.25
 
 
 def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_value: float) -> Checks:
@@ -45,7 +38,7 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
     found = hypothesis.refit
     shared = all(cause.records is None for cause in hypothesis.causes)
     left_out = None
-    if shared and len(whitened.records) >= FEWEST:
+    if shared and len(whitened.records) >= EVIDENCE.fewest_to_leave_out:
         count = len(whitened)
         before, after = (
             float(np.sum(left_out_squares(base, whitened))),
@@ -54,7 +47,7 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
         left_out = 1.0 - (after - count) / (before - count) if before > count + 2.0 * np.sqrt(2.0 * count) else None
     p_value, scatter = amplitude_consistency(hypothesis, whitened) if shared else (None, 0.0)
     notes = []
-    if p_value is not None and p_value < DISAGREE and scatter > SCATTER:
+    if p_value is not None and p_value < EVIDENCE.disagreement_level and scatter > EVIDENCE.disagreement_scatter:
         notes.append(f"the records want amplitudes that differ by {100.0 * scatter:.0f} %")
     low, high = found.at_bound
     for index, name in enumerate(found.model.parameter_names[found.model.base_count :], found.model.base_count):

@@ -20,7 +20,6 @@ from probation.diagnosis.held_out import HeldToAccount, all_but_one, made_worse
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import (
-    TEMPERED,
     answer_set,
     given_a_gap,
     given_no_gap,
@@ -49,6 +48,7 @@ from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
 from probation.progress import shows_progress
 from probation.records.checks import require_signal
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -156,7 +156,7 @@ def diagnose(
         )
     else:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, len(considered), TEMPERED), p_value)
+        weighed = given_no_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
         judged, verdict = {}, "no_gap"
     if weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
@@ -282,7 +282,7 @@ def _explained(
 ) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
     """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
     base, found = _searched(base, considered, threads, skipping, budget, lambda part: progress(0.35 + 0.45 * part))
-    weighed = given_a_gap(weigh(found, len(considered), TEMPERED), p_value)
+    weighed = given_a_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)
     left, judged = _judged(weighed, answer_set(weighed), base, account, seed)

@@ -9,7 +9,8 @@ import numpy as np
 from probation.detection.where import Located, contribution_regions
 from probation.diagnosis.headline import title
 from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation, Status
-from probation.inference.parameter import IDENTIFIABLE, WEAKLY
+from probation.settings.certificate import CERTIFICATE
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks
     from probation.inference.base_fit import BaseFit
-
-UNINFORMED = 0.9
-"""A standard error above so much of the prior's means that the data add nothing."""
 
 
 def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...], Checks]) -> tuple[Explanation, ...]:
@@ -53,7 +51,7 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
     for cause in hypothesis.causes:
         for parameter in cause.form.parameters:
             scale = parameter.scale * (abs(found.parameters[at]) if parameter.log else 1.0)
-            known = 0.0 < deviation[at] < UNINFORMED * scale
+            known = 0.0 < deviation[at] < EVIDENCE.uninformed * scale
             result.append(
                 CauseParameter(
                     effect=cause.effect.name,
@@ -86,8 +84,8 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
             continue
         relative = float(error) / max(abs(float(value)), 1e-300)
         status: Status = "identifiable"
-        if relative > IDENTIFIABLE:
-            status = "weakly_identifiable" if relative <= WEAKLY else "not_identifiable"
+        if relative > CERTIFICATE.identifiable:
+            status = "weakly_identifiable" if relative <= CERTIFICATE.weakly_identifiable else "not_identifiable"
         result.append(BaseParameter(name, float(value), float(error), status))
     return tuple(result)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.attribution import WORTH_NAMING
 from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effect
 from probation.inference.gap import TOLERANCE
+from probation.settings.evidence import EVIDENCE
 from probation.wording import listed, percent, percentage
 
 if TYPE_CHECKING:
@@ -143,7 +143,9 @@ def _cause(
     verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}"
     if len(known) < len(best.effects):
-        sentence += f"; what else is in the explanation closes less than {percent(WORTH_NAMING)} of the gap"
+        sentence += (
+            f"; what else is in the explanation closes less than {percent(EVIDENCE.share_worth_naming)} of the gap"
+        )
     rivals = [each for each in answer_set if not {*known} <= {*each}]
     if rivals:
         shown = choices(rivals[:MOST_RIVALS])

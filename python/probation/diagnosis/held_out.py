@@ -15,6 +15,7 @@ from probation.diagnosis.result import UNKNOWN
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,13 +26,8 @@ if TYPE_CHECKING:
     from probation.inference.gap import Gap
     from probation.records.campaign import Campaign
 
-PLAINLY = 4.0
-"""Standard deviations by which a record's misfit exceeds what an explanation, were it right, would make of it."""
 
 DRAWS = 400
-
-KEPT = 0.01
-"""Part of its probability that an explanation keeps which makes the prediction of a held-out record worse."""
 
 
 def all_but_one(campaign: Campaign, gap: Gap) -> tuple[Campaign, str | None]:
@@ -107,7 +103,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
             continue
         whole = replace(noise, carried=np.hstack([noise.carried, columns[rows]]))
         scatter = 2.0 * float(np.std(whole.simulate(rng, DRAWS) @ change)) / count
-        if rise + float(np.mean(change**2)) > PLAINLY * scatter:
+        if rise + float(np.mean(change**2)) > EVIDENCE.held_out_misfit * scatter:
             sizes = (float(np.sqrt(np.mean(error**2))) for error in (first, last))
             worse.append(Worse(record.name, *sizes))
     return tuple(worse)
@@ -143,5 +139,8 @@ class HeldToAccount:
         if len(refuted) == len(known):
             return list(weighed)
         return normalised(
-            [replace(each, probability=KEPT * each.probability) if id(each) in refuted else each for each in weighed]
+            [
+                replace(each, probability=EVIDENCE.held_out_penalty * each.probability) if id(each) in refuted else each
+                for each in weighed
+            ]
         )

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.next_test import HELPS, next_test
+from probation.design.next_test import next_test
 from probation.diagnosis.result import UNKNOWN, NextTest
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,17 +18,9 @@ if TYPE_CHECKING:
     from probation.diagnosis.probabilities import Weighed
     from probation.inference.base_fit import BaseFit
 
-MOST = 4
-"""Explanations that a test is planned for, the most probable ones."""
 
 MOST_TESTS = 5
 """Tests that are listed."""
-
-FORMS = 2
-"""Forms and places of an explanation that are predicted, the best ones ..."""
-
-FORMS_WITHIN = 4.0
-"""... if their log evidence is within this of the best one's."""
 
 
 def is_stretched(base: BaseFit) -> bool:
@@ -56,7 +49,9 @@ def next_test_of(
         All forms and places that were refitted.
     threads, seed : int
     """
-    open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][:MOST]
+    open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][
+        : DESIGN.planned_explanations
+    ]
     if len(open_still) < 2:
         return ()
     entries = []
@@ -65,9 +60,9 @@ def next_test_of(
         close = [
             other
             for other in hypotheses
-            if other.effects == each.effects and other.evidence.log_evidence > best - FORMS_WITHIN
+            if other.effects == each.effects and other.evidence.log_evidence > best - DESIGN.forms_within
         ]
-        close = sorted(close, key=lambda other: -other.evidence.log_evidence)[:FORMS]
+        close = sorted(close, key=lambda other: -other.evidence.log_evidence)[: DESIGN.forms]
         weight = np.exp([other.evidence.log_evidence - best for other in close])
         entries += [
             (other.refit.model, other.refit.parameters, float(each.probability * part), each.effects)
@@ -84,7 +79,7 @@ def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, .
     for each in ranking:
         of_kind.setdefault(each.test.name, each)
     first, *others = of_kind.values()
-    helpful = [each for each in others if each.probability_after >= before + HELPS]
+    helpful = [each for each in others if each.probability_after >= before + DESIGN.least_help]
     return tuple(
         NextTest(
             what=each.what,

@@ -11,6 +11,7 @@ from scipy.special import logsumexp
 
 from probation.diagnosis.result import UNKNOWN
 from probation.inference.candidate import Key, cause_key
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,39 +19,9 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.cause import Cause
 
-NONE, SINGLE, PAIR, TRIPLE = 0.45, 0.33, 0.12, 0.01
-UNKNOWN_ALONE, UNKNOWN_BESIDE = 0.08, 0.01
-"""Prior probabilities: no effect, one, two or three of the catalogue, one outside it, one of each."""
-
-TEMPERED = 0.4
-"""Power of the evidence, which believes in its forms and its noise more than these deserve: the one by which the
-probabilities of causes come true, found on sealed campaigns of the split that is for it."""
-
-SHY = 0.2
-"""Of gaps that are not declared, P(p-value of the gap test < p) = p^SHY, found on the same campaigns; without a gap it
-is p."""
-
-AGAIN = 0.03
-"""Prior probability of an effect in another record, too, in another form or size, over that of its being in one."""
-
-LEFT_OVER = 0.9
-"""Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it."""
-
-ABOUT_AS_PROBABLE = 12.0
-"""Log evidence within which forms of one effect are discriminated by how well they fit as they are."""
-
-UNSEEN = 0.2
-"""Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom costs little
-and gains nothing. So what was probable beforehand of two effects stays so, shared out to those that were not tried."""
-
-NOTED = 0.05
-"""Probability from which on a single effect is reported with others that may act jointly, unseen."""
 
 TINY = 1e-12
 """Smaller p-values are reported as this."""
-
-COVERED = 0.95
-"""Probability that an answer set holds."""
 
 
 class HasProbability(Protocol):
@@ -98,7 +69,9 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
     for each in _best_starts(hypotheses):
         value = each.evidence.log_evidence
         again = len(each.causes) - len({cause.effect.name for cause in each.causes})
-        inside = sum(_form_and_place(cause, each) for cause in each.causes) + again * log(AGAIN)
+        inside = sum(_form_and_place(cause, each) for cause in each.causes) + again * log(
+            EVIDENCE.again_in_another_record
+        )
         for effects, score in (
             (each.effects, value),
             (with_unknown(each.effects), each.evidence.log_evidence_unknown),
@@ -131,12 +104,14 @@ def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighe
     singles = [each for each in weighed if len(each.effects) == 1 and each.effects[0] in names]
     found = list(weighed)
     for single in singles:
-        if single.probability < NOTED:
+        if single.probability < EVIDENCE.noted_with_others:
             continue
         for name in names:
             pair = tuple(sorted({*single.effects, name}))
             if len(pair) == 2 and pair not in tried:
-                odds = UNSEEN * exp(log_prior(pair, len(names)) - log_prior(single.effects, len(names)))
+                odds = EVIDENCE.unseen_second_effect * exp(
+                    log_prior(pair, len(names)) - log_prior(single.effects, len(names))
+                )
                 found.append(Weighed(pair, odds * single.probability, single.hypothesis))
                 tried.add(pair)
     return normalised(found)
@@ -145,7 +120,11 @@ def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighe
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
     """Of the forms that are about as probable in the same place, the one that is most nearly exact."""
     best, leading = max(entries, key=lambda entry: entry[0])
-    close = [each for score, each in entries if score >= best - ABOUT_AS_PROBABLE and each.records == leading.records]
+    close = [
+        each
+        for score, each in entries
+        if score >= best - EVIDENCE.about_as_probable and each.records == leading.records
+    ]
     return max(close, key=lambda each: each.evidence.log_evidence_exact)
 
 
@@ -158,8 +137,8 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     """Where no gap is declared: the test's p-value is a datum, too, and no explanation may lead "no effect is needed".
 
     The test looks for more than the explanations describe, so that a small p-value speaks against "none" even where
-    their evidence does not: its odds are multiplied by the ratio of the densities of p, p^(1 - SHY) / SHY (Sellke,
-    Bayarri and Berger 2001).
+    their evidence does not: its odds are multiplied by the ratio of the densities of p, p^(1 - s) / s with
+    s = `EVIDENCE.undeclared_gap_power` (Sellke, Bayarri and Berger 2001).
 
     Parameters
     ----------
@@ -168,7 +147,9 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
         Of the test for a gap.
     """
     none = next(each for each in weighed if not each.effects)
-    told = max(p_value, TINY) ** (1.0 - SHY) / SHY * none.probability
+    told = (
+        max(p_value, TINY) ** (1.0 - EVIDENCE.undeclared_gap_power) / EVIDENCE.undeclared_gap_power * none.probability
+    )
     weighed = normalised([replace(each, probability=told) if each is none else each for each in weighed])
     most = max(each.probability for each in weighed)
     return normalised([each if each.effects else replace(each, probability=most) for each in weighed])
@@ -189,7 +170,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     """
     none = next(each for each in weighed if not each.effects)
     p_value = max(p_value, TINY)
-    odds = -e * p_value * log(p_value) * NONE / (1.0 - NONE)
+    odds = -e * p_value * log(p_value) * EVIDENCE.no_effect / (1.0 - EVIDENCE.no_effect)
     most = odds / (1.0 + odds)
     rest = 1.0 - none.probability
     if none.probability <= most or rest <= 0.0:
@@ -205,7 +186,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
 def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Where a gap is left after the best explanation, most of its probability goes to it with an unknown beside."""
     best, beside = weighed[0], with_unknown(weighed[0].effects)
-    moved = LEFT_OVER * best.probability
+    moved = EVIDENCE.left_to_an_unknown * best.probability
     known = next((each.probability for each in weighed if each.effects == beside), 0.0)
     changed = [replace(best, probability=best.probability - moved), Weighed(beside, known + moved, best.hypothesis)]
     return normalised([*changed, *(each for each in weighed[1:] if each.effects != beside)])
@@ -234,17 +215,17 @@ def log_prior(effects: tuple[str, ...], count: int) -> float:
     """Log prior probability of a set of effects of a catalogue of so many."""
     known = [name for name in effects if name != UNKNOWN]
     if len(known) < len(effects):
-        return log(UNKNOWN_ALONE) if not known else log(UNKNOWN_BESIDE / count) * len(known)
-    share = (NONE, SINGLE, PAIR, TRIPLE)[len(known)]
+        return log(EVIDENCE.unknown_effect) if not known else log(EVIDENCE.unknown_with_known / count) * len(known)
+    share = (EVIDENCE.no_effect, EVIDENCE.one_effect, EVIDENCE.two_effects, EVIDENCE.three_effects)[len(known)]
     return log(share / max(comb(count, len(known)), 1))
 
 
-def answer_set(weighed: Sequence[Weighed], covered: float = COVERED) -> tuple[tuple[str, ...], ...]:
+def answer_set(weighed: Sequence[Weighed], covered: float = EVIDENCE.credible_set) -> tuple[tuple[str, ...], ...]:
     """The most probable explanations that hold so much probability together, best first."""
     return tuple(each.effects for each in leading(weighed, covered))
 
 
-def leading(ranked: Sequence[Probable], covered: float = COVERED) -> tuple[Probable, ...]:
+def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) -> tuple[Probable, ...]:
     """The first of what is ranked by probability that hold so much of it together."""
     chosen, total = [], 0.0
     for each in ranked:

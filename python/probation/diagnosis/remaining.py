@@ -9,21 +9,12 @@ import numpy as np
 from probation.detection.gap_test import GapTest, GapTester
 from probation.inference.form_error import form_columns
 from probation.noise.joint_noise import jointly_whitened
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation.diagnosis.result import Shrink
     from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
-
-TOLERATED = 0.05
-"""Relative error of an effect's form, record by record, that evidence takes for the effect's own."""
-
-TOLD = 0.25
-"""Part of what evidence lets pass beyond which a gap is reported as left: it is real, whatever its cause."""
-
-MOST_LEFT = 1.5
-"""Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it explains too
-little, however its form may be wrong. Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise."""
 
 
 def leaves_too_much(shrink: Shrink) -> bool:
@@ -31,10 +22,10 @@ def leaves_too_much(shrink: Shrink) -> bool:
     reachable = shrink.identify.noise_MPa
     if shrink.ceiling is not None:
         reachable = max(reachable, shrink.ceiling.after_MPa)
-    return shrink.identify.after_MPa > MOST_LEFT * reachable
+    return shrink.identify.after_MPa > EVIDENCE.most_left * reachable
 
 
-def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD) -> GapTest:
+def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVIDENCE.reported_remainder) -> GapTest:
     """The gap test on what an explanation leaves, its parameters refitted, its form's error let pass.
 
     Parameters
@@ -47,7 +38,7 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = TOLD
         Part of the errors of a form, as evidence takes them, that is let pass.
     """
     discrepancy = base.discrepancy
-    energy = (share * TOLERATED) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
+    energy = (share * EVIDENCE.tolerated_form_error) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
     allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, base.whitener)])
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()

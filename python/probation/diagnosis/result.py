@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.certificate.certify import TOLERANCE as CERTIFICATE_TOLERANCE
 from probation.inference.gap import TOLERANCE
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, rows_frame
 from probation.results.rendering import Result
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -396,7 +396,7 @@ class Diagnosis(Result, Stored):
                     **self.size.to_dict(),
                     "tolerance": self.tolerance,
                     "matters": self.matters,
-                    "of_certificate_tolerance": self.size.relative / CERTIFICATE_TOLERANCE,
+                    "of_certificate_tolerance": self.size.relative / CERTIFICATE.tolerance,
                 },
             },
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},

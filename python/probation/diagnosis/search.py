@@ -20,6 +20,7 @@ from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
 from probation.parallel import in_parallel
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -29,51 +30,6 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
-
-HEAT_STEPS, HEATS = 4, 4
-"""Gauss-Newton steps of a round of the race, and the most rounds."""
-
-GAINING = 0.7
-"""Part of what it left one round before that a cause still in motion leaves at most: such a cause is not out yet."""
-
-IN_THE_RUNNING, SLACK = 6.0, 30.0
-"""A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the slack."""
-
-BEHIND, FRACTION, STRONG = 14.0, 0.02, 100.0
-"""A cause is raced if its linearised gain is within so much of the best one's; for a strong gap, if it is this part."""
-
-CREDIBLE = 0.01
-"""p-value of a line or a step, over all records, below which causes that make them are sought there."""
-
-HARDLY, AHEAD, PLAIN = 0.1, 30.0, 2.0
-"""A soft step is hardly a step; it is sought from this p-value on, too, if its linearised gain is so far above that of
-the best smooth cause; and where that is so many times as much, whatever the steps say."""
-
-STARTS = 3
-"""Starts per form and place that a cause in the running is given."""
-
-PLACES = 2
-"""Records in which a rig's fault is tried alone, those with the best score."""
-
-FORWARD, ADDITIONS = 3, 6
-"""How many of the best explanations are added to, and how many additions each is given."""
-
-LEADING, FEWER = 5, 2
-"""Hypotheses beside which an unknown effect is looked for, and the best of one and of two effects that are in any case:
-beside an unknown one fewer may do."""
-
-HOPELESS = 15.0
-"""Log evidence behind the best one from which on a hypothesis is not looked at again."""
-
-RECONSIDERED = 16
-"""Hypotheses that are judged again once the noise is estimated jointly with the best one."""
-
-WORTH = 10.0
-"""Linearised gain from which on an addition is refitted."""
-
-MOST_EFFECTS = 3
-EXPLAINED = 3.0
-"""Log evidence by which an explanation with an unknown effect must lead for the search to go on."""
 
 
 @dataclass
@@ -112,7 +68,7 @@ class Search:
         self._look_beside_the_leading()
         self._told(0.6)
         size = 1
-        while size < MOST_EFFECTS:
+        while size < SEARCH.most_effects:
             leading = self.ranked(size)
             if not leading:
                 break
@@ -120,7 +76,7 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            for each in leading[: FORWARD if left and size == 1 else 1]:
+            for each in leading[: SEARCH.extended_explanations if left and size == 1 else 1]:
                 self._additions(each)
             if size == 1 and left:
                 self._swaps()
@@ -136,15 +92,17 @@ class Search:
         leading = self.ranked(1)
         if leading:
             self.base = with_joint_noise(self.base, leading[0].refit)
-            self.found = self.reconsidered(self.base, RECONSIDERED, np.inf)
+            self.found = self.reconsidered(self.base, SEARCH.reconsidered, np.inf)
 
-    def reconsidered(self, base: BaseFit, count: int = RECONSIDERED, hopeless: float = HOPELESS) -> list[Hypothesis]:
+    def reconsidered(
+        self, base: BaseFit, count: int = SEARCH.reconsidered, hopeless: float = SEARCH.hopeless
+    ) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
         again = Search(base, self.effects, self.threads, skipping=self.skipping)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - hopeless
         leading = [each for each in leading if each.evidence.log_evidence > least]
-        steps = HEAT_STEPS if self.budget.spent() else MOST_STEPS
+        steps = SEARCH.round_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._look_beside_the_leading()
@@ -162,33 +120,33 @@ class Search:
         return sorted(best.values(), key=lambda each: -each.evidence.log_evidence)
 
     def _something_left(self, best: Hypothesis) -> bool:
-        return best.evidence.log_evidence_unknown > best.evidence.log_evidence + EXPLAINED
+        return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
     def _singles(self, columns: WhitenedColumns) -> None:
         candidates = self._credible(
             columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
         )
         first = _promising(_first_of_each(candidates))
-        running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, HEAT_STEPS))
+        running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.round_steps))
         self.found += self._judged(out)
         polished = self._further(running, MOST_STEPS)
         keys = {cause_key(each.model.causes[-1]) for each in running}
-        others = _others(_promising(candidates), first, STARTS - 1)
+        others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
 
     def _raced(self, refits: list[Refit]) -> tuple[list[Refit], list[Refit]]:
         """Which of unfinished refits leave little enough, and which do not and hardly gain any more."""
-        for _ in range(HEATS - 1):
+        for _ in range(SEARCH.most_rounds - 1):
             limit = self._limit(refits)
-            behind = [each for each in refits if each.chi_square > limit and each.steps == HEAT_STEPS]
-            further = self._further(behind, HEAT_STEPS)
+            behind = [each for each in refits if each.chi_square > limit and each.steps == SEARCH.round_steps]
+            further = self._further(behind, SEARCH.round_steps)
             again = {id(each.model): each for each in further}
             moved = {
                 id(each): again[id(each.model)]
                 for each in behind
-                if id(each.model) in again and again[id(each.model)].chi_square < GAINING * each.chi_square
+                if id(each.model) in again and again[id(each.model)].chi_square < SEARCH.still_gaining * each.chi_square
             }
             if not moved:
                 break
@@ -204,7 +162,7 @@ class Search:
         count = len(self.base.whitened)
         # What is above the noise for certain; the noise itself is the same for all.
         gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
-        return float(best + (IN_THE_RUNNING - 1.0) * gap + SLACK)
+        return float(best + (SEARCH.in_the_race - 1.0) * gap + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause beside those of a hypothesis."""
@@ -229,24 +187,28 @@ class Search:
         ranked = self._credible(
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
-        chosen = _first_of_each_effect([each for each in ranked if each.gain > WORTH], ADDITIONS)
+        chosen = _first_of_each_effect(
+            [each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions
+        )
         self.found += self._judged(self._refitted(leading.refit, chosen))
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
         left = self.base.whitened.beside(before.residual, before.jacobian)
-        lines = {line.record for line in find_lines(left) if line.p_value < CREDIBLE}
+        lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left, size=500)}
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
 
         def credible(each: Candidate) -> bool:
             sharp = each.cause.form.sharp
             places = {*steps} if each.cause.records is None else {*each.cause.records}
-            if sharp is None or (sharp == "step" and each.gain > PLAIN * (smooth + AHEAD)):
+            if sharp is None or (
+                sharp == "step" and each.gain > SEARCH.soft_step_ratio * (smooth + SEARCH.soft_step_lead)
+            ):
                 return True
             if sharp == "line":
                 return bool(places & lines)
-            level = HARDLY if each.gain > smooth + AHEAD else CREDIBLE
+            level = SEARCH.soft_step_level if each.gain > smooth + SEARCH.soft_step_lead else SEARCH.line_or_step_level
             return min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
         return [each for each in candidates if credible(each)]
@@ -256,7 +218,7 @@ class Search:
         pairs = self.ranked(2)
         if not pairs:
             return
-        begun = {each.effects for each in self.ranked(1)[:FORWARD]}
+        begun = {each.effects for each in self.ranked(1)[: SEARCH.extended_explanations]}
         for name in pairs[0].effects:
             alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
             if alone is not None and alone.effects not in begun:
@@ -325,7 +287,11 @@ class Search:
 
     def _look_beside_the_leading(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
-        ahead = [*self.ranked()[:LEADING], *self.ranked(1)[:FEWER], *self.ranked(2)[:FEWER]]
+        ahead = [
+            *self.ranked()[: SEARCH.with_unknown],
+            *self.ranked(1)[: SEARCH.fewer_with_unknown],
+            *self.ranked(2)[: SEARCH.fewer_with_unknown],
+        ]
         leading = {id(each) for each in ahead}
         self.found = [
             self._weighed(each.refit, unknown=True)
@@ -349,7 +315,7 @@ def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
         if key in seen:
             continue
         if each.cause.records is not None:
-            if alone.get(key[:2], 0) >= PLACES:
+            if alone.get(key[:2], 0) >= SEARCH.places:
                 continue
             alone[key[:2]] = alone.get(key[:2], 0) + 1
         seen.add(key)
@@ -363,8 +329,8 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
     best = max((each.gain for each in candidates), default=0.0)
-    strong = best / (best + STRONG) if best > 0.0 else 0.0
-    least = best - max(BEHIND, (1.0 - FRACTION) * strong * best)
+    strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
+    least = best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
     return [each for each in candidates if each.gain >= least and each.gain > 0.0]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
+from probation.settings.detection import DETECTION
 from probation.wording import listed
 
 if TYPE_CHECKING:
@@ -17,11 +18,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.inference.base_fit import BaseFit
 
-LEVEL = 1e-3
-"""p-value, over all records, below which a feature is reported."""
-
-SCATTER_LEVEL = 0.01
-"""p-value, against the scatter between records, below which a parameter is said to change with something."""
 
 ALONG = {
     "log_rate": "with the strain rate",
@@ -48,11 +44,11 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     if all(cause.form.sharp is None for cause in best.causes):
         left = whitened.beside(best.refit.residual, best.refit.jacobian)
     for line in find_lines(left):
-        if line.p_value < LEVEL:
+        if line.p_value < DETECTION.signature_level:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"
             found.append(Signature("line", line.record, line.p_value, text))
     for step in find_steps(left, size=500):
-        if step.p_value < LEVEL:
+        if step.p_value < DETECTION.signature_level:
             text = (
                 f"a step of {-step.size_MPa:+.2g} MPa in {step.record} at {step.time_s:.4g} s "
                 f"(true strain {step.true_strain:.3g})"
@@ -60,7 +56,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
             found.append(Signature("step", step.record, step.p_value, text))
     if len(whitened.records) > 2:
         for drift in parameter_drift(whitened, names, _covariates(base)):
-            if drift.heterogeneity_p_value >= LEVEL:
+            if drift.heterogeneity_p_value >= DETECTION.signature_level:
                 continue
             reach = max(drift.change.values()) - min(drift.change.values())
             text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {reach:.3g}"
@@ -73,7 +69,8 @@ def changes_with(drift: Drift) -> str:
     followed = [
         words
         for name, words in ALONG.items()
-        if drift.slope_p_value.get(name, 1.0) < LEVEL and drift.scatter_p_value[name] < SCATTER_LEVEL
+        if drift.slope_p_value.get(name, 1.0) < DETECTION.signature_level
+        and drift.scatter_p_value[name] < DETECTION.scatter_level
     ]
     return listed(followed) or "from record to record"
 

@@ -10,8 +10,9 @@ import numpy as np
 from probation.field.errors import drawn_errors
 from probation.field.pixels import Pixels, identify_pixels, with_more_noise
 from probation.field.source import SHORTEST
-from probation.identify.scheme_error import MOST_SUBSTEPS, NEGLIGIBLE
+from probation.identify.scheme_error import MOST_SUBSTEPS
 from probation.law.schemes import SA3
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -55,9 +56,11 @@ def needed_substeps(
     steps = 1
     while steps < MOST_SUBSTEPS:
         shift = _shift(identify_pixels(way, time, strain, stress, used, steps), reference, errors)
-        if shift <= NEGLIGIBLE:
+        if shift <= CERTIFICATE.negligible_scheme_shift:
             break
-        steps = min(max(int(np.ceil(steps * np.sqrt(shift / NEGLIGIBLE))), steps + 1), MOST_SUBSTEPS)
+        steps = min(
+            max(int(np.ceil(steps * np.sqrt(shift / CERTIFICATE.negligible_scheme_shift))), steps + 1), MOST_SUBSTEPS
+        )
     return steps
 
 

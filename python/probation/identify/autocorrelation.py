@@ -10,22 +10,16 @@ from scipy.optimize import minimize_scalar
 from scipy.special import chdtrc
 
 from probation.identify.covariance import correlation_lags
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.ar1 import NoiseModel
 
-STRONGEST = 0.9
-"""Correlation from sample to sample from which on a residual is a wave, the law's bias, and no noise."""
-
-WHITE_ENOUGH = 1e-3
-"""Chance below which white innovations would look as correlated as these do (Ljung & Box 1978)."""
 
 LAGS = 20
 """That this test looks at, and a tenth of the samples at most."""
 
-SIGNIFICANT = 5.41
-"""Gain of twice the log-likelihood from which on noise is taken as correlated: 1 % of white records reach it."""
 
 WORTH_A_LOOK = 2.0
 """Correlation of neighbours [1 / sqrt(samples)] below which the gain cannot be significant."""
@@ -71,13 +65,17 @@ def fitted_noise(
 
         found = minimize_scalar(
             lambda correlation: _criterion(correlated(correlation), residual, jacobian),
-            bounds=(1e-3, STRONGEST),
+            bounds=(1e-3, CERTIFICATE.strongest_correlation),
             method="bounded",
             options={"xatol": 1e-3},
         )
         candidate = correlated(float(found.x))
         gain = _criterion(noise, residual, jacobian) - float(found.fun)
-        if gain > SIGNIFICANT and found.x < 0.99 * STRONGEST and _white(candidate.whiten(residual)):
+        if (
+            gain > CERTIFICATE.correlation_gain
+            and found.x < 0.99 * CERTIFICATE.strongest_correlation
+            and _white(candidate.whiten(residual))
+        ):
             noise = candidate
             left = noise.whiten(residual)
     freedom = max(len(residual) - jacobian.shape[1], 1)
@@ -92,7 +90,7 @@ def _white(innovation: FloatArray) -> bool:
     variance = float(centred @ centred)
     statistic = sum((float(centred[k:] @ centred[:-k]) / variance) ** 2 / (count - k) for k in range(1, lags + 1))
     chance = float(chdtrc(lags - 1, count * (count + 2.0) * statistic))
-    return chance > WHITE_ENOUGH and correlation_lags(innovation) == 0
+    return chance > CERTIFICATE.white_enough and correlation_lags(innovation) == 0
 
 
 def _criterion(noise: NoiseModel, residual: FloatArray, jacobian: FloatArray) -> float:

@@ -9,18 +9,14 @@ import numpy as np
 
 from probation.noise.moving_parabola import moving_parabola, parabola_weights
 from probation.results.data import CURVE, WithCurves
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-WINDOW = 1.0 / 12.0
-"""Part of the record over which a parabola takes the low-frequency part: waves of less than six in a record pass."""
 
 SHORTEST = 24
 """Samples below which there is no telling."""
-
-SIGNIFICANT = 4.0
-"""Standard deviations of the smoothed noise that the largest of a record of noise alone hardly reaches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +63,7 @@ class Bias(WithCurves):
 
 
 def low_frequency(residual: FloatArray) -> FloatArray:
-    """The residual through a moving parabola over `WINDOW` of the record, shape (n_times,) [MPa]."""
+    """The residual through a moving parabola over `CERTIFICATE.bias_window` of the record, shape (n_times,) [MPa]."""
     if len(residual) < SHORTEST:
         return np.full_like(residual, residual.mean())
     return moving_parabola(residual, _window(len(residual)))
@@ -104,11 +100,11 @@ def bias_of(
         deviation[-(window // 2) :] *= 2.0
         if carried is not None:
             deviation = np.hypot(deviation, np.linalg.norm(moving_parabola(carried, window), axis=1))
-    threshold = SIGNIFICANT * deviation
+    threshold = CERTIFICATE.bias_significant * deviation
     stands_out = np.abs(low) > threshold
     at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))
     return Bias(low, float(abs(low[at])), float(true_strain[at]), float(time[at]), float(threshold[at]))
 
 
 def _window(count: int) -> int:
-    return max(2 * int(0.5 * WINDOW * count) + 1, 5)
+    return max(2 * int(0.5 * CERTIFICATE.bias_window * count) + 1, 5)

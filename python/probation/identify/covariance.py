@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.information import inverse_information
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-
-WHITE = 2.0
-"""A residual whose variance at low frequency exceeds the white level by more than this factor is correlated."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +97,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
 def correlation_lags(residual: FloatArray) -> int:
     """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
     inflation = mean_inflation(residual)
-    return 0 if inflation < WHITE else min(max(int(4.0 * inflation), 1), len(residual) // 2)
+    return 0 if inflation < CERTIFICATE.white_ratio else min(max(int(4.0 * inflation), 1), len(residual) // 2)
 
 
 def mean_inflation(residual: FloatArray) -> float:

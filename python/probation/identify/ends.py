@@ -9,7 +9,8 @@ import numpy as np
 
 from probation.identify.search import search_range
 from probation.identify.variable_projection import EDGE, project
-from probation.inference.parameter import IDENTIFIABLE, SYMBOLS, UNITS
+from probation.inference.parameter import SYMBOLS, UNITS
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -69,8 +70,8 @@ def ends_of(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]
     if not end:
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
     beyond = project(problem.frozen_at(law), value / BEYOND if end == "lower" else value * BEYOND)[0].parameters
-    moved = np.abs(beyond - values) > IDENTIFIABLE * np.abs(values)
-    product = abs(beyond[0] * beyond[1] - values[0] * value) > IDENTIFIABLE * abs(values[0] * value)
+    moved = np.abs(beyond - values) > CERTIFICATE.identifiable * np.abs(values)
+    product = abs(beyond[0] * beyond[1] - values[0] * value) > CERTIFICATE.identifiable * abs(values[0] * value)
     warnings.append(
         f"{SYMBOLS[names[1]]}: the search ended at the {end} edge of its range, {value:.3g} of {low:.3g} to "
         f"{_with_unit(high, names[1], 3)}; these records do not bound it"

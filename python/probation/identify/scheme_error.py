@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.weighting import known_of
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from probation.inference.record_problem import RecordProblem
     from probation.law.modal import Law
 
-NEGLIGIBLE = 0.1
-"""Shift of a parameter by the scheme's own error that is let pass [standard errors]."""
 
 MOST_SUBSTEPS = 16
 """Most steps of the scheme from sample to sample that a fit takes by itself, on long records."""
@@ -63,6 +62,6 @@ def needed_substeps(weighted: Weighted, records: Sequence[RecordProblem], at_lea
     while True:  # once would do, were the steps always short enough for the order to show
         shift = scheme_error(problem, [each.with_substeps(steps) for each in records], law, jacobian, known)[1]
         worst = float(np.max(np.abs(shift), initial=0.0))
-        if worst <= NEGLIGIBLE or steps >= most:
+        if worst <= CERTIFICATE.negligible_scheme_shift or steps >= most:
             return steps
-        steps = min(max(int(np.ceil(steps * np.sqrt(worst / NEGLIGIBLE))), steps + 1), most)
+        steps = min(max(int(np.ceil(steps * np.sqrt(worst / CERTIFICATE.negligible_scheme_shift))), steps + 1), most)

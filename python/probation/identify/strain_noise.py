@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.parameter import SYMBOLS
+from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
 
 DRAWS = 24
 """Of longer records, the strain is drawn again so often to see what its noise does to the parameters."""
-
-CARRIED_NOISE = 0.3
-"""Part of a parameter's error that comes from strain noise, over the rest of it, from which on it matters."""
 
 
 def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatArray) -> FloatArray:
@@ -68,7 +66,7 @@ def strain_noise_warnings(problems: Sequence[RecordProblem], law: Law) -> list[s
         f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at the "
         f"largest strain; the standard errors, that of {SYMBOLS['hardening_modulus']} above all, do not include it"
         for each in problems
-        if (carried := carried_at_end(each, law)) > CARRIED_NOISE * left_over(each, law)
+        if (carried := carried_at_end(each, law)) > CERTIFICATE.strain_noise_matters * left_over(each, law)
     ]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from probation.inference.record_problem import LEAST_NOISE
 from probation.law.schemes import scheme_of
 from probation.records.noise import scatter
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
     from probation.smoothing.excitation import Excitation
 
-TOLERATED = 2.0
-"""Norm of the scheme's error over the noise, all samples together: its square is what an effect must gain at least."""
 
 MOST, ENOUGH_INSTANTS = 16, 4000
 """Most substeps; on short records as many as make so many instants in all."""
@@ -49,9 +48,11 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
         # Halving the step leaves a quarter of the error.
         norm = 4.0 / 3.0 * np.sqrt(square)
-        if norm <= TOLERATED:
+        if norm <= CERTIFICATE.tolerated_scheme_error:
             break
-        steps = int(min(max(np.ceil(steps * np.sqrt(min(norm / TOLERATED, 1e6))), steps + 1), most))
+        steps = int(
+            min(max(np.ceil(steps * np.sqrt(min(norm / CERTIFICATE.tolerated_scheme_error, 1e6))), steps + 1), most)
+        )
     return steps
 
 

@@ -16,16 +16,11 @@ from probation.identify.autocorrelation import fitted_noise
 from probation.identify.bias import low_frequency
 from probation.identify.covariance import Covariance, covariance
 from probation.identify.search import by_least_squares, first_guess
-from probation.identify.strain_noise import (
-    CARRIED_NOISE,
-    carried_at_end,
-    left_over,
-    resampled,
-    share_of_error,
-)
+from probation.identify.strain_noise import carried_at_end, left_over, resampled, share_of_error
 from probation.inference.record_noise import RecordNoise
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.noise.ar1 import NoiseModel
+from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excite
 from probation.smoothing.segments import CLEAN
 
@@ -80,7 +75,7 @@ def weigh(
     law : Law
         The least-squares one.
     weighting : {"auto", "strain-noise", "strain-noise-frozen"}
-        "auto" takes the strain noise where it is more than `CARRIED_NOISE` of a parameter's error.
+        "auto" takes the strain noise where it is more than `CERTIFICATE.strain_noise_matters` of a parameter's error.
     limits : mapping of str to (float, float)
         Of the parameters.
     excitation : str
@@ -152,7 +147,7 @@ def _strain_noises(
     for each, gain in zip(problem.records, gains, strict=True):
         if len(each.record) > LARGEST:
             found.append(None)
-            if carried_at_end(each, law) > 0.3 * CARRIED_NOISE * left_over(each, law):
+            if carried_at_end(each, law) > 0.3 * CERTIFICATE.strain_noise_matters * left_over(each, law):
                 moved = resampled(each, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue
@@ -161,7 +156,7 @@ def _strain_noises(
             noise = StrainNoise.of(each.excitation, each.scheme, each.substeps)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
-            noise = noise if float(np.max(share)) > CARRIED_NOISE else None
+            noise = noise if float(np.max(share)) > CERTIFICATE.strain_noise_matters else None
         found.append(noise)
     return found, added
 

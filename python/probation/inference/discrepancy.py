@@ -11,19 +11,12 @@ from probation.detection.strain_periodic import strain_periodic_waves
 from probation.noise.nuisance_drift import nuisance_drift
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import span_of
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
-SOFTNESS = (2.0, 1.0)
-"""The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each."""
-
-ROUGHEST = 24
-"""Half periods per record up to which a discrepancy is looked for."""
-
-COMMON = 12
-"""Half periods over the strain up to which one that is the same in all records is looked for."""
 
 DEPENDENT = 1e-4
 """Part of a wave that smoother ones leave, below which it adds nothing."""
@@ -77,11 +70,11 @@ class Discrepancy:
         """
         columns, spectrum, places, at = [], [], [], 0
         for record, noise in zip(whitened.records, whitened.noises, strict=True):
-            basis = smooth_basis(record.time, record.jumps, ROUGHEST)
+            basis = smooth_basis(record.time, record.jumps, EVIDENCE.roughest_discrepancy)
             left, upper = np.linalg.qr(noise.whiten(basis.columns / np.linalg.norm(basis.columns, axis=0)))
             size = np.abs(np.diag(upper))
             kept = size > DEPENDENT * float(size.max())
-            falls = [(1.0 + basis.order[kept]) ** -power for power in SOFTNESS]
+            falls = [(1.0 + basis.order[kept]) ** -power for power in EVIDENCE.discrepancy_softness]
             columns.append(left[:, kept])
             spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
             places.append(slice(at, at + int(kept.sum())))
@@ -130,11 +123,11 @@ def _over_strain(whitened: Whitened) -> FloatArray:
     largest = max(float(np.max(record.true_strain)) for record in whitened.records)
     if not largest > 0.0:
         return np.zeros((len(whitened), 0))
-    orders = np.arange(COMMON)
+    orders = np.arange(EVIDENCE.common_discrepancy)
     columns = whitened.whiten(
         [np.cos(np.pi / largest * np.outer(record.true_strain, orders)) for record in whitened.records]
     )
-    falls = [(1.0 + orders) ** -power for power in SOFTNESS]
+    falls = [(1.0 + orders) ** -power for power in EVIDENCE.discrepancy_softness]
     share = np.mean([each / each.sum() for each in falls], axis=0)
     return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(share))
 

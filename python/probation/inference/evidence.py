@@ -25,15 +25,12 @@ from scipy.special import logsumexp
 from probation.inference.laplace import Linearised
 from probation.inference.unknown import log_evidence_of_unknown
 from probation.noise.span import span_of, without
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.inference.discrepancy import Discrepancy
     from probation.inference.refit import Refit
-
-FORM_ERRORS = (0.0, 0.01, 0.02, 0.04, 0.08)
-FORM_WEIGHTS = (0.4, 0.2, 0.2, 0.12, 0.08)
-"""Relative errors of a form, and how probable they are beforehand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +85,7 @@ def evidence(
         forms = without(forms, span_of(found.jacobian))
     problem = Linearised.of(found, discrepancy, forms)
     done = discrepancy.energy(found.residual - base.residual)
-    errors, weights = (FORM_ERRORS, FORM_WEIGHTS) if done.any() else ((0.0,), (1.0,))
+    errors, weights = (EVIDENCE.form_errors, EVIDENCE.form_error_weights) if done.any() else ((0.0,), (1.0,))
     scores = [
         problem.log_integral(discrepancy.variances(error**2 * done)) + float(np.log(weight))
         for error, weight in zip(errors, weights, strict=True)

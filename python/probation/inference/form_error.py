@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.evidence import EVIDENCE
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
     from probation.inference.refit import Refit
     from probation.noise.whitener import Whitener
-
-OF_A_MATERIAL, OF_A_RIG = 0.2, 0.05
-"""Relative deviation of a form from its effect, per modulation: a material's effect has no formula, an offset has."""
 
 
 def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
@@ -40,7 +39,7 @@ def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
         absent = found.parameters.copy()
         absent[at] = 0.0
         contribution = still - model.residual(absent)
-        size = OF_A_MATERIAL if cause.effect.kind == "material" else OF_A_RIG
+        size = EVIDENCE.material_form_error if cause.effect.kind == "material" else EVIDENCE.rig_form_error
         columns.append(size * contribution[:, None] * modulations)
     return whitener.columns(np.hstack(columns))
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -16,8 +17,6 @@ Value = TypeVar("Value")
 
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
 
-IDENTIFIABLE, WEAKLY = 0.1, 0.5
-"""Largest relative standard errors of an identifiable and of a weakly identifiable parameter."""
 
 UNITS = {"unrelaxed_modulus": "MPa", "tau_max": "s", "alpha": "", "hardening_modulus": "MPa"}
 SYMBOLS = {"unrelaxed_modulus": "E_u", "tau_max": "τ_max", "alpha": "α", "hardening_modulus": "G"}
@@ -25,9 +24,9 @@ SYMBOLS = {"unrelaxed_modulus": "E_u", "tau_max": "τ_max", "alpha": "α", "hard
 
 def status_of(relative_error: float) -> Status:
     """How well the data determine a parameter."""
-    if relative_error <= IDENTIFIABLE:
+    if relative_error <= CERTIFICATE.identifiable:
         return "identifiable"
-    return "weakly_identifiable" if relative_error <= WEAKLY else "not_identifiable"
+    return "weakly_identifiable" if relative_error <= CERTIFICATE.weakly_identifiable else "not_identifiable"
 
 
 def outside_name(name: str) -> str:

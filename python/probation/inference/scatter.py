@@ -17,6 +17,7 @@ from probation.inference.deviations import AREA, START, deviation_names, kind_of
 from probation.inference.parameter import SYMBOLS, outside_name
 from probation.noise.outliers import without_outliers
 from probation.records.specimens import USUAL
+from probation.settings.noise import NOISE
 from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
@@ -28,17 +29,6 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
     from probation.records.specimens import Specimens
 
-SAME_HISTORY = 0.03
-"""Root mean square of what two strain histories differ by, over their range, below which they are one: chosen."""
-
-LEAST_IN_COMMON = 0.5
-"""Part of the longer record's time that replicates have in common at least: chosen."""
-
-SEEN = 0.2
-"""Lower end of a scatter's interval over its value from which on the scatter is told in words: chosen."""
-
-FREEDOM = 4
-"""Of the half-Student prior of a standard deviation (Gelman 2006): the fewest that have a variance."""
 
 DRAWS, BURN = 6000, 1000
 """Metropolis steps, and the first of them that are left out."""
@@ -93,7 +83,7 @@ class Scatter:
         parts = [
             f"{size:.2g} in {_TITLES[name]}" if name == START else f"{percentage(size)} % in {_TITLES.get(name, name)}"
             for index, (name, size) in enumerate(zip(self.names, self.deviations, strict=True))
-            if size > 0.0 and (self.intervals is None or self.intervals[index][0] > SEEN * size)
+            if size > 0.0 and (self.intervals is None or self.intervals[index][0] > NOISE.scatter_seen * size)
         ]
         if self.source == "assumed":
             return f"without replicates it is assumed that specimens differ by {listed(parts, 'and')}"
@@ -161,13 +151,13 @@ def replicates(records: Sequence[RecordResidual]) -> list[list[int]]:
 
 def _alike(first: RecordResidual, other: RecordResidual) -> bool:
     spans = [record.time[-1] - record.time[0] for record in (first, other)]
-    if min(spans) < LEAST_IN_COMMON * max(spans):
+    if min(spans) < NOISE.least_time_in_common * max(spans):
         return False
     time = first.time - first.time[0]
     time = time[time <= min(spans)]
     own = first.true_strain[: len(time)]
     away = np.interp(time, other.time - other.time[0], other.true_strain) - own
-    return bool(np.sqrt(np.mean(away**2)) <= SAME_HISTORY * max(float(np.ptp(own)), 1e-300))
+    return bool(np.sqrt(np.mean(away**2)) <= NOISE.same_history * max(float(np.ptp(own)), 1e-300))
 
 
 def _owners(records: Sequence[RecordResidual]) -> list[tuple[str, str]]:
@@ -217,7 +207,7 @@ def _drawn(
 def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
     """Draws of s, shape (n_draws, k), given seen ~ N(0, I + sum s_k^2 parts_k) and a prior of root mean square 1."""
     count = len(parts)
-    scale = np.sqrt((FREEDOM - 2.0) / FREEDOM)
+    scale = np.sqrt((NOISE.scatter_prior_freedom - 2.0) / NOISE.scatter_prior_freedom)
 
     def log_density(logs: FloatArray) -> float:
         squares = np.exp(2.0 * logs)
@@ -227,7 +217,10 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
         except np.linalg.LinAlgError:
             return -np.inf
         left = np.linalg.solve(lower, seen)
-        prior = -0.5 * (FREEDOM + 1.0) * np.log1p(squares / scale**2 / FREEDOM) + logs
+        prior = (
+            -0.5 * (NOISE.scatter_prior_freedom + 1.0) * np.log1p(squares / scale**2 / NOISE.scatter_prior_freedom)
+            + logs
+        )
         return float(-np.sum(np.log(np.diag(lower))) - 0.5 * left @ left + np.sum(prior))
 
     rng = np.random.default_rng(0)

@@ -16,6 +16,7 @@ from scipy.special import logsumexp
 
 from probation.inference.laplace import Linearised
 from probation.noise.span import span_of, without
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -24,13 +25,6 @@ if TYPE_CHECKING:
 
 SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
-
-OF_THE_STRAIN, PERIODIC, OF_THE_SPECIMEN, ALIKE, IN_ONE, IN_EACH = 0.2, 0.1, 0.2, 0.2, 0.2, 0.1
-"""Prior shares: one function of the strain, periodic in the strain, other parameters in each record, one size in all
-records, in one record only, a size in each."""
-
-RECORDS = 2
-"""Records that are tried alone, those with the most left."""
 
 
 def log_evidence_of_unknown(
@@ -55,17 +49,17 @@ def log_evidence_of_unknown(
     left = np.array(
         [max(float(np.sum(waves[place] ** 2)) - (place.stop - place.start), 0.0) for place in discrepancy.places]
     )
-    alone = np.argsort(left)[::-1][:RECORDS]
+    alone = np.argsort(left)[::-1][: EVIDENCE.unknown_records_tried]
     one = [_integrated(problem, discrepancy, np.eye(count)[index]) for index in alone]
     scores = [
-        np.log(OF_THE_STRAIN) + _along(found, discrepancy, forms, discrepancy.common),
-        np.log(PERIODIC)
+        np.log(EVIDENCE.unknown_of_the_strain) + _along(found, discrepancy, forms, discrepancy.common),
+        np.log(EVIDENCE.unknown_periodic)
         + discrepancy.log_strain_periodic_share
         + _along(found, discrepancy, forms, discrepancy.strain_periodic),
-        np.log(OF_THE_SPECIMEN) + _along(found, discrepancy, forms, discrepancy.specimens),
-        np.log(ALIKE) + _integrated(problem, discrepancy, np.ones(count)),
-        np.log(IN_ONE / count) + float(logsumexp(one)),
-        np.log(IN_EACH) + _in_each(problem, discrepancy, left),
+        np.log(EVIDENCE.unknown_of_the_specimen) + _along(found, discrepancy, forms, discrepancy.specimens),
+        np.log(EVIDENCE.unknown_alike) + _integrated(problem, discrepancy, np.ones(count)),
+        np.log(EVIDENCE.unknown_in_one / count) + float(logsumexp(one)),
+        np.log(EVIDENCE.unknown_in_each) + _in_each(problem, discrepancy, left),
     ]
     return float(logsumexp(scores)) + told.log_integral(nothing) - problem.log_integral(nothing)
 

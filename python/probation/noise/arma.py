@@ -10,36 +10,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 START_UP = 150
 """Most steps of the exact start; the innovation variance settles like theta^2t."""
 
-BINS = 60
-"""Frequencies are pooled in so many bins, evenly in their logarithm, for the fit."""
 
-_EDGES = np.geomspace(2e-3, np.pi * (1.0 + 1e-9), BINS + 1)
+_EDGES = np.geomspace(2e-3, np.pi * (1.0 + 1e-9), NOISE.spectrum_bins + 1)
 _CENTRES = np.sqrt(_EDGES[1:] * _EDGES[:-1])
 
-DIM = 0.05
-"""Spectrum over its largest value below which a bin all but loses its say."""
-
-EARNS, EARNS_LOW = 9.0, 25.0
-"""What a shape must take off the deviance: any, and one that rises where little was looked at."""
-
-STEEP = 4.0
-"""Rise from the middle of the band to frequency zero from which on slow noise is no surprise."""
-
-PROMISED = 2.0
-"""Variance of the spectrum at frequency zero over what Fisher's information promises; measured on AR(1), phi = 0.9."""
-
-LEAST_RISE = 0.1
-"""Noise that all but vanishes towards low frequencies would make a gap of anything slow: bursts can feign it."""
-
-LEAST_KNOWN = 1.0
-"""Largest variance of the logarithm of the low frequencies' level: beyond it Fisher's information has run out (phi at
-its border), and a level that could be anything would excuse any gap."""
 
 GRID, REFINED = 21, 3
 """Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
@@ -145,14 +127,15 @@ class Periodogram:
     def binned(self) -> Periodogram:
         """Means over fixed bins, evenly spaced in the logarithm of the frequency; the weights add up, empty bins to 0.
 
-        Where the spectrum is below `DIM` of its largest value (beyond a filter), the fit should not bend for it.
+        Where the spectrum is below `NOISE.dim_bin` of its largest value (beyond a filter), the fit should not bend for
+        it.
         """
-        place = np.clip(np.searchsorted(_EDGES, self.frequency, side="right") - 1, 0, BINS - 1)
-        weight: FloatArray = np.bincount(place, self.weight, BINS).astype(np.float64)
-        power = np.bincount(place, self.weight * self.power, BINS) / np.maximum(weight, 1e-300)
+        place = np.clip(np.searchsorted(_EDGES, self.frequency, side="right") - 1, 0, NOISE.spectrum_bins - 1)
+        weight: FloatArray = np.bincount(place, self.weight, NOISE.spectrum_bins).astype(np.float64)
+        power = np.bincount(place, self.weight * self.power, NOISE.spectrum_bins) / np.maximum(weight, 1e-300)
         solid = weight >= 10.0
         if np.any(solid):
-            weight = np.where(solid & (power < DIM * np.max(power[solid])), 0.02 * weight, weight)
+            weight = np.where(solid & (power < NOISE.dim_bin * np.max(power[solid])), 0.02 * weight, weight)
         return Periodogram(_CENTRES, power, weight)
 
 
@@ -181,9 +164,9 @@ class ArmaFit:
 def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     """Fit ARMA(1,1) to periodograms by Whittle's likelihood, one shape and a level for each.
 
-    White noise is kept unless the shape earns `EARNS`; a rise towards the very lowest frequencies that were looked at,
-    which the foot of a gap can feign in one record, must earn `EARNS_LOW` over the best shape without one, unless the
-    spectrum is steep all along. A rise below them is never fitted.
+    White noise is kept unless the shape earns `NOISE.least_gain`; a rise towards the very lowest frequencies that were
+    looked at, which the foot of a gap can feign in one record, must earn `NOISE.least_gain_of_low_rise` over the best
+    shape without one, unless the spectrum is steep all along. A rise below them is never fitted.
 
     Parameters
     ----------
@@ -192,19 +175,19 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
         Lowest frequency that was looked at [rad per sample].
     """
     binned = [each.binned() for each in periodograms]
-    deviance, best = float(_deviance(binned, np.zeros((1, 1, BINS)))[0, 0]), (0.0, 0.0)
+    deviance, best = float(_deviance(binned, np.zeros((1, 1, NOISE.spectrum_bins)))[0, 0]), (0.0, 0.0)
     tried, shape_of = _search(binned, max(1.0 - 3.0 * lowest, 0.1))
-    if deviance - tried > EARNS:
+    if deviance - tried > NOISE.least_gain:
         deviance, best = tried, shape_of
     tried, shape_of = _search(binned, max(1.0 - 0.7 * lowest, 0.1))
-    if deviance - tried > (EARNS_LOW if Arma(*best).rise < STEEP else 0.0):
+    if deviance - tried > (NOISE.least_gain_of_low_rise if Arma(*best).rise < NOISE.steep_rise else 0.0):
         deviance, best = tried, shape_of
     shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
     levels = [float(_level(each, shape)) for each in binned]
     return ArmaFit(
         tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
         deviance,
-        min(PROMISED * _shape_variance(binned, best), LEAST_KNOWN),
+        min(NOISE.fisher_excess * _shape_variance(binned, best), NOISE.largest_log_variance),
         tuple(2.0 / float(each.weight.sum()) for each in binned),
     )
 
@@ -225,7 +208,7 @@ def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[fl
         phi = np.minimum(np.tanh(middle[0] + steps[0] * offsets), most_phi)
         theta = np.clip(np.tanh(middle[1] + steps[1] * offsets), -MOST_THETA, MOST_THETA)
         rise = np.outer((1.0 + phi**2) / (1.0 - phi) ** 2, (1.0 + theta) ** 2 / (1.0 + theta**2))
-        table = np.where(rise >= LEAST_RISE, _deviance(binned, _table(phi, theta)), np.inf)
+        table = np.where(rise >= NOISE.least_rise, _deviance(binned, _table(phi, theta)), np.inf)
         row, column = np.unravel_index(int(np.argmin(table)), table.shape)
         if table[row, column] < deviance:
             deviance, best = float(table[row, column]), (float(phi[row]), float(theta[column]))

@@ -16,43 +16,22 @@ from scipy.fft import dct
 from scipy.special import logsumexp
 
 from probation.noise.smooth_basis import waves
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
     from probation.noise.whitening import Whitened
 
-LEAST = 1.0
-"""Relative variance at the first half period that is assumed in any case: less cannot be distinguished from none."""
 
 SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
 USUAL = 5.0
 """Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
 
-LEAST_ALIKE, PART_ALIKE, MOST_ALIKE = 0.25, 0.2, 2.0
-"""Of a drift as much goes along with an effect: a slow wandering that is more like one is reported as that effect, but
-a form is known to some per cent only, and what it leaves of an effect's direction drifts as everything does."""
 
 BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
 """The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
 
-LOWEST = 8
-"""Orders from here on are looked at: further down a bias is all there is."""
-
-HIGHEST = 4
-"""Orders up to the samples over this are looked at."""
-
-OUTLYING = 8.0
-"""Power of one wave, over the mean, above which it is a line and no noise."""
-
-MODELLED = 48
-"""Orders that are given their drift; the roughest of them have little."""
-
-SURE = 0.7
-"""Standard deviations that are added to what is estimated."""
-
-APART = 0.2
-"""Part of the records that may have a spectrum of their own."""
 
 FEW = 64
 
@@ -74,19 +53,21 @@ def estimate_drift(whitened: Whitened) -> float:
         count = part.stop - part.start
         if count < FEW:
             continue
-        order = np.arange(LOWEST, count // HIGHEST)
+        order = np.arange(NOISE.lowest_drift_order, count // NOISE.highest_drift_order)
         power = dct(whitened.residual[part], type=2, norm="ortho")[order] ** 2
-        own = logsumexp(_scores(order, np.minimum(power, OUTLYING * float(np.mean(power)))), axis=1)
-        score += np.logaddexp(np.log(1.0 - APART) + own, np.log(APART / len(SIZES)) + logsumexp(own))
+        own = logsumexp(_scores(order, np.minimum(power, NOISE.outlying_power * float(np.mean(power)))), axis=1)
+        score += np.logaddexp(
+            np.log(1.0 - NOISE.records_apart) + own, np.log(NOISE.records_apart / len(SIZES)) + logsumexp(own)
+        )
     weight = np.exp(score - score.max())
     chance = weight / weight.sum()
     mean = float(chance @ SIZES)
-    return max(mean + SURE * float(np.sqrt(chance @ (SIZES - mean) ** 2)), LEAST)
+    return max(mean + NOISE.drift_margin * float(np.sqrt(chance @ (SIZES - mean) ** 2)), NOISE.least_drift)
 
 
 def like_an_effect(drift: float) -> float:
     """Relative variance of a drift at the first half period that may go along with an effect."""
-    return float(np.clip(PART_ALIKE * drift, LEAST_ALIKE, MOST_ALIKE))
+    return float(np.clip(NOISE.drift_share_alike * drift, NOISE.least_drift_alike, NOISE.most_drift_alike))
 
 
 def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
@@ -109,7 +90,7 @@ def with_drift(noise: NoiseModel, size: float, nuisance: float = 0.0, time: Floa
     time : ndarray, shape (n,) [s], optional
         What drifts does so in time: many samples within a short while drift together. Even steps if left out.
     """
-    columns = waves(len(noise), min(MODELLED, len(noise) // HIGHEST), time)
+    columns = waves(len(noise), min(NOISE.modelled_drift_orders, len(noise) // NOISE.highest_drift_order), time)
     order = np.maximum(np.arange(columns.shape[1]), 1)
     slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
     more = np.sqrt(nuisance) * slow if nuisance > 0.0 else None

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.noise.arma import Arma
-from probation.noise.evidence import FEW, NoiseEvidence, noise_evidence
+from probation.noise.evidence import NoiseEvidence, noise_evidence
 from probation.noise.low_frequencies import KnownSpectrum, fit_spectra
 from probation.noise.model import NoiseModel
 from probation.noise.quantisation import quantisation_noise
 from probation.noise.same_rig import of_one_rig
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,7 +83,7 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
     record = each.record
     size = float(np.max(np.abs(record.residual if record.measured is None else record.measured), initial=0.0))
     level = max(each.white, record.given_noise or 0.0, 1e-7 * size, 1e-12)
-    if not record.given_noise and len(record) < FEW:
+    if not record.given_noise and len(record) < NOISE.fewest_for_a_spectrum:
         # Median of few differences: its own error, and never less than a third of what scatters at all.
         level = max(level, 0.1 * float(np.std(np.diff(record.residual))))
     return NoiseModel(

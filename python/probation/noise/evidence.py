@@ -16,24 +16,12 @@ from probation.noise.segments import BLOCK, DEGREE, in_segments, legendre
 from probation.noise.smooth_basis import WAVES, smooth_basis, waves
 from probation.noise.span import span_of
 from probation.records.noise import scatter
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.model import Growth
     from probation.noise.record_residual import RecordResidual
-
-FEW = 48
-"""Shorter records are given white noise by robust differences: a spectrum needs more."""
-
-OUTLIER = 4.0
-"""A stretch whose low frequencies hold this many times as much, beside its high ones, as the median stretch's holds a
-transient of the model, and is left out."""
-
-QUIET = 80
-"""Quiet samples that suffice for an estimate of their own."""
-
-COARSE = 1.2
-"""Readings whose step is this many standard deviations of the noise say nothing of how it grows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,11 +69,15 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     if record.measured is not None and quantum == 0.0:
         quantum = quantisation_step(record.measured * np.exp(-record.true_strain))  # the force was read, not the stress
     white = max(white, quantisation_noise(quantum))
-    coarse = quantum > COARSE * white
+    coarse = quantum > NOISE.coarse_step * white
     nothing = NoiseEvidence(
         record, outliers, white, quantum, "constant", np.ones(count), None, None, "robust differences: a short record"
     )
-    if count < FEW or white <= 1e-12 * float(np.max(np.abs(residual), initial=0.0)) or white == 0.0:
+    if (
+        count < NOISE.fewest_for_a_spectrum
+        or white <= 1e-12 * float(np.max(np.abs(residual), initial=0.0))
+        or white == 0.0
+    ):
         return nothing
     if record.replicate is not None:
         values = without_outliers(record.replicate, find_outliers(record.replicate))
@@ -93,7 +85,7 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
         whole = _whole(values, waves(count, 2), 2, profile)
         return replace(nothing, growth=growth, profile=profile, rough=whole, source="the difference from its repeat")
     quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= BLOCK]
-    if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= QUIET:
+    if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= NOISE.quiet_samples:
         segments = [residual[part] for part in quiet]
         rough = _rough(segments, [np.ones(len(part)) for part in segments], degree=3, robust=False)
         return replace(nothing, rough=rough, source="dwells and pre-load")
@@ -120,7 +112,7 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
     if robust and len(rows) >= 3:
         # Low against high: a burst of noise has both.
         low = np.array([np.mean(power[:8]) / max(float(np.mean(power[8:])), 1e-300) for _, power, _ in rows])
-        rows = [row for row, size in zip(rows, low, strict=True) if size <= OUTLIER * np.median(low)]
+        rows = [row for row, size in zip(rows, low, strict=True) if size <= NOISE.transient_ratio * np.median(low)]
     frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
     return Periodogram(frequency, power, weight)
 

@@ -8,21 +8,10 @@ import numpy as np
 from scipy.ndimage import binary_dilation, median_filter, uniform_filter1d
 
 from probation.noise.regions import runs
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-CLUSTERED = 4.0
-"""Autocorrelation of the noise's size, in standard errors, from which on it is followed all along."""
-
-WINDOW = 31
-"""Samples over which it is followed."""
-
-BURST = 15
-"""Samples of the shortest burst that is looked for: so many median sizes say what a step or an outlier cannot."""
-
-LOUD, SURE = 1.9, 3.5
-"""A burst has so many times the noise of the record, and is so many deviations above the scatter of its windows."""
 
 
 def local_size(noise: FloatArray) -> FloatArray | None:
@@ -42,16 +31,16 @@ def local_size(noise: FloatArray) -> FloatArray | None:
 def _bursts(rough: FloatArray) -> FloatArray | None:
     """By medians over short windows: half of a window has to be in the burst."""
     typical = float(np.median(rough))
-    if len(rough) < 4 * BURST or typical == 0.0:
+    if len(rough) < 4 * NOISE.shortest_burst or typical == 0.0:
         return None
-    loud = np.maximum(median_filter(rough, BURST, mode="nearest") / typical, 1e-3)
+    loud = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
     scatter = float(np.median(np.abs(np.log(loud)))) / 0.6745
-    least = max(LOUD, float(np.exp(SURE * scatter)))
+    least = max(NOISE.burst_ratio, float(np.exp(NOISE.burst_errors * scatter)))
     if not np.any(loud > least):
         return None
     size = np.ones(len(rough))
     # The window's median falls off before the burst ends.
-    for part in runs(binary_dilation(loud > least, iterations=BURST // 4)):
+    for part in runs(binary_dilation(loud > least, iterations=NOISE.shortest_burst // 4)):
         size[part] = max(float(np.median(rough[part])) / typical, 1.0)
     return size
 
@@ -61,12 +50,12 @@ def _followed(noise: FloatArray) -> FloatArray | None:
     size = np.abs(noise)
     size = np.minimum(size, 5.0 * float(np.mean(size)))
     thin = uniform_filter1d(np.abs(np.diff(noise, append=noise[-1])), 3)[::6]
-    if len(thin) <= 12 or _clusters(thin) <= CLUSTERED:
+    if len(thin) <= 12 or _clusters(thin) <= NOISE.clustered_size:
         return None
-    mean = uniform_filter1d(size, WINDOW, mode="reflect")
+    mean = uniform_filter1d(size, NOISE.size_window, mode="reflect")
     mean = np.maximum(mean, 0.1 * float(np.median(mean)))
     logs = np.log(mean / np.mean(mean))
-    chance = 1.5 * 0.57 / WINDOW
+    chance = 1.5 * 0.57 / NOISE.size_window
     keep = max(1.0 - chance / max(float(np.var(logs)), 1e-12), 0.0)
     return np.asarray(np.exp(keep * logs), dtype=np.float64)
 

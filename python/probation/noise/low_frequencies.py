@@ -9,27 +9,10 @@ import numpy as np
 from scipy.special import chdtrc
 
 from probation.noise.arma import Arma, ArmaFit, Periodogram, fit_arma, matched_level
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation.noise.evidence import NoiseEvidence
-
-AGREES = 1e-3
-"""Probability below which the power at lower frequencies is no longer believed to be what the rough ones predict."""
-
-CERTAIN = 3.0
-"""Standard errors by which a level must differ to be taken down."""
-
-MOST_ALIKE = 0.75
-"""Part of the records that must agree with each other for their lower frequencies to be taken for noise."""
-
-LOWEST = 12
-"""Coefficients next to the bias's own, where it would show first."""
-
-FORETELLS = 0.4
-"""Largest standard error of the logarithm of what the rough leftovers predict that is let excuse a difference."""
-
-LOW_BAND = 60
-"""Coefficients of a record at the low end of what was fitted, whose level overrules the fit's where it is higher."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +66,9 @@ def _lifted(parts: list[Periodogram], found: ArmaFit) -> list[tuple[Arma, float]
     together = sum(ratio * weight for ratio, weight in low) / total
     # Taken down only where chance cannot explain it, up more readily: false alarms cost more.
     chance = float(np.sqrt(2.0 / total))
-    together = max(together - chance, 1.0) if together > 1.0 else min(together * (1.0 + CERTAIN * chance), 1.0)
+    together = (
+        max(together - chance, 1.0) if together > 1.0 else min(together * (1.0 + NOISE.level_errors * chance), 1.0)
+    )
     result = []
     for model, (ratio, weight), level in zip(found.models, low, found.level_variance, strict=True):
         # A record's own low band counts as far as it is known; all records' together tell the rest.
@@ -98,7 +83,7 @@ def _fits(whole: Periodogram, own: Periodogram, arma: Arma, slack: float) -> flo
     """Probability of as much power below the rough leftovers' frequencies: in the lowest band, or in all of them."""
     below = np.flatnonzero(whole.frequency < own.frequency.min())
     least = 1.0
-    for part in (below[:LOWEST], below):
+    for part in (below[: NOISE.lowest_coefficients], below):
         if part.size:
             weight = whole.weight[part]
             power = float(np.sum(weight * whole.power[part] / arma.spectrum(whole.frequency[part]))) / slack
@@ -108,8 +93,8 @@ def _fits(whole: Periodogram, own: Periodogram, arma: Arma, slack: float) -> flo
 
 def _foretold(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
     """Whether a record's lower frequencies hold what the rough leftovers predict, within what these can tell."""
-    slack = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), FORETELLS)))
-    return _fits(whole, own, found.models[at], slack) >= AGREES
+    slack = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
+    return _fits(whole, own, found.models[at], slack) >= NOISE.agreement_level
 
 
 def _alike(wholes: list[Periodogram], rough: list[Periodogram], bottom: float) -> set[int]:
@@ -119,24 +104,24 @@ def _alike(wholes: list[Periodogram], rough: list[Periodogram], bottom: float) -
     out, again and again; where too many go, the bias is in all of them, and nothing is known of the lower frequencies.
     """
     left = set(range(len(wholes)))
-    while len(left) >= max(2, int(np.ceil(MOST_ALIKE * len(wholes)))):
+    while len(left) >= max(2, int(np.ceil(NOISE.records_that_agree * len(wholes)))):
         probability = {}
         for index in left:
             others = fit_arma([wholes[other] for other in sorted(left - {index})], bottom)
             level = matched_level(rough[index], others.models[0])
             arma = replace(others.models[0], innovation=level)
-            slack = float(np.exp(min(float(np.sqrt(others.shape_variance)), FORETELLS)))
+            slack = float(np.exp(min(float(np.sqrt(others.shape_variance)), NOISE.prediction_error)))
             probability[index] = _fits(wholes[index], rough[index], arma, slack)
         worst = min(probability, key=lambda index: probability[index])
-        if probability[worst] >= AGREES:
+        if probability[worst] >= NOISE.agreement_level:
             return left
         left.remove(worst)
     return set()
 
 
 def _low_level(part: Periodogram, model: Arma) -> tuple[float, float]:
-    """Power over the fit's in the lowest `LOW_BAND` coefficients, and their weight."""
-    order = np.argsort(part.frequency)[:LOW_BAND]
+    """Power over the fit's in the lowest `NOISE.low_band` coefficients, and their weight."""
+    order = np.argsort(part.frequency)[: NOISE.low_band]
     ratio = part.power[order] / model.spectrum(part.frequency[order])
     weight = part.weight[order]
     # A lone coefficient of a wave must not speak for the band.

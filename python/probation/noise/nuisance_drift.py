@@ -1,10 +1,10 @@
 """Nuisance drift: slow noise that resembles no effect. What resembles one is reported as that effect.
 
 The part of a drift d of covariance D along an effect of (whitened) unit direction u is u^T d. A drift with the form of
-a warming load cell is an effect, not noise. So u^T d is known to be small, within `ALIKE` of the noise along u, for the
-signals of all effects. What is known of d then is D conditioned on that,
+a warming load cell is an effect, not noise. So u^T d is known to be small, within s = `NOISE.nuisance_drift_size` of
+the noise along u, for the signals of all effects. What is known of d then is D conditioned on that,
 
-    H = D - D U (U^T D U + ALIKE^2 I)^-1 U^T D,
+    H = D - D U (U^T D U + s^2 I)^-1 U^T D,
 
 which keeps all slow noise that no effect makes, and does not take a single effect for noise.
 """
@@ -16,17 +16,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag, qr
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
-
-ALIKE = 0.6
-"""Standard deviations of the noise along an effect's signal that a drift may have along it."""
-
-KNOWN = 0.1
-"""Variance of a drift along a signal, given those along other signals, below which it is known already."""
 
 
 def nuisance_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: FloatArray | None = None) -> FloatArray:
@@ -61,7 +57,9 @@ def nuisance_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: Flo
     told = quiet / np.sqrt(size)
     values, vectors = np.linalg.eigh(drift)
     _, upper, order = qr(np.sqrt(np.maximum(values, 0.0))[:, None] * (vectors.T @ told), mode="economic", pivoting=True)
-    count = int(np.count_nonzero(np.diag(upper) ** 2 > KNOWN))
+    count = int(np.count_nonzero(np.diag(upper) ** 2 > NOISE.known_drift_variance))
     told = told[:, order[:count]]
     spread = drift @ told
-    return np.asarray(drift - spread @ np.linalg.solve(told.T @ spread + ALIKE**2 * np.eye(count), spread.T))
+    return np.asarray(
+        drift - spread @ np.linalg.solve(told.T @ spread + NOISE.nuisance_drift_size**2 * np.eye(count), spread.T)
+    )

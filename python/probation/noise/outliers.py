@@ -6,26 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
 
-STANDS_OUT = 8.0
-"""An outlier is this many robust standard deviations away from what its neighbours say."""
-
-LONGEST = 2
-"""Samples that an outlier may last."""
-
-MOST = 0.005
-"""More than this fraction of a record are no outliers but the record's noise."""
-
 
 def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int, ...]:
     """Indices of isolated readings, far from both of their sides, which agree with each other.
 
-    A sample is compared with the median of the three before and the three after a window of `LONGEST` around it; the
-    start and the rate discontinuities, where a model may err sharply, are left alone.
+    A sample is compared with the median of the three before and the three after a window of `NOISE.longest_outlier`
+    around it; the start and the rate discontinuities, where a model may err sharply, are left alone.
 
     Parameters
     ----------
@@ -36,9 +29,10 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     Returns
     -------
     tuple of int
-        Empty where more than `MOST` of the record (and more than three readings) stand out: that is noise.
+        Empty where more than `NOISE.most_outliers` of the record (and more than three readings) stand out: that is
+        noise.
     """
-    count, arm, inner = len(residual), 3, LONGEST
+    count, arm, inner = len(residual), 3, NOISE.longest_outlier
     reach = arm + inner - 1
     if count < 4 * reach + 4:
         return ()
@@ -49,12 +43,12 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     away = residual - 0.5 * (later + earlier)
     spread = 1.4826 * float(np.median(np.abs(away)))
     spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / 1.645, 1e-300)
-    out = (np.abs(away) > STANDS_OUT * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
+    out = (np.abs(away) > NOISE.outlier_distance * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
     for border in (0, *jumps):
         out[max(border - reach, 0) : border + reach + 1] = False
     found = np.flatnonzero(out)
-    lone = [int(i) for i in found if np.count_nonzero(np.abs(found - i) <= reach) <= LONGEST]
-    if len(lone) < len(found) or len(lone) > max(3, MOST * count):
+    lone = [int(i) for i in found if np.count_nonzero(np.abs(found - i) <= reach) <= NOISE.longest_outlier]
+    if len(lone) < len(found) or len(lone) > max(3, NOISE.most_outliers * count):
         return ()
     return tuple(lone)
 

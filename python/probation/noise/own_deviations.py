@@ -7,21 +7,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtri
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
 
-UNUSUAL = 0.01
-"""Probability beyond which a specimen's deviations are not larger: what is missing there is not the specimen's."""
-
 
 def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> list[FloatArray]:
     """The part of each record's residual that its specimen's deviations make, by record; each of shape (n_r,) [MPa].
 
-    The conditional mean of random effects (best linear unbiased prediction); longer than all but `UNUSUAL` of them,
-    it is shortened to that.
+    The conditional mean of random effects (best linear unbiased prediction); longer than all but
+    `NOISE.unusual_specimen` of them, it is shortened to that.
 
     Parameters
     ----------
@@ -44,7 +43,7 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
         if not normal.ndim:
             continue
         size = np.linalg.solve(np.eye(len(normal)) + normal, pull)
-        most = float(np.sqrt(chdtri(len(size), UNUSUAL)))
+        most = float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
         size *= min(1.0, most / max(float(np.linalg.norm(size)), 1e-300))
         for index in members:
             columns = noises[index].specimen

@@ -6,14 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-ON_GRID = 0.02
-"""Largest rms distance from the grid, as a fraction of its step."""
-
-FEWEST = 8
-"""Fewer different values say nothing of a grid."""
 
 
 def quantisation_step(values: FloatArray) -> float:
@@ -31,11 +27,11 @@ def quantisation_step(values: FloatArray) -> float:
     float [as the values]
     """
     distinct = np.unique(values)
-    if len(distinct) < FEWEST:
+    if len(distinct) < NOISE.fewest_values:
         return 0.0
     gaps = np.diff(distinct)
     gaps = gaps[gaps > 1e-9 * float(np.ptp(values))]
-    if gaps.size < FEWEST - 1:
+    if gaps.size < NOISE.fewest_values - 1:
         return 0.0
     step = float(gaps.min())
     reach = distinct - distinct[0]
@@ -46,7 +42,7 @@ def quantisation_step(values: FloatArray) -> float:
         steps = np.round(near / step)
         step = float(near @ steps / (steps @ steps))
         away = near / step - np.round(near / step)
-        if np.sqrt(np.mean(away**2)) > ON_GRID:
+        if np.sqrt(np.mean(away**2)) > NOISE.on_grid:
             return 0.0
     return step
 

@@ -11,19 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.noise.model import NoiseModel
-
-FEWEST = 2
-"""Other records that must agree."""
-
-ALIKE = 1.5
-"""Factor within which neighbouring samples scatter alike."""
-
-UNLIKE = 3.0
-"""Factor by which a record's noise is larger than that of all others, where it is not believed."""
 
 
 def of_one_rig(noises: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
@@ -38,11 +31,14 @@ def of_one_rig(noises: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
 
 
 def _believed(own: NoiseModel, others: list[NoiseModel]) -> NoiseModel:
-    if len(others) < FEWEST or own.white <= 0.0:
+    if len(others) < NOISE.fewest_other_records or own.white <= 0.0:
         return own
     largest = max(others, key=lambda each: each.sigma)
     scatter = [each.white / own.white for each in others]
-    if own.sigma <= UNLIKE * largest.sigma or not 1.0 / ALIKE <= min(scatter) <= max(scatter) <= ALIKE:
+    if (
+        own.sigma <= NOISE.unlike_others * largest.sigma
+        or not 1.0 / NOISE.neighbours_alike <= min(scatter) <= max(scatter) <= NOISE.neighbours_alike
+    ):
         return own
     arma = replace(largest.arma, innovation=largest.arma.innovation * own.white / largest.white)
     return replace(

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -20,9 +22,6 @@ WAVES = 12
 
 FADES = ((0.1, 5), (0.02, 9))
 """Time constants of the transients, as fractions of their segment, and the order they are taken in at."""
-
-MOST_SEGMENTS = 4
-"""Transients are given to so many segments, the longest ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +71,7 @@ def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES)
     parts = [waves(count, min(most, allowed))]
     orders = [np.arange(parts[0].shape[1])]
     borders = [0, *sorted(jumps), count - 1]
-    segments = sorted(pairwise(borders), key=lambda ends: ends[0] - ends[1])[:MOST_SEGMENTS]
+    segments = sorted(pairwise(borders), key=lambda ends: ends[0] - ends[1])[: NOISE.transient_segments]
     for first, last in sorted(segments):
         if last - first < 20:
             continue

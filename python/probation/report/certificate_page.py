@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.certificate.hardening import FROM_STRAIN
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.law.kinematics import haward_thackray_strain
 from probation.provenance import provenance
@@ -20,6 +19,7 @@ from probation.report.figures import house_style, new_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
 from probation.report.style import colour, series_colour
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -217,7 +217,8 @@ def _without_companion(found: Certificate) -> Section:
 
 
 def _hardening(found: Certificate) -> Section:
-    caption = f"Stress over Haward–Thackray strain and its slope beyond a strain of {FROM_STRAIN:g} (Figure S1)."
+    start = CERTIFICATE.hardening_from
+    caption = f"Stress over Haward–Thackray strain and its slope beyond a strain of {start:g} (Figure S1)."
     text = (
         "The regression assumes that all viscous stress stays constant; where it relaxes or grows with the strain rate "
         "the slope differs from the G that the law needs."

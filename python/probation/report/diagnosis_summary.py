@@ -5,7 +5,6 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.certificate.certify import TOLERANCE as CERTIFICATE_TOLERANCE
 from probation.report.diagnosis_tables import (
     MOST,
     effects_table,
@@ -16,6 +15,7 @@ from probation.report.diagnosis_tables import (
 )
 from probation.report.skipped_words import MOST as MOST_SKIPPED
 from probation.report.skipped_words import skipped_lines
+from probation.settings.certificate import CERTIFICATE
 from probation.wording import percentage
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def size_text(found: Diagnosis) -> str:
     return (
         f" Without the noise the gap is {size.rms_MPa:.3g} MPa rms (95 %: {low:.3g} to {high:.3g}) in {size.record}: "
         f"{percentage(size.relative)} % of the largest stress there; {percentage(found.tolerance)} % are let pass"
-        f"{does}, {percentage(CERTIFICATE_TOLERANCE)} % by a certificate."
+        f"{does}, {percentage(CERTIFICATE.tolerance)} % by a certificate."
     )
 
 

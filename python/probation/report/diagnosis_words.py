@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import floor, log10
 from typing import TYPE_CHECKING
 
-from probation.detection.gap_test import LEVEL
 from probation.diagnosis.result import UNKNOWN
+from probation.settings.detection import DETECTION
 from probation.wording import plus_minus
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def checks_text(each: Explanation) -> list[str]:
     if checks.amplitude_p_value is not None:
         same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
-    if each.effects and checks.remaining_p_value < LEVEL and each.effects != (UNKNOWN,):
+    if each.effects and checks.remaining_p_value < DETECTION.gap_level and each.effects != (UNKNOWN,):
         found.append("a gap is left beside it")
     elif each.effects and UNKNOWN not in each.effects:
         found.append("what is left may be noise and the form's error")

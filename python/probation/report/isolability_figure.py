@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from matplotlib.patches import Rectangle
 
-from probation.design.discrimination import DETECTED
 from probation.report.diagnosis_words import count_text
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
+from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +53,7 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
         figure = new_figure(7.2, 1.6 + size * count + 0.9)
         legend, axes = figure.subplots(2, 1, height_ratios=(0.25, size * count + 1.6))
         for row in range(count):
-            seen = detectability[row] >= DETECTED
+            seen = detectability[row] >= DESIGN.detected
             if not seen:
                 axes.add_patch(
                     Rectangle((-0.5, row - 0.5), count, 1.0, facecolor=colour("data"), alpha=0.3, lw=0, zorder=1)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from probation.design.discrimination import DETECTED
 from probation.report.diagnosis_words import count_text
 from probation.report.table import Table
+from probation.settings.design import DESIGN
 from probation.wording import listed, percent
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 HOW_TO_READ = (
     "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "
-    f"after the base law has been refitted; {DETECTED:g} are needed. Hidden: the part of the signal that the "
+    f"after the base law has been refitted; {DESIGN.detected:g} are needed. Hidden: the part of the signal that the "
     "parameters of the base law, refitted, take up."
 )
 

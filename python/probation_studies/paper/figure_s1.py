@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.certificate.hardening import FROM_STRAIN, HardeningRegression, regress_hardening
+from probation.certificate.hardening import HardeningRegression, regress_hardening
 from probation.law.kinematics import haward_thackray_strain
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour
+from probation.settings.certificate import CERTIFICATE
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation_studies.paper.grip_tests import GRIPS, PUBLISHED, twin
 
@@ -56,7 +57,7 @@ def exhibit(settings: Settings) -> Exhibit:
                 "figure-s1",
                 _figure(twins, found),
                 f"Figure S1 from the synthetic data: true stress over ε_HT; the line is regressed on ε > "
-                f"{FROM_STRAIN:g}.",
+                f"{CERTIFICATE.hardening_from:g}.",
             ),
         ),
         answer={"regression": {f"experiment-{number}": vars(each) for number, each in found.items()}},
@@ -69,7 +70,7 @@ def _figure(twins: Mapping[Grip, Twin], found: Mapping[Grip, HardeningRegression
         for axes, number in zip(figure.subplots(1, 2, sharey=True), GRIPS, strict=True):
             each, line = twins[number], found[number]
             measure = haward_thackray_strain(each.true_strain)
-            start = float(haward_thackray_strain([FROM_STRAIN])[0])
+            start = float(haward_thackray_strain([CERTIFICATE.hardening_from])[0])
             axes.plot(*thinned(measure, each.true_stress, 400), ".", ms=5, mew=0, color=colour("data"), label="twin")
             ends = np.array([start, measure.max()])
             label = f"slope {line.hardening_modulus:.3f} MPa"

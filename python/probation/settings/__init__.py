@@ -1,0 +1,1 @@
+"""Constants of the statistics, in one place: value, unit, meaning, where each comes from."""

@@ -1,0 +1,172 @@
+"""When a parameter is known, a law is intrinsic, and noise is white: the constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from probation.settings.setting import setting
+
+
+@dataclass(frozen=True)
+class CertificateSettings:
+    """When a parameter is known, a law is intrinsic, and noise is white."""
+
+    bias_blocks: int = setting(
+        150,
+        "A bias is seen on means over so many blocks of samples.",
+        unit="blocks",
+        origin="chosen",
+        used_in="certificate/bias.py",
+    )
+    hidden_bias_spread: float = setting(
+        0.3,
+        ("Standard deviation of the logarithm of the bias's amplitude over that of its visible part, beforehand."),
+        unit="-",
+        origin="chosen",
+        used_in="certificate/bias.py",
+    )
+    same_temperature: float = setting(
+        3.0,
+        ("Records whose mean temperatures differ by more confound temperature with whatever else differs [°C]."),
+        unit="°C",
+        origin="chosen",
+        used_in="certificate/certify.py",
+    )
+    tolerance: float = setting(
+        0.05,
+        ("Systematic error of a prediction that is let pass, as a fraction of the record's largest stress."),
+        unit="largest stress",
+        origin="chosen",
+        used_in="certificate/certify.py",
+    )
+    significance: float = setting(
+        0.01,
+        "Probability of failing some parameter of a law that is intrinsic, over all its parameters.",
+        unit="probability",
+        origin="chosen",
+        used_in="certificate/consistency.py",
+    )
+    clearly: float = setting(
+        4.0,
+        "Standard errors by which a record's value must miss one that is held to contradict it.",
+        unit="standard errors",
+        origin="chosen",
+        used_in="certificate/consistency.py",
+    )
+    hardening_from: float = setting(
+        0.4,
+        "True strain from which on the regression is taken, Figure S1.",
+        unit="true strain",
+        origin="chosen",
+        source="André et al., Figure S1",
+        used_in="certificate/hardening.py",
+    )
+    own_fault: float = setting(
+        0.5,
+        (
+            "Part of a prediction's error that must stay with parameters of the record's own for the "
+            "law's form to be blamed."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="certificate/verdict.py",
+    )
+    far: float = setting(
+        0.3,
+        (
+            "Systematic error of a prediction, over the largest stress, from which on it does not matter "
+            "what else is shared."
+        ),
+        unit="largest stress",
+        origin="chosen",
+        used_in="certificate/verdict.py",
+    )
+    identifiable: float = setting(
+        0.1,
+        "Largest of an identifiable parameter.",
+        unit="relative standard error",
+        origin="chosen",
+        used_in="inference/parameter.py",
+    )
+    weakly_identifiable: float = setting(
+        0.5,
+        "Largest of a weakly identifiable parameter.",
+        unit="relative standard error",
+        origin="chosen",
+        used_in="inference/parameter.py",
+    )
+    strongest_correlation: float = setting(
+        0.9,
+        ("Correlation from sample to sample from which on a residual is a wave, the law's bias, and no noise."),
+        unit="-",
+        origin="chosen",
+        used_in="identify/autocorrelation.py",
+    )
+    white_enough: float = setting(
+        0.001,
+        ("Chance below which white innovations would look as correlated as these do (Ljung & Box 1978)."),
+        unit="probability",
+        origin="chosen",
+        source="Ljung & Box 1978",
+        used_in="identify/autocorrelation.py",
+    )
+    correlation_gain: float = setting(
+        5.41,
+        ("Gain of twice the log-likelihood from which on noise is taken as correlated: 1 % of white records reach it."),
+        unit="deviance",
+        origin="calibrated",
+        source="simulated white records",
+        used_in="identify/autocorrelation.py",
+    )
+    bias_window: float = setting(
+        1.0 / 12.0,
+        (
+            "Part of the record over which a parabola takes the low-frequency part: waves of less than "
+            "six in a record pass."
+        ),
+        unit="record",
+        origin="chosen",
+        used_in="identify/bias.py",
+    )
+    bias_significant: float = setting(
+        4.0,
+        ("Standard deviations of the smoothed noise that the largest of a record of noise alone hardly reaches."),
+        unit="standard deviations",
+        origin="derived",
+        source="largest of a record of white noise",
+        used_in="identify/bias.py",
+    )
+    white_ratio: float = setting(
+        2.0,
+        ("A residual whose variance at low frequency exceeds the white level by more than this factor is correlated."),
+        unit="-",
+        origin="chosen",
+        used_in="identify/covariance.py",
+    )
+    negligible_scheme_shift: float = setting(
+        0.1,
+        "Shift of a parameter by the scheme's own error that is let pass [standard errors].",
+        unit="standard errors",
+        origin="chosen",
+        used_in="identify/scheme_error.py",
+    )
+    strain_noise_matters: float = setting(
+        0.3,
+        ("Part of a parameter's error that comes from strain noise, over the rest of it, from which on it matters."),
+        unit="-",
+        origin="chosen",
+        used_in="identify/strain_noise.py",
+    )
+    tolerated_scheme_error: float = setting(
+        2.0,
+        (
+            "Norm of the scheme's error over the noise, all samples together: its square is what an "
+            "effect must gain at least."
+        ),
+        unit="noise",
+        origin="chosen",
+        used_in="identify/substeps.py",
+    )
+
+
+CERTIFICATE = CertificateSettings()

@@ -1,0 +1,316 @@
+"""Prior probabilities, evidence, and what is reported of explanations: the constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from probation.settings.setting import setting
+
+
+@dataclass(frozen=True)
+class EvidenceSettings:
+    """Prior probabilities, evidence, and what is reported of explanations."""
+
+    no_effect: float = setting(
+        0.45,
+        "Prior probability of no effect; four in five campaigns have one.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    one_effect: float = setting(
+        0.33,
+        "Prior probability of one effect of the catalogue.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    two_effects: float = setting(
+        0.12,
+        "Prior probability of two effects of the catalogue.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    three_effects: float = setting(
+        0.01,
+        "Prior probability of three effects of the catalogue.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    unknown_effect: float = setting(
+        0.08,
+        "Prior probability of an effect outside the catalogue.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    unknown_with_known: float = setting(
+        0.01,
+        "Prior probability of an effect outside the catalogue jointly with one of it.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    evidence_power: float = setting(
+        0.4,
+        (
+            "Power of the evidence, which believes in its forms and its noise more than these deserve: "
+            "the one by which the probabilities of causes come true, found on sealed campaigns of the "
+            "split that is for it."
+        ),
+        unit="-",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
+        used_in="diagnosis/diagnose.py",
+    )
+    undeclared_gap_power: float = setting(
+        0.2,
+        (
+            "Of gaps that are not declared, P(p-value of the gap test < p) = p to this power, found on the same "
+            "campaigns; without a gap it is p."
+        ),
+        unit="-",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
+        used_in="diagnosis/probabilities.py",
+    )
+    again_in_another_record: float = setting(
+        0.03,
+        (
+            "Prior probability of an effect in another record, too, in another form or size, over that of "
+            "its being in one."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    left_to_an_unknown: float = setting(
+        0.9,
+        ("Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it."),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    about_as_probable: float = setting(
+        12.0,
+        ("Log evidence within which forms of one effect are discriminated by how well they fit as they are."),
+        unit="log evidence",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    unseen_second_effect: float = setting(
+        0.2,
+        (
+            "Evidence, to its power, for a second effect that is too weak to show, over that without it: "
+            "its freedom costs little and gains nothing. So what was probable beforehand of two effects "
+            "stays so, shared out to those that were not tried."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    noted_with_others: float = setting(
+        0.05,
+        ("Probability from which on a single effect is reported with others that may act jointly, unseen."),
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    credible_set: float = setting(
+        0.95,
+        "Probability that an answer set holds.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    discrepancy_softness: tuple[float, ...] = setting(
+        (2.0, 1.0),
+        ("The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each."),
+        unit="-",
+        origin="chosen",
+        used_in="inference/discrepancy.py",
+    )
+    roughest_discrepancy: int = setting(
+        24,
+        "Half periods per record up to which a discrepancy is looked for.",
+        unit="half periods",
+        origin="chosen",
+        used_in="inference/discrepancy.py",
+    )
+    common_discrepancy: int = setting(
+        12,
+        "Half periods over the strain up to which one that is the same in all records is looked for.",
+        unit="half periods",
+        origin="chosen",
+        used_in="inference/discrepancy.py",
+    )
+    form_errors: tuple[float, ...] = setting(
+        (0.0, 0.01, 0.02, 0.04, 0.08),
+        "Relative errors of an effect's form that are allowed for.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/evidence.py",
+    )
+    form_error_weights: tuple[float, ...] = setting(
+        (0.4, 0.2, 0.2, 0.12, 0.08),
+        "How probable these errors of a form are beforehand.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/evidence.py",
+    )
+    material_form_error: float = setting(
+        0.2,
+        "Relative deviation of a material effect's form per modulation: it has no formula.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/form_error.py",
+    )
+    rig_form_error: float = setting(
+        0.05,
+        "Relative deviation of a rig fault's form per modulation.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/form_error.py",
+    )
+    unknown_of_the_strain: float = setting(
+        0.2,
+        "Prior share of an unknown effect that is one function of the strain.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_periodic: float = setting(
+        0.1,
+        "Prior share of one that is periodic in the strain.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_of_the_specimen: float = setting(
+        0.2,
+        "Prior share of other parameters in each record.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_alike: float = setting(
+        0.2,
+        "Prior share of one size in all records.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_in_one: float = setting(
+        0.2,
+        "Prior share of one record only.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_in_each: float = setting(
+        0.1,
+        "Prior share of a size of its own in each record.",
+        unit="probability",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    unknown_records_tried: int = setting(
+        2,
+        "Records that are tried alone, those with the most left.",
+        unit="records",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
+    fewest_to_leave_out: int = setting(
+        3,
+        "Records below which none can be left out.",
+        unit="records",
+        origin="chosen",
+        used_in="diagnosis/checks.py",
+    )
+    disagreement_level: float = setting(
+        0.001,
+        (
+            "Below this p-value, and with the amplitude scattering by `disagreement_scatter`, records are "
+            "said to want different ones."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/checks.py",
+    )
+    disagreement_scatter: float = setting(
+        0.25,
+        "Relative scatter of the amplitude from which on records are said to want different ones.",
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/checks.py",
+    )
+    uninformed: float = setting(
+        0.9,
+        "A standard error above so much of the prior's means that the data add nothing.",
+        unit="prior deviations",
+        origin="chosen",
+        used_in="diagnosis/explain.py",
+    )
+    held_out_misfit: float = setting(
+        4.0,
+        (
+            "Standard deviations by which a record's misfit exceeds what an explanation, were it right, "
+            "would make of it."
+        ),
+        unit="standard deviations",
+        origin="chosen",
+        used_in="diagnosis/held_out.py",
+    )
+    held_out_penalty: float = setting(
+        0.01,
+        ("Part of its probability that an explanation keeps which makes the prediction of a held-out record worse."),
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/held_out.py",
+    )
+    tolerated_form_error: float = setting(
+        0.05,
+        ("Relative error of an effect's form, record by record, that evidence takes for the effect's own."),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/remaining.py",
+    )
+    reported_remainder: float = setting(
+        0.25,
+        ("Part of what evidence lets pass beyond which a gap is reported as left: it is real, whatever its cause."),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/remaining.py",
+    )
+    most_left: float = setting(
+        1.5,
+        (
+            "Misfit after an explanation, over the noise and over what any smooth correction leaves, "
+            "beyond which it explains too little, however its form may be wrong. Right explanations of "
+            "sealed campaigns leave 0.9 to 1.2 times the noise."
+        ),
+        unit="-",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
+        used_in="diagnosis/remaining.py",
+    )
+    share_worth_naming: float = setting(
+        0.01,
+        "Part of the gap below which an effect is not named beside those that close the rest.",
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/attribution.py",
+    )
+    probability_worth_naming: float = setting(
+        0.01,
+        "Probability from which on an effect is listed that is not in the best explanation.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/attribution.py",
+    )
+
+
+EVIDENCE = EvidenceSettings()

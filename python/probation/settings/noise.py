@@ -1,0 +1,393 @@
+"""The noise of records, and how specimens scatter: the constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from probation.settings.setting import setting
+
+
+@dataclass(frozen=True)
+class NoiseSettings:
+    """The noise of records, and how specimens scatter."""
+
+    least_gain: float = setting(
+        9.0,
+        ("What a spectrum's shape must take off the deviance: three standard deviations of one parameter."),
+        unit="deviance",
+        origin="derived",
+        source="likelihood ratio",
+        used_in="noise/arma.py",
+    )
+    least_gain_of_low_rise: float = setting(
+        25.0,
+        "What a shape that rises where little was looked at must take off the deviance.",
+        unit="deviance",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    steep_rise: float = setting(
+        4.0,
+        "Rise from the middle of the band to frequency zero from which on slow noise is no surprise.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    fisher_excess: float = setting(
+        2.0,
+        (
+            "Variance of the spectrum at frequency zero over what Fisher's information promises; measured "
+            "on AR(1), phi = 0.9."
+        ),
+        unit="-",
+        origin="calibrated",
+        source="simulated AR(1), phi = 0.9",
+        used_in="noise/arma.py",
+    )
+    least_rise: float = setting(
+        0.1,
+        ("Noise that all but vanishes towards low frequencies would make a gap of anything slow: bursts can feign it."),
+        unit="-",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    largest_log_variance: float = setting(
+        1.0,
+        (
+            "Largest variance of the logarithm of the low frequencies' level: beyond it Fisher's "
+            "information has run out (phi at its border), and a level that could be anything would excuse "
+            "any gap."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    spectrum_bins: int = setting(
+        60,
+        "Frequencies are pooled in so many bins, evenly in their logarithm, for the fit.",
+        unit="bins",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    dim_bin: float = setting(
+        0.05,
+        "Spectrum over its largest value below which a bin all but loses its say.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    least_drift: float = setting(
+        1.0,
+        (
+            "Relative variance at the first half period that is assumed in any case: less cannot be "
+            "distinguished from none."
+        ),
+        unit="noise variances",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    least_drift_alike: float = setting(
+        0.25,
+        "Least standard deviation, at the first half period, of a drift along an effect.",
+        unit="noise",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    drift_share_alike: float = setting(
+        0.2,
+        "Part of a drift that may go along with an effect.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    most_drift_alike: float = setting(
+        2.0,
+        "Largest standard deviation, at the first half period, of a drift along an effect.",
+        unit="noise",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    lowest_drift_order: int = setting(
+        8,
+        "Orders from here on are looked at: further down a bias is all there is.",
+        unit="half periods",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    highest_drift_order: int = setting(
+        4,
+        "Orders up to the samples over this are looked at.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    outlying_power: float = setting(
+        8.0,
+        "Power of one wave, over the mean, above which it is a line and no noise.",
+        unit="mean power",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    modelled_drift_orders: int = setting(
+        48,
+        "Orders that are given their drift; the roughest of them have little.",
+        unit="half periods",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    drift_margin: float = setting(
+        0.7,
+        "Standard deviations that are added to what is estimated.",
+        unit="standard deviations",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    records_apart: float = setting(
+        0.2,
+        "Part of the records that may have a spectrum of their own.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    fewest_for_a_spectrum: int = setting(
+        48,
+        "Shorter records are given white noise by robust differences: a spectrum needs more.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/evidence.py",
+    )
+    transient_ratio: float = setting(
+        4.0,
+        (
+            "A stretch whose low frequencies hold this many times as much, beside its high ones, as the "
+            "median stretch's holds a transient of the model, and is left out."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="noise/evidence.py",
+    )
+    quiet_samples: int = setting(
+        80,
+        "Quiet samples that suffice for an estimate of their own.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/evidence.py",
+    )
+    coarse_step: float = setting(
+        1.2,
+        ("Readings whose step is this many standard deviations of the noise say nothing of how it grows."),
+        unit="noise",
+        origin="chosen",
+        used_in="noise/evidence.py",
+    )
+    clustered_size: float = setting(
+        4.0,
+        ("Autocorrelation of the noise's size, in standard errors, from which on it is followed all along."),
+        unit="standard errors",
+        origin="chosen",
+        used_in="noise/local_size.py",
+    )
+    size_window: int = setting(
+        31,
+        "Samples over which it is followed.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/local_size.py",
+    )
+    shortest_burst: int = setting(
+        15,
+        (
+            "Samples of the shortest burst that is looked for: so many median sizes say what a step or an "
+            "outlier cannot."
+        ),
+        unit="samples",
+        origin="chosen",
+        used_in="noise/local_size.py",
+    )
+    burst_ratio: float = setting(
+        1.9,
+        "A burst has so many times the noise of the record.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/local_size.py",
+    )
+    burst_errors: float = setting(
+        3.5,
+        "A burst is so many deviations above the scatter of its windows.",
+        unit="standard deviations",
+        origin="chosen",
+        used_in="noise/local_size.py",
+    )
+    agreement_level: float = setting(
+        0.001,
+        (
+            "Probability below which the power at lower frequencies is no longer believed to be what the "
+            "rough ones predict."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    level_errors: float = setting(
+        3.0,
+        "Standard errors by which a level must differ to be taken down.",
+        unit="standard errors",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    records_that_agree: float = setting(
+        0.75,
+        ("Part of the records that must agree with each other for their lower frequencies to be taken for noise."),
+        unit="-",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    lowest_coefficients: int = setting(
+        12,
+        "Coefficients next to the bias's own, where it would show first.",
+        unit="coefficients",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    prediction_error: float = setting(
+        0.4,
+        (
+            "Largest standard error of the logarithm of what the rough leftovers predict that is let "
+            "excuse a difference."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    low_band: int = setting(
+        60,
+        (
+            "Coefficients of a record at the low end of what was fitted, whose level overrules the fit's "
+            "where it is higher."
+        ),
+        unit="coefficients",
+        origin="chosen",
+        used_in="noise/low_frequencies.py",
+    )
+    nuisance_drift_size: float = setting(
+        0.6,
+        "Standard deviations of the noise along an effect's signal that a drift may have along it.",
+        unit="noise",
+        origin="chosen",
+        used_in="noise/nuisance_drift.py",
+    )
+    known_drift_variance: float = setting(
+        0.1,
+        ("Variance of a drift along a signal, given those along other signals, below which it is known already."),
+        unit="-",
+        origin="chosen",
+        used_in="noise/nuisance_drift.py",
+    )
+    unusual_specimen: float = setting(
+        0.01,
+        (
+            "Probability beyond which a specimen's deviations are not larger: what is missing there is "
+            "not the specimen's."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="noise/own_deviations.py",
+    )
+    on_grid: float = setting(
+        0.02,
+        "Largest rms distance from the grid, as a fraction of its step.",
+        unit="step",
+        origin="chosen",
+        used_in="noise/quantisation.py",
+    )
+    fewest_values: int = setting(
+        8,
+        "Fewer different values say nothing of a grid.",
+        unit="values",
+        origin="chosen",
+        used_in="noise/quantisation.py",
+    )
+    fewest_other_records: int = setting(
+        2,
+        "Other records that must agree.",
+        unit="records",
+        origin="chosen",
+        used_in="noise/same_rig.py",
+    )
+    neighbours_alike: float = setting(
+        1.5,
+        "Factor within which neighbouring samples scatter alike.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/same_rig.py",
+    )
+    unlike_others: float = setting(
+        3.0,
+        ("Factor by which a record's noise is larger than that of all others, where it is not believed."),
+        unit="-",
+        origin="chosen",
+        used_in="noise/same_rig.py",
+    )
+    transient_segments: int = setting(
+        4,
+        "Transients are given to so many segments, the longest ones.",
+        unit="segments",
+        origin="chosen",
+        used_in="noise/smooth_basis.py",
+    )
+    outlier_distance: float = setting(
+        8.0,
+        "An outlier is this many robust standard deviations away from what its neighbours say.",
+        unit="robust standard deviations",
+        origin="chosen",
+        used_in="noise/outliers.py",
+    )
+    longest_outlier: int = setting(
+        2,
+        "Samples that an outlier may last.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/outliers.py",
+    )
+    most_outliers: float = setting(
+        0.005,
+        "More than this fraction of a record are no outliers but the record's noise.",
+        unit="record",
+        origin="chosen",
+        used_in="noise/outliers.py",
+    )
+    same_history: float = setting(
+        0.03,
+        (
+            "Root mean square of what two strain histories differ by, over their range, below which they "
+            "are one: chosen."
+        ),
+        unit="range",
+        origin="chosen",
+        used_in="inference/scatter.py",
+    )
+    least_time_in_common: float = setting(
+        0.5,
+        "Part of the longer record's time that replicates have in common at least: chosen.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/scatter.py",
+    )
+    scatter_seen: float = setting(
+        0.2,
+        ("Lower end of a scatter's interval over its value from which on the scatter is told in words: chosen."),
+        unit="-",
+        origin="chosen",
+        used_in="inference/scatter.py",
+    )
+    scatter_prior_freedom: int = setting(
+        4,
+        ("Of the half-Student prior of a standard deviation (Gelman 2006): the fewest that have a variance."),
+        unit="degrees",
+        origin="chosen",
+        source="Gelman 2006",
+        used_in="inference/scatter.py",
+    )
+
+
+NOISE = NoiseSettings()

@@ -1,0 +1,64 @@
+"""The page of all settings, docs/settings.md: ``python -m probation.settings.page > docs/settings.md``."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+from probation.settings.certificate import CERTIFICATE
+from probation.settings.comparison import COMPARISON
+from probation.settings.design import DESIGN
+from probation.settings.detection import DETECTION
+from probation.settings.evidence import EVIDENCE
+from probation.settings.noise import NOISE
+from probation.settings.search import SEARCH
+
+GROUPS: dict[str, Any] = {
+    "detection": DETECTION,
+    "noise": NOISE,
+    "evidence": EVIDENCE,
+    "search": SEARCH,
+    "design": DESIGN,
+    "comparison": COMPARISON,
+    "certificate": CERTIFICATE,
+}
+"""By the file in ``probation/settings``."""
+
+_INTRODUCTION = """\
+# Settings
+
+Every constant on which a verdict, a probability or a reported size depends. They stand in
+`python/probation/settings`, one frozen dataclass a subject, and the modules take them from there.
+Constants of numerical methods (steps of difference quotients, limits of iterations, rounding) stay
+where they are used.
+
+Origin: *derived* from an argument, *calibrated* on data (which, it says), or *chosen* by judgement.
+`python -m bench.ablation` solves and scores campaigns with other values.
+"""
+
+
+def settings_page() -> str:
+    """The page as Markdown."""
+    parts = [_INTRODUCTION]
+    for name, group in GROUPS.items():
+        rows = [
+            f"| `{field.name}` | {_value(getattr(group, field.name))} | {field.metadata['unit']} | "
+            f"{field.metadata['meaning']} | {_origin(field.metadata)} | `{field.metadata['used_in']}` |"
+            for field in fields(group)
+        ]
+        doc = type(group).__doc__ or ""
+        heading = "| setting | value | unit | meaning | origin | used in |\n|---|---|---|---|---|---|"
+        parts.append("\n".join([f"## `{name}`\n\n{doc}\n", heading, *rows, ""]))
+    return "\n".join(parts)
+
+
+def _value(value: float | tuple[float, ...]) -> str:
+    return ", ".join(f"{each:g}" for each in value) if isinstance(value, tuple) else f"{value:g}"
+
+
+def _origin(known: Any) -> str:
+    return f"{known['origin']}: {known['source']}" if known["source"] else str(known["origin"])
+
+
+if __name__ == "__main__":
+    print(settings_page(), end="")
