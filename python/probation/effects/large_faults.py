@@ -71,13 +71,14 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     """The form under another name, its amplitude with another prior and bounds; `starts` of the amplitude."""
     known = form.amplitude
     wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
-    grid = [(start, *shapes) for start in starts for shapes in form.shapes_at(())]
+    shapes = form.shapes_at(())
+    grid = [(start, *each) for start in starts for each in shapes] if starts else shapes
     return replace(
         form,
         name=f"large_{form.name}",
         parameters=(wide, *form.parameters[1:]),
         threshold=bool(starts),
-        starts=(lambda _views, _residuals: list(grid)) if starts else form.starts,
+        starts=lambda _views, _residuals: list(grid),
     )
 
 

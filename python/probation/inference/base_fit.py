@@ -48,6 +48,9 @@ if TYPE_CHECKING:
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
 
+FARTHEST_MOVE = 5.0
+"""Standard deviations of the specimens' scatter by which the best parameters may move once specimens may differ."""
+
 
 @dataclass(frozen=True, eq=False)
 class BaseFit:
@@ -232,7 +235,12 @@ def fit_views(
     columns = [] if campaign.specimens.alike else deviation_columns(model, found.parameters)
     scatter = scatter_of(campaign.specimens, law, residuals, noises, columns)
     if scatter.any:
-        found, noises, residuals = _settled(model, found.parameters, with_scatter(residuals, columns, scatter))
+        plain, scattered = found, with_scatter(residuals, columns, scatter)
+        found, noises, residuals = _settled(model, plain.parameters, scattered)
+        if _ran_away(plain.parameters, found.parameters, scatter):
+            noises = _noises(scattered)
+            found = refit(model, plain.parameters, Whitener(noises), most_steps=0)
+            residuals = _at(scattered, found)
     parameters = found.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
@@ -254,6 +262,16 @@ def fit_views(
         alike=alike,
         held_out=tuple(held_out),
     )
+
+
+def _ran_away(plain: FloatArray, found: FloatArray, scatter: Scatter) -> bool:
+    """Whether the parameters moved by more than specimens differ, once these were let differ.
+
+    Then the law misses the records for another reason. It is measured in the few directions that no specimen can take,
+    and the parameters follow these to where the law means nothing: from there no effect can be searched for.
+    """
+    size = FARTHEST_MOVE * max(scatter.deviations) * np.abs(plain)
+    return bool((np.abs(found - plain) > size).any())
 
 
 def _settled(
