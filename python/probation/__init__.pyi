@@ -19,6 +19,8 @@ from .exporting.result import Export
 from .histories import named_history
 from .histories.file import read_history
 from .histories.imposed import ImposedHistory
+from .identify.band import StressBand
+from .identify.draws import Draws
 from .identify.fit import fit
 from .identify.result import Fit
 from .inference.callable_law import CallableLaw
@@ -32,11 +34,13 @@ from .law.modification import InitialStress, Modification, PowerActivation, Rate
 from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
 from .law.schemes import BE2, CVODE, SA2, SA3, Exact
+from .law.settings import CompanionSettings, LawSettings
 from .records.campaign import Campaign
 from .records.initial.init_campaign import init_campaign
 from .records.preview import preview
 from .records.record import Noise, Record
 from .records.specimens import Specimens
+from .results.labelled import LabelledMatrix
 from .schemes.crosscheck import crosscheck
 from .schemes.result import CrossCheck
 from .simulation import Simulation, simulate
@@ -53,11 +57,13 @@ __all__ = [
     "CallableLaw",
     "Campaign",
     "Certificate",
+    "CompanionSettings",
     "Comparison",
     "ConvergenceError",
     "CrossCheck",
     "Diagnosis",
     "Direction",
+    "Draws",
     "Exact",
     "Excitation",
     "Exponential",
@@ -66,7 +72,9 @@ __all__ = [
     "ImposedHistory",
     "InitialStress",
     "InputError",
+    "LabelledMatrix",
     "Law",
+    "LawSettings",
     "Modification",
     "Noise",
     "Plan",
@@ -84,6 +92,7 @@ __all__ = [
     "Spectrum",
     "StrainHistory",
     "StressActivation",
+    "StressBand",
     "Table",
     "Weissenberg",
     "__version__",

@@ -2,6 +2,7 @@
 
 import sys
 import types
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -12,6 +13,7 @@ from scipy.stats import norm
 import probation
 from campaigns.few_records import LAW, few_records
 from probation import Fit, InputError
+from probation.identify.posterior import Posterior
 
 TIME = np.linspace(0.0, 260.0, 120)
 STRAIN = np.interp(TIME, [0.0, 200.0, 260.0], [0.0, 1.0, 0.8])
@@ -144,6 +146,61 @@ def test_draws_have_the_mean_and_the_covariance_of_the_fit():
         fit.sample(0)
 
 
+def test_the_posterior_has_its_peak_and_its_curvature_where_the_fit_has_them():
+    """With white noise its second derivatives are the inverse of the covariance."""
+    fit = white()
+    posterior = Posterior.of(fit)
+    centre = np.array([getattr(fit.law, name) for name in fit.names])
+    errors = np.sqrt(np.diag(np.asarray(fit.covariance)))
+    peak = posterior(centre)
+    curvature = np.zeros((3, 3))
+    for row in range(3):
+        for column in range(3):
+            steps = 0.1 * errors[row] * np.eye(3)[row], 0.1 * errors[column] * np.eye(3)[column]
+            corners = [posterior(centre + a * steps[0] + b * steps[1]) for a in (1, -1) for b in (1, -1)]
+            curvature[row, column] = (corners[0] - corners[1] - corners[2] + corners[3]) / 0.04
+            assert max(corners) <= peak + 1e-3
+    expected = np.linalg.inv(fit.correlation)
+    assert -curvature == pytest.approx(expected, rel=0.1, abs=0.1 * np.abs(expected).max())
+    assert posterior(-centre) == -np.inf
+
+
+class Ensemble:
+    """As emcee's sampler is called: it stays where it started, and keeps every state."""
+
+    def __init__(self, walkers, free, posterior):
+        self.shape, self.chain = (walkers, free), []
+        self.posterior = posterior
+
+    def run_mcmc(self, start, steps, **options):
+        assert np.shape(start) == self.shape
+        assert np.isfinite([self.posterior(each) for each in start]).all()
+        self.chain = [start] * steps
+        return start
+
+    def reset(self):
+        self.chain = []
+
+    def get_chain(self, *, flat, thin):
+        return np.concatenate(self.chain[::thin])
+
+
+def test_emcee_walks_from_the_laplace_approximation(monkeypatch):
+    monkeypatch.setitem(sys.modules, "emcee", types.SimpleNamespace(EnsembleSampler=Ensemble))
+    draws = white().sample(40, method="emcee")
+    assert draws.values.shape == (40, 3)
+    assert draws.values[:16] == pytest.approx(white().sample(16).values)
+    with pytest.raises(InputError, match="method is 'nuts'; expected one of laplace, emcee"):
+        white().sample(40, method="nuts")
+
+
+def test_emcee_refuses_strain_noise_that_it_does_not_know(monkeypatch):
+    monkeypatch.setitem(sys.modules, "emcee", types.SimpleNamespace(EnsembleSampler=Ensemble))
+    records = {name: replace(each, strain_noise_weighed=True) for name, each in white().records.items()}
+    with pytest.raises(InputError, match=r"found strain noise weighed in 'slow'.*use method = 'laplace'"):
+        replace(white(), records=records).sample(10, method="emcee")
+
+
 @pytest.mark.parametrize(
     "module",
     [
@@ -161,6 +218,7 @@ def test_draws_go_to_arviz_in_one_chain(monkeypatch, module):
     ("package", "ask"),
     [
         ("arviz", lambda: white().sample(2).to_arviz()),
+        ("emcee", lambda: white().sample(2, method="emcee")),
         ("pandas", lambda: white().sample(2).to_dataframe()),
         ("xarray", lambda: white().predict(TIME, STRAIN).to_xarray()),
     ],

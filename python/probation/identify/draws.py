@@ -1,14 +1,14 @@
-"""Draws of the parameters from the Laplace approximation of their posterior."""
+"""Draws of the parameters from their posterior, or from its Laplace approximation."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from inspect import signature
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from probation._arrays import as_whole_number
+from probation._arrays import as_whole_number, one_of
 from probation.errors import InputError
 from probation.inference.parameter import outside_name
 from probation.results.extras import needed
@@ -16,6 +16,9 @@ from probation.results.extras import needed
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.identify.result import Fit
+
+Method = Literal["laplace", "emcee"]
+METHODS: tuple[Method, ...] = ("laplace", "emcee")
 
 ROUNDS = 100
 """Times that draws below zero are drawn again before it is given up."""
@@ -78,10 +81,21 @@ class Draws:
         return arviz.from_dict({"posterior": posterior})
 
 
-def draw(fit: Fit, count: int, seed: int) -> Draws:
-    """Draws from a normal distribution around the estimates; `Fit.sample` says the arguments."""
+def draw(fit: Fit, count: int, method: Method, seed: int) -> Draws:
+    """Draws of the parameters of a fit; `Fit.sample` says the arguments."""
     if as_whole_number(count, "n") < 1:
         raise InputError(f"n is {count}; expected at least 1")
+    names = tuple(outside_name(name) for name in fit.names)
+    random = np.random.default_rng(as_whole_number(seed, "seed"))
+    if one_of(method, "method", METHODS) == "laplace":
+        return Draws(names, _normal(fit, count, random))
+    from probation.identify.posterior import WALKERS, walk  # noqa: PLC0415 - it solves the law again
+
+    return Draws(names, walk(fit, count, seed, _normal(fit, max(WALKERS, 2 * len(names) + 2), random)))
+
+
+def _normal(fit: Fit, count: int, random: np.random.Generator) -> FloatArray:
+    """From a normal distribution around the estimates, without what is negative."""
     matrix = fit.covariance.matrix
     if not np.all(np.isfinite(matrix)):
         lost = [name for name, value in zip(fit.covariance.names, np.diag(matrix), strict=True) if not value < np.inf]
@@ -90,11 +104,10 @@ def draw(fit: Fit, count: int, seed: int) -> Draws:
     size = np.where(centre != 0.0, np.abs(centre), 1.0)
     spread, basis = np.linalg.eigh(matrix / np.outer(size, size))
     root = size[:, None] * basis * np.sqrt(np.maximum(spread, 0.0))
-    random = np.random.default_rng(as_whole_number(seed, "seed"))
     values = np.empty((0, len(centre)))
     for _ in range(ROUNDS):
         drawn = centre + random.standard_normal((count - len(values), len(centre))) @ root.T
         values = np.concatenate([values, drawn[np.all(drawn >= 0.0, axis=1)]])
         if len(values) == count:
-            return Draws(tuple(outside_name(name) for name in fit.names), values)
+            return values
     raise InputError("sample: found almost no draw with positive parameters; the records hardly determine them")

@@ -269,15 +269,17 @@ class Fit(Result, Stored):
 
         return predicted(self, history, true_strain, level=level, scheme=scheme)
 
-    def sample(self, n: int = 1000, *, seed: int = 0) -> Draws:
-        """Draws of the identified parameters from the Laplace approximation of their posterior.
-
-        A normal distribution around the estimates with `covariance`, without what is negative. Where a parameter is
-        only weakly identifiable, ``fit(…, intervals="profile")`` says how far that is from the likelihood.
+    def sample(self, n: int = 1000, *, method: Literal["laplace", "emcee"] = "laplace", seed: int = 0) -> Draws:
+        """Draws of the identified parameters from their posterior.
 
         Parameters
         ----------
         n : int
+        method : {"laplace", "emcee"}
+            "laplace": a normal distribution around the estimates with `covariance`, without what is negative. "emcee":
+            the likelihood itself, flat priors, by the ensemble sampler of the package emcee; it solves the law some
+            ten thousand times. It knows the noise as the fit has it, white or AR(1): where `newey_west` is true, its
+            draws are narrower than `covariance`.
         seed : int
 
         Returns
@@ -288,11 +290,12 @@ class Fit(Result, Stored):
         Raises
         ------
         InputError
-            If the records do not determine a parameter.
+            If the records do not determine a parameter; of "emcee" also where the package is not installed, or where
+            strain noise weighs the residual.
         """
         from probation.identify.draws import draw  # noqa: PLC0415
 
-        return draw(self, n, seed)
+        return draw(self, n, method, seed)
 
     def plot(self, kind: Literal["curves", "corner"] = "curves") -> Figure:
         """The fit as a figure.
