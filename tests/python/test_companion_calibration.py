@@ -162,7 +162,7 @@ def test_cross_validation_picks_the_form_that_made_the_data(truth, seed):
         found = calibrate_companion(RateTable(rates, tau_max, se))
         assert found.chosen == truth.form
         assert found.chosen_by == "cross-validation"
-        assert "power" in found.told_apart or "weissenberg" in found.told_apart
+        assert "power" in found.discriminated or "weissenberg" in found.discriminated
 
 
 def test_replicates_are_left_out_together():
@@ -194,7 +194,7 @@ def test_ramps_return_the_relation_that_made_them():
     found = calibrate_companion(ramps())
     assert found.route == "by-rate"
     assert found.chosen == "weissenberg"
-    assert "power" in found.told_apart
+    assert "power" in found.discriminated
     assert within(found, TRUTH)
     fits = found.record_fits
     assert abs(fits.unrelaxed_modulus - 3220.0) < 3 * fits.unrelaxed_modulus_se

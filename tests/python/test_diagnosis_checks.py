@@ -72,11 +72,11 @@ def test_of_a_law_that_is_not_linear_it_is_what_a_refit_foretells_to_a_few_perce
     ]
     views = problem.views(stresses, ENDS)
     found = problem.solved(law, views)
-    foretold = left_out_squares(found, problem.whitened(found))
+    predicted = left_out_squares(found, problem.whitened(found))
     for out, view in enumerate(views):
         rest = problem.solved(law, [each for each in views if each is not view], start=found.parameters)
         residual = CampaignModel(law, [view]).residual(rest.parameters) / problem.SIGMA
-        assert foretold[out] == pytest.approx(residual @ residual, rel=0.02)
+        assert predicted[out] == pytest.approx(residual @ residual, rel=0.02)
 
 
 def cochran(views):

@@ -119,13 +119,13 @@ def test_checks_say_what_speaks_for_and_what_against():
         return checks_text(Explanation(effects, effects, ("f",), (), 0.5, (), Checks(*checks)))
 
     assert said(0.994, 0.4, 0.3) == [
-        "foretells 99 % of the gap in records left out",
+        "predicts 99 % of the gap in records left out",
         "one strength suits all records",
         "what is left may be noise and the form's error",
     ]
-    assert said(0.5, 1e-4, 1e-4)[0] == "foretells only 50 % of the gap in records left out"
+    assert said(0.5, 1e-4, 1e-4)[0] == "predicts only 50 % of the gap in records left out"
     assert said(-0.1, 1e-4, 1e-4) == [
-        "foretells records left out no better than the base law",
+        "predicts records left out no better than the base law",
         "each record wants another strength",
         "a gap is left beside it",
     ]

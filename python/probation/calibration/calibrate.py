@@ -13,7 +13,7 @@ from probation.calibration.constant_time import why_constant
 from probation.calibration.cross_validation import apart, best, leave_one_rate_out
 from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
 from probation.calibration.forms import CHOOSABLE, FORMS, NAMEABLE, Form
-from probation.calibration.left_out import leave_one_rate_out as foretell
+from probation.calibration.left_out import leave_one_rate_out as predict
 from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable, rate_groups
 from probation.calibration.record_fits import (
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
-    from probation.calibration.left_out import Foretold
+    from probation.calibration.left_out import Predicted
 
     Progress = Callable[[int, int, str], None]
 
@@ -115,10 +115,10 @@ def calibrate_companion(
         return _on_table(source, form)
     if not isinstance(source, Campaign):
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
-    told = progress or (lambda done, total, what: None)
+    advance = progress or (lambda done, total, what: None)
     driven = []
     for at, record in enumerate(source.identify):
-        told(at, len(source.identify), f"strain rate of {record.id}")
+        advance(at, len(source.identify), f"strain rate of {record.id}")
         driven.append(excite(record))
     rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
     steady = all(each.spread <= NEARLY_CONSTANT for each in rates)
@@ -131,12 +131,14 @@ def calibrate_companion(
         )
     if route == "direct" or not steady:
         _need_spread(source, rates)
-        return _direct(source, DirectProblem(source.identify, source.law, chosen, hardening, driven), rates, form, told)
+        return _direct(
+            source, DirectProblem(source.identify, source.law, chosen, hardening, driven), rates, form, advance
+        )
     _need_two_rates(source, rates)
-    fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=told)
+    fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=advance)
     rms = [each.rms_MPa for each in fits.fits]
     problem = DirectProblem(source.identify, source.law, chosen, hardening, driven, rms)
-    return _by_rate(source, fits, problem, form, told)
+    return _by_rate(source, fits, problem, form, advance)
 
 
 def _on_table(table: RateTable, form: str) -> Calibration:
@@ -151,7 +153,7 @@ def _on_table(table: RateTable, form: str) -> Calibration:
         candidates={name: _candidate(each, scores.get(name), None) for name, each in regressions.items()},
         chosen=chosen,
         chosen_by=how,
-        told_apart=clear,
+        discriminated=clear,
         why_constant=why_constant(table, scores),
         warnings=tuple(_table_warnings(table, regressions[chosen])),
         data_sha256=samples_sha256(*samples),
@@ -185,7 +187,7 @@ def _by_rate(
         candidates={name: _candidate(each, scores.get(name), fits) for name, each in regressions.items()},
         chosen=chosen,
         chosen_by=how,
-        told_apart=clear,
+        discriminated=clear,
         why_constant=why_constant(table, scores),
         record_rates=rates,
         record_fits=fits,
@@ -223,9 +225,9 @@ def _direct(
         advance(f"{name} on all records")
         fits[name] = _from_coarse(problem, coarse, each, _starts(each, anchor, whole), whole)
     scores: dict[str, Score] = {}
-    foretold: tuple[Foretold, ...] = ()
+    predicted: tuple[Predicted, ...] = ()
     if leaving:
-        scores, foretold = foretell(
+        scores, predicted = predict(
             coarse,
             groups,
             forms,
@@ -251,10 +253,10 @@ def _direct(
         },
         chosen=chosen,
         chosen_by=how,
-        told_apart=clear,
+        discriminated=clear,
         why_constant=why_constant(None, scores),
         record_rates=rates,
-        foretold=foretold,
+        predicted=predicted,
         hardening=problem.hardening,
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,

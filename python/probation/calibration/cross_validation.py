@@ -61,14 +61,14 @@ def leave_one_rate_out(table: RateTable, regressions: Mapping[str, Regression]) 
         weights = 1.0 / (error**2 + least**2)
     scores = {}
     for name in regressions:
-        foretold = np.full(len(table), np.nan)
+        predicted = np.full(len(table), np.nan)
         for group in table.groups:
             try:
                 relation = regress(FORMS[name], table.without(group)).relation
-                foretold[group] = np.log(relation.relaxation_time(table.rates[group]))
+                predicted[group] = np.log(relation.relaxation_time(table.rates[group]))
             except InputError:  # too few rates are left, or no positive time there
                 continue
-        scores[name] = Score(name, foretold - np.log(table.tau_max), weights)
+        scores[name] = Score(name, predicted - np.log(table.tau_max), weights)
     return scores
 
 

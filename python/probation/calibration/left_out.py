@@ -46,7 +46,7 @@ class RecordAlpha:
 
 
 @dataclass(frozen=True)
-class Foretold:
+class Predicted:
     """One record left out of the calibration, and predicted.
 
     Attributes
@@ -92,7 +92,7 @@ def leave_one_rate_out(
     start: Callable[[Form], list[FloatArray]],
     calibrated: Callable[[Sequence[int]], tuple[float, float]],
     progress: Callable[[str], None],
-) -> tuple[dict[str, Score], tuple[Foretold, ...]]:
+) -> tuple[dict[str, Score], tuple[Predicted, ...]]:
     """Calibrate on all records but those of one rate, and predict these; each rate in turn, by every form.
 
     Parameters
@@ -109,7 +109,7 @@ def leave_one_rate_out(
         Called with what is being done.
     """
     count = len(problem.records)
-    scores, foretold = {}, []
+    scores, predicted = {}, []
     for name, form in forms.items():
         error, weights = np.full(count, np.nan), np.ones(count)
         for group in groups:
@@ -118,16 +118,16 @@ def leave_one_rate_out(
             try:
                 fitted = problem.only(kept).fit(form, start(form), calibrated(kept))
                 for at in group:
-                    each, own = _foretell(problem, int(at), name, fitted)
-                    foretold.append(each)
+                    each, own = _predict(problem, int(at), name, fitted)
+                    predicted.append(each)
                     error[at] = -own.log_alpha
             except InputError:  # no positive relaxation time at the rates left out
                 continue
         scores[name] = Score(name, error, weights)
-    return scores, tuple(foretold)
+    return scores, tuple(predicted)
 
 
-def _foretell(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> tuple[Foretold, RecordAlpha]:
+def _predict(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> tuple[Predicted, RecordAlpha]:
     each = problem.records[at]
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
@@ -138,7 +138,7 @@ def _foretell(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> 
     slope = each.stress(problem.law(relation, modulus, 1.0)) - base  # the stress is linear in G
     left = base - each.record.true_stress
     left = left - slope * float(slope @ left) / float(slope @ slope)
-    return Foretold(each.record.id, form, _rms(error), _rms(left), own.rms, largest), own
+    return Predicted(each.record.id, form, _rms(error), _rms(left), own.rms, largest), own
 
 
 def _rms(error: FloatArray) -> float:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
     from probation.calibration.forms import Form
-    from probation.calibration.left_out import Foretold
+    from probation.calibration.left_out import Predicted
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
     from probation.calibration.record_fits import RecordFits, RecordRate
@@ -102,7 +102,7 @@ _REASONS = {
     "request": "as asked for",
     "fit": "it leaves least on these records; too few rates to leave one out",
     "preference": "by preference: too few rates to leave one out",
-    "cross-validation": "it foretells left-out rates best",
+    "cross-validation": "it predicts left-out rates best",
 }
 
 
@@ -126,13 +126,13 @@ class Calibration(Result, Stored):
         "preference": nothing chooses, the forms' order does.
     why_constant : str or None
         Why one tau_max for all rates is enough; None where it depends on the rate.
-    told_apart : tuple of str
-        Forms that foretell left-out rates worse than the chosen one by more than chance.
+    discriminated : tuple of str
+        Forms that predict left-out rates worse than the chosen one by more than chance.
     record_rates : tuple of RecordRate
     record_fits : RecordFits or None
     check : DirectFit or None
         Of the by-rate route: the chosen form identified on all records at once.
-    foretold : tuple of Foretold
+    predicted : tuple of Predicted
         Of the direct route: each record predicted from those at other rates.
     hardening : str
         How the direct route takes G.
@@ -148,12 +148,12 @@ class Calibration(Result, Stored):
     candidates: dict[str, Candidate]
     chosen: str
     chosen_by: str
-    told_apart: tuple[str, ...]
+    discriminated: tuple[str, ...]
     why_constant: str | None = None
     record_rates: tuple[RecordRate, ...] = ()
     record_fits: RecordFits | None = None
     check: DirectFit | None = None
-    foretold: tuple[Foretold, ...] = ()
+    predicted: tuple[Predicted, ...] = ()
     hardening: str = "by-record"
     warnings: tuple[str, ...] = field(default=())
     data_sha256: str = ""
@@ -205,10 +205,10 @@ class Calibration(Result, Stored):
             if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
             return sentence
-        sentence = f"{start}; rates left out are foretold to {percent(chosen.score.rms)} %"
+        sentence = f"{start}; rates left out are predicted to {percent(chosen.score.rms)} %"
         for each in rivals if self.chosen_by == "cross-validation" else ():
             rms = each.score.rms if each.score else np.nan
-            how = "" if each.form.name in self.told_apart else ", not told apart"
+            how = "" if each.form.name in self.discriminated else ", not discriminated"
             told = f"to {percent(rms)} %{how}" if np.isfinite(rms) else "gives no positive time at one of them"
             sentence += f"; {each.form.name} {told}"
         return sentence
@@ -248,7 +248,7 @@ class Calibration(Result, Stored):
             "route": self.route,
             "chosen": self.chosen,
             "chosen_by": self.chosen_by,
-            "told_apart": self.told_apart,
+            "told_apart": self.discriminated,
             "constant_is_enough": self.why_constant is not None,
             "companion": {"form": companion.form, **companion.parameters},
             "relations": {name: each.to_dict() for name, each in self.candidates.items()},
@@ -266,7 +266,7 @@ class Calibration(Result, Stored):
                 "unrelaxed_modulus_MPa": self.check.unrelaxed_modulus,
                 "rms_MPa": self.check.rms,
             }
-        if self.foretold:
+        if self.predicted:
             content["foretold"] = [
                 {
                     "record": each.record,
@@ -275,7 +275,7 @@ class Calibration(Result, Stored):
                     "hardening_free_rms_MPa": each.hardening_rms,
                     "refit_rms_MPa": each.refit_rms,
                 }
-                for each in self.foretold
+                for each in self.predicted
             ]
         if self.paper is not None:
             content["paper"] = {

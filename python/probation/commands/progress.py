@@ -75,14 +75,14 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
 
 def _tenths(title: str) -> Callable[[int, int, str], None]:
     """Prints at every tenth."""
-    started, told = time.monotonic(), 0
+    started, last_tenth = time.monotonic(), 0
 
     def advance(done: int, total: int, what: str) -> None:
-        nonlocal told
+        nonlocal last_tenth
         tenths = 10 * done // total if total else 0
         elapsed = time.monotonic() - started
-        if tenths > told and elapsed >= LOGGED_AFTER:
-            told = tenths
+        if tenths > last_tenth and elapsed >= LOGGED_AFTER:
+            last_tenth = tenths
             say(f"{title}: {said(done / total, elapsed)}")
 
     return advance

@@ -120,8 +120,8 @@ def _prepared(
     threads: int,
 ) -> ChangeSearch:
     """The records minus what their references predict, and the noise of that."""
-    foretold = {name: [reference.branches[other] for other in others] for name, others in together.items()}
-    law = MeasuredLaw(reference.law, foretold)
+    predicted = {name: [reference.branches[other] for other in others] for name, others in together.items()}
+    law = MeasuredLaw(reference.law, predicted)
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=reference.scheme)
     own = record_noises([own_residual(view, reference.law) for view in views])

@@ -60,7 +60,7 @@ class ChangeExplanation:
 
 @dataclass(frozen=True, eq=False)
 class ChangeCurves(WithCurves):
-    """One record minus what its references foretell.
+    """One record minus what its references predict.
 
     Attributes
     ----------

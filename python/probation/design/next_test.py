@@ -226,11 +226,11 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
 
 
 def _sentence(what: str, after: float, names: Sequence[str], surely: bool, before: float) -> str:
-    told = f"{', '.join(names[:-1])} and {names[-1]}"
+    named = f"{', '.join(names[:-1])} and {names[-1]}"
     if after < before + DESIGN.least_help:
         best = f"{what[0].lower()}{what[1:]}"
-        return f"None of the tests considered helps to discriminate between {told}; the best of them: {best}."
-    does = f"it discriminates between {told}" if surely else f"it helps most between {told}"
+        return f"None of the tests considered helps to discriminate between {named}; the best of them: {best}."
+    does = f"it discriminates between {named}" if surely else f"it helps most between {named}"
     return f"{what}: {does}; the answer is then right with {_percent(after)}, now with {_percent(before)}."
 
 

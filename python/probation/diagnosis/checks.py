@@ -68,8 +68,8 @@ def left_out_squares(found: Refit, whitened: Whitened) -> FloatArray:
         rest = normal - own.T @ own
         size = np.sqrt(np.maximum(np.diag(rest), 1e-300))
         step = np.linalg.pinv(rest / np.outer(size, size), rcond=1e-10, hermitian=True) @ ((own.T @ z) / size) / size
-        foretold = z + own @ step
-        squares.append(float(foretold @ foretold))
+        predicted = z + own @ step
+        squares.append(float(predicted @ predicted))
     return np.array(squares)
 
 

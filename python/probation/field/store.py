@@ -112,7 +112,7 @@ class MapStore:
             for name, (values, attributes) in coordinates.items():
                 create(group, name, values.shape, (name,), attributes=attributes)[...] = values
             for name, kind in kinds.items():
-                told = {"units": kind.unit, "long_name": kind.meaning}
+                attributes = {"units": kind.unit, "long_name": kind.meaning}
                 create(
                     group,
                     name,
@@ -121,7 +121,7 @@ class MapStore:
                     chunks=self.grid.block,
                     dtype=kind.dtype,
                     fill=kind.fill,
-                    attributes=told,
+                    attributes=attributes,
                 )
             for name, dtype in ((LEDGER, "<u8"), (SECONDS, "<f8"), (SUBSTEPS, "<i4")):
                 create(group, name, self.grid.count, ("block_y", "block_x"), chunks=(1, 1), dtype=dtype, fill=0)

@@ -71,8 +71,8 @@ def describe(
         from probation.identify.profile import profile  # noqa: PLC0415 - interpolation is slow to load
 
         quantile = float(stdtrit(degrees, 0.975))
-        told = [int(i) for i in free if names[i] not in ends.withdrawn]
-        profiles = {names[i]: profile(weighted, known, i, quantile, limits) for i in told}
+        determined = [int(i) for i in free if names[i] not in ends.withdrawn]
+        profiles = {names[i]: profile(weighted, known, i, quantile, limits) for i in determined}
     parameters: dict[str, Parameter] = {}
     warnings = list(campaign.warnings)
     for index, name in enumerate(names):

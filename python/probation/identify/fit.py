@@ -118,8 +118,8 @@ def fit(
         )
     searched = {**limits, law.parameter_names[1]: search_range(problem, limits)}
     adapting = substeps == "auto" and chosen.name != "sa3"
-    told = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
-    plain = _least_squares(problem, method, searched, adapting, told)
+    advance = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
+    plain = _least_squares(problem, method, searched, adapting, advance)
     weighted = plain
     if weighting != "plain":
         weighted = weigh(plain.problem, plain.law, weighting, searched, excitation)

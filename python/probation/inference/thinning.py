@@ -21,14 +21,14 @@ def thin(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
     ----------
     campaign : Campaign
     """
-    records, told = [], []
+    records, notes = [], []
     for record in campaign.records:
         step = -(-len(record.time) // MOST)
         if step > 1:
-            told.append(f"{record.id}: one of every {step} of its {len(record.time)} samples was used")
+            notes.append(f"{record.id}: one of every {step} of its {len(record.time)} samples was used")
             record = _every(record, step)  # noqa: PLW2901
         records.append(record)
-    return replace(campaign, records=tuple(records)), tuple(told)
+    return replace(campaign, records=tuple(records)), tuple(notes)
 
 
 def _every(record: Record, step: int) -> Record:

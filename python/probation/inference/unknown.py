@@ -28,13 +28,13 @@ SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
 
 
 def log_evidence_of_unknown(
-    told: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
+    linearised: Linearised, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None
 ) -> float:
     """Log evidence of an explanation jointly with an unknown effect.
 
     Parameters
     ----------
-    told : Linearised
+    linearised : Linearised
         The explanation, its forms' errors included.
     found : Refit
         The same as it was found.
@@ -43,7 +43,7 @@ def log_evidence_of_unknown(
         Ways in which its forms may be wrong.
     """
     nothing = np.zeros(len(discrepancy))
-    problem = _where_it_is(told)
+    problem = _where_it_is(linearised)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual
     left = np.array(
@@ -61,7 +61,7 @@ def log_evidence_of_unknown(
         np.log(EVIDENCE.unknown_in_one / count) + float(logsumexp(one)),
         np.log(EVIDENCE.unknown_in_each) + _in_each(problem, discrepancy, left),
     ]
-    return float(logsumexp(scores)) + told.log_integral(nothing) - problem.log_integral(nothing)
+    return float(logsumexp(scores)) + linearised.log_integral(nothing) - problem.log_integral(nothing)
 
 
 def _where_it_is(problem: Linearised) -> Linearised:

@@ -31,7 +31,7 @@ def fit_spectra(prepared: list[NoiseEvidence], pool: bool) -> list[KnownSpectrum
     bottom = min(float(part.frequency.min()) for part in wholes)
     groups = _groups(rough, bottom, pool)
     chosen = list(rough)
-    if all(_foretold(wholes[i], rough[i], found, at) for group, found in groups for at, i in enumerate(group)):
+    if all(_predicted(wholes[i], rough[i], found, at) for group, found in groups for at, i in enumerate(group)):
         chosen = wholes
     elif len(groups) == 1:
         alike = _alike(wholes, rough, bottom)
@@ -91,7 +91,7 @@ def _fits(whole: Periodogram, own: Periodogram, arma: Arma, slack: float) -> flo
     return least
 
 
-def _foretold(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
+def _predicted(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
     """Whether a record's lower frequencies hold what the rough leftovers predict, within what these can tell."""
     slack = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
     return _fits(whole, own, found.models[at], slack) >= NOISE.agreement_level

@@ -54,12 +54,15 @@ def nuisance_drift(whitened: Whitened, waves: Sequence[FloatArray], signals: Flo
     # In coordinates in which the drift is white, too, a signal u has the norm |(I + D)^(-1/2) u|.
     quiet = np.linalg.solve(np.eye(len(drift)) + drift, along)
     size = 1.0 - np.sum(along**2, axis=0) + np.sum(along * quiet, axis=0)
-    told = quiet / np.sqrt(size)
+    constrained = quiet / np.sqrt(size)
     values, vectors = np.linalg.eigh(drift)
-    _, upper, order = qr(np.sqrt(np.maximum(values, 0.0))[:, None] * (vectors.T @ told), mode="economic", pivoting=True)
+    _, upper, order = qr(
+        np.sqrt(np.maximum(values, 0.0))[:, None] * (vectors.T @ constrained), mode="economic", pivoting=True
+    )
     count = int(np.count_nonzero(np.diag(upper) ** 2 > NOISE.known_drift_variance))
-    told = told[:, order[:count]]
-    spread = drift @ told
+    constrained = constrained[:, order[:count]]
+    spread = drift @ constrained
     return np.asarray(
-        drift - spread @ np.linalg.solve(told.T @ spread + NOISE.nuisance_drift_size**2 * np.eye(count), spread.T)
+        drift
+        - spread @ np.linalg.solve(constrained.T @ spread + NOISE.nuisance_drift_size**2 * np.eye(count), spread.T)
     )

@@ -9,8 +9,8 @@ import numpy as np
 from probation.provenance import provenance
 from probation.report.companion_figure import companion_figure
 from probation.report.companion_summary import (
-    foretold_table,
     notes_on,
+    prediction_table,
     relations_table,
     residuals_table,
     scores_table,
@@ -60,7 +60,7 @@ def _relations(found: Calibration) -> Section:
 
 
 def _choice(found: Calibration) -> Section:
-    scores, foretold = scores_table(found), foretold_table(found)
+    scores, predicted = scores_table(found), prediction_table(found)
     if scores is None:
         return Section("Which form?", ("Too few rates to leave one out: the data do not choose a form.",))
     parts: list[str | Table] = [
@@ -69,8 +69,8 @@ def _choice(found: Calibration) -> Section:
         "The lowest rms is chosen; references are there to compare with, and never chosen.",
         scores,
     ]
-    if foretold is not None:
-        parts.append(foretold)
+    if predicted is not None:
+        parts.append(predicted)
     return Section("Which form?", tuple(parts))
 
 

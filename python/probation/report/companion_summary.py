@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def companion_summary(found: Calibration) -> str:
     """Verdict first, then the relations, then the scores, then what should be known about them."""
-    tables = [relations_table(found), residuals_table(found), scores_table(found), foretold_table(found)]
+    tables = [relations_table(found), residuals_table(found), scores_table(found), prediction_table(found)]
     parts = [f"{found.source}: {found.verdict}", *(each.text() for each in tables if each is not None)]
     notes = notes_on(found)
     if found.paper is not None:
@@ -85,7 +85,7 @@ def residuals_table(found: Calibration) -> Table | None:
 
 
 def scores_table(found: Calibration) -> Table | None:
-    """How well each form foretells rates left out."""
+    """How well each form predicts rates left out."""
     rows = []
     for name, each in found.candidates.items():
         if each.score is None:
@@ -100,14 +100,14 @@ def scores_table(found: Calibration) -> Table | None:
     return Table(headings, tuple(rows), "Error in ln τ_max [%] at rates left out of the calibration", left=2)
 
 
-def foretold_table(found: Calibration) -> Table | None:
+def prediction_table(found: Calibration) -> Table | None:
     """Records predicted from those at other rates, nothing adjusted [MPa]."""
-    if not found.foretold:
+    if not found.predicted:
         return None
-    forms = list(dict.fromkeys(each.form for each in found.foretold))
+    forms = list(dict.fromkeys(each.form for each in found.predicted))
     rows = []
-    for record in dict.fromkeys(each.record for each in found.foretold):
-        own = {each.form: each for each in found.foretold if each.record == record}
+    for record in dict.fromkeys(each.record for each in found.predicted):
+        own = {each.form: each for each in found.predicted if each.record == record}
         cells = [
             f"{own[f].rms:.3g} ({percentage(own[f].rms / own[f].largest_stress)} %)" if f in own else "–" for f in forms
         ]

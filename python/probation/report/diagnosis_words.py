@@ -180,6 +180,6 @@ def _prediction(checks: Checks) -> list[str]:
     if checks.left_out is None:
         return []
     if checks.left_out <= 0.0:
-        return ["foretells records left out no better than the base law"]
+        return ["predicts records left out no better than the base law"]
     only = "" if checks.left_out >= 0.8 else "only "
-    return [f"foretells {only}{_closed(checks.left_out)} % of the gap in records left out"]
+    return [f"predicts {only}{_closed(checks.left_out)} % of the gap in records left out"]

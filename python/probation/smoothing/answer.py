@@ -35,7 +35,7 @@ CORRELATED = 1.2
 """Inflation from which on noise is said to be correlated."""
 
 FAR = 8.0
-"""Residuals beyond so many standard deviations of the noise are told."""
+"""Residuals beyond so many standard deviations of the noise are warnings."""
 
 CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se_per_s"
 
@@ -130,17 +130,17 @@ class RecordExcitation(Plotted):
     def warnings(self) -> tuple[str, ...]:
         """What a reader should know."""
         excitation = self.excitation
-        told = list(self.record.warnings)
+        warnings = list(self.record.warnings)
         if excitation.noise_inflation > CORRELATED:
-            told.append(
+            warnings.append(
                 "neighbouring samples err together: slow averages of the strain noise vary "
                 f"{excitation.noise_inflation:.2g} times as much as white noise; the standard errors say so"
             )
         if missed := self._missed():
-            told.append(missed)
+            warnings.append(missed)
         if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
-            told.append("the differences of the strain are mostly noise: another method smooths it")
-        return tuple(told)
+            warnings.append("the differences of the strain are mostly noise: another method smooths it")
+        return tuple(warnings)
 
     def content(self) -> dict[str, object]:
         """What goes into JSON."""
