@@ -58,10 +58,7 @@ def views(stresses: Sequence[np.ndarray], strains: Sequence[float] | None = None
 
 def white(count: int, name: str = "r1", sigma: float = SIGMA) -> NoiseModel:
     """White noise whose level is known."""
-    none = np.zeros((count, 0))
-    return NoiseModel(
-        name, Arma(innovation=sigma), np.ones(count), "constant", sigma, sigma, 0.0, none, 0.0, 0.0, (), ""
-    )
+    return NoiseModel.stationary(name, Arma(innovation=sigma), count)
 
 
 def whitener(seen: Sequence[RecordView]) -> Whitener:

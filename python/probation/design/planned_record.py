@@ -107,18 +107,4 @@ def planned_noise(view: RecordView, noises: Sequence[NoiseModel], others: Sequen
 
 def noise_like(view: RecordView, arma: Arma) -> NoiseModel:
     """Stationary noise along a record."""
-    count = len(view.data)
-    return NoiseModel(
-        name=view.id,
-        arma=arma,
-        profile=np.ones(count),
-        growth="constant",
-        sigma=arma.deviation,
-        white=arma.innovation,
-        quantum=0.0,
-        carried=np.zeros((count, 0)),
-        level_variance=0.0,
-        shape_variance=0.0,
-        outliers=(),
-        source="as given",
-    )
+    return NoiseModel.stationary(view.id, arma, len(view.data))

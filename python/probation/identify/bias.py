@@ -73,8 +73,7 @@ def bias_of(
     residual: FloatArray,
     time: FloatArray,
     true_strain: FloatArray,
-    noise: float,
-    correlation: float = 0.0,
+    long_run: float | FloatArray,
     carried: FloatArray | None = None,
 ) -> Bias:
     """Size and place of the low-frequency part.
@@ -82,10 +81,9 @@ def bias_of(
     Parameters
     ----------
     residual, time, true_strain : ndarray, shape (n_times,) [MPa], [s], [-]
-    noise : float
-        Standard deviation of the high-frequency part [MPa].
-    correlation : float
-        Of AR(1) noise from sample to sample.
+    long_run : float or ndarray, shape (n_times,)
+        What sqrt(m) times the mean of m neighbouring samples of the noise scatters by [MPa]: of white noise its
+        standard deviation.
     carried : ndarray, shape (n_times, n_directions), or None
         Strain noise as stress [MPa], as in `NoiseModel`.
     """
@@ -93,12 +91,11 @@ def bias_of(
     window = _window(len(residual))
     short = len(residual) < SHORTEST
     passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(parabola_weights(window)))
-    passed *= float(np.sqrt((1.0 + correlation) / (1.0 - correlation)))
-    deviation = np.full_like(low, passed * noise)
+    deviation = np.full_like(low, passed * long_run)
     if not short:  # near an end the parabola is held by one side only
         deviation[: window // 2] *= 2.0
         deviation[-(window // 2) :] *= 2.0
-        if carried is not None:
+        if carried is not None and carried.shape[1]:
             deviation = np.hypot(deviation, np.linalg.norm(moving_parabola(carried, window), axis=1))
     threshold = CERTIFICATE.bias_significant * deviation
     stands_out = np.abs(low) > threshold

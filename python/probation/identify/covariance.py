@@ -7,14 +7,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import ndtri, stdtrit
 
 from probation.inference.information import inverse_information
-from probation.settings.certificate import CERTIFICATE
+from probation.noise.whiteness import correlation_lags
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.noise.model import NoiseModel
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,10 @@ class Covariance:
         if not np.isfinite(self.relative_error[index]):
             return None
         return float(np.sqrt(self.matrix[index, index]))
+
+    def widened(self, factor: float) -> Covariance:
+        """With standard errors so many times as large."""
+        return replace(self, matrix=factor**2 * self.matrix, relative_error=factor * self.relative_error)
 
     def with_added(self, matrix: FloatArray, values: FloatArray) -> Covariance:
         """With an independent source of error on top, shape (free, free)."""
@@ -94,26 +100,17 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
     return Covariance(relative * np.outer(size, size), error, condition, correlated)
 
 
-def correlation_lags(residual: FloatArray) -> int:
-    """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
-    inflation = mean_inflation(residual)
-    return 0 if inflation < CERTIFICATE.white_ratio else min(max(int(4.0 * inflation), 1), len(residual) // 2)
+def noise_widening(noises: Sequence[NoiseModel]) -> float:
+    """By how much standard errors widen because autocorrelated noise is only known as its estimate is.
 
-
-def mean_inflation(residual: FloatArray) -> float:
-    """How many times the variance of a residual's mean is that of as many independent samples; 1 if it is white."""
-    count = len(residual)
-    centred = residual - residual.mean()
-    variance = float(centred @ centred) / count
-    if variance == 0.0 or count < 20:
+    The variance v of the logarithm of its spectrum at low frequency is that of a variance from 2 / v samples: the ratio
+    of Student's quantiles for so many and for all of them.
+    """
+    if all(noise.correlation == 0.0 for noise in noises):
         return 1.0
-    spectrum = np.abs(np.fft.rfft(centred, 2 * count)) ** 2
-    autocovariance = np.fft.irfft(spectrum)[: count // 2] / count / variance
-    # Sum up to the first lag that is not above chance (Sokal's window would need one more choice).
-    chance = 2.0 / np.sqrt(count)
-    below = np.flatnonzero(autocovariance[1:] < chance)
-    last = int(below[0]) if below.size else len(autocovariance) - 1
-    return 1.0 + 2.0 * float(autocovariance[1 : last + 1].sum())
+    level = 1.0 / sum(1.0 / max(noise.level_variance, 1e-12) for noise in noises)
+    variance = max(noise.shape_variance for noise in noises) + level
+    return float(stdtrit(2.0 / variance, 0.975) / ndtri(0.975)) if variance > 1e-6 else 1.0
 
 
 def _long_run(scores: FloatArray, bandwidth: int) -> FloatArray:

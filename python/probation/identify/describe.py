@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from probation.identify.bias import bias_of
-from probation.identify.covariance import Covariance, correlation_lags
+from probation.identify.covariance import Covariance
 from probation.identify.ends import ends_of
 from probation.identify.likelihood import log_likelihood
 from probation.identify.result import Fit, RecordFit
@@ -18,6 +18,7 @@ from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.weighting import known_of
 from probation.inference.information import correlation, estimated
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_name
+from probation.noise.whiteness import correlation_lags
 from probation.records.noise import scatter
 from probation.results.labelled import LabelledMatrix
 
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from probation.inference.record_problem import RecordProblem
     from probation.law.modal import Law
     from probation.law.schemes import Scheme
-    from probation.noise.ar1 import NoiseModel
+    from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
 
 LIKELY_MODULI = (1e-3, 1e6)
@@ -112,7 +113,7 @@ def describe(
         records={
             each.record.id: _record_fit(each, law, noise) for each, noise in zip(problem.records, noises, strict=True)
         },
-        autocorrelated=known.correlated or any(noise.correlation > 0.0 for noise in noises),
+        autocorrelated=known.correlated or any(noise.correlation != 0.0 for noise in noises),
         newey_west=known.correlated,
         scheme_error_MPa=largest_error,
         scheme_shift={names[index]: float(moved) for index, moved in zip(free, shift, strict=True)},
@@ -139,7 +140,9 @@ def _used(weighted: Weighted) -> str:
         return "strain-noise" if problem.noise_moves else "strain-noise-frozen"
     if weighted.resampled is not None:
         return "plain, strain noise resampled"
-    return "autocorrelated" if any(noise.stress.correlation > 0.0 for noise in problem.noises) else "plain"
+    if all(noise.stress.plain for noise in problem.noises):
+        return "plain"
+    return "autocorrelated" if any(noise.stress.correlation != 0.0 for noise in problem.noises) else "varying"
 
 
 def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
@@ -147,11 +150,10 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
     record = each.record
     residual = stress - record.true_stress
     deviation = scatter(record.time, residual)
-    coloured = noise.correlation > 0.0 or noise.carried is not None
-    if coloured and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
+    if not noise.plain and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
         deviation = float(np.sqrt(np.mean(residual**2)))
-    known = (noise.scale, noise.correlation, noise.carried) if coloured else (deviation,)
-    bias = bias_of(residual, record.time, record.true_strain, *known)
+    long_run = deviation if noise.plain else noise.long_run
+    bias = bias_of(residual, record.time, record.true_strain, long_run, noise.carried)
     return RecordFit(
         record.id,
         record.time,
@@ -163,7 +165,7 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
         sensitivity,
         bias,
         noise.correlation,
-        noise.carried is not None,
+        noise.carries_strain,
     )
 
 

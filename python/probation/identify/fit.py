@@ -77,8 +77,8 @@ def fit(
         strain, too, as the law propagates it to the stress, re-evaluated as the parameters move; "strain-noise-frozen"
         leaves it at the plain estimate, which is biased and here to be shown so. "auto": "strain-noise" where that
         noise is more than 0.3 of the rest of any parameter's standard error, else "plain". All but "plain" see stress
-        noise that is autocorrelated, AR(1), too. Of a record of more than 3000 samples the strain noise goes into the
-        standard errors only, by drawing the strain again.
+        noise that is autocorrelated or varies along a record, too. Of a record of more than 3000 samples the strain
+        noise goes into the standard errors only, by drawing the strain again.
     intervals : {"standard-error", "profile"}
         Where the 95 % intervals come from; "profile": the likelihood, the other parameters profiled out.
     gap : bool

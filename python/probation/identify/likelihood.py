@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.noise.outliers import without_outliers
+
 if TYPE_CHECKING:
     from probation.inference.problem import Problem
     from probation.law.modal import Law
@@ -29,10 +31,9 @@ def log_likelihood(problem: Problem, law: Law) -> tuple[float, int]:
     """
     total, estimated = 0.0, 0
     for each, noise in zip(problem.records, problem.noises_at(law), strict=True):
-        whitened = noise.whiten(each.residual(law))
+        whitened = noise.whiten(without_outliers(each.residual(law), noise.outliers))
         count = len(whitened)
         size = max(float(whitened @ whitened) / count, 1e-300)
-        determinant = 2.0 * count * np.log(noise.scale) + noise.log_determinant
-        total -= 0.5 * (count * (np.log(2.0 * np.pi) + 1.0 + np.log(size)) + determinant)
-        estimated += 1 + (noise.correlation > 0.0)
+        total -= 0.5 * (count * (np.log(2.0 * np.pi) + 1.0 + np.log(size)) + noise.log_determinant)
+        estimated += 1 + (noise.arma.phi != 0.0) + (noise.arma.theta != 0.0)
     return float(total), estimated

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from probation.errors import InputError
 from probation.inference.record_problem import RecordProblem
 from probation.law.schemes import scheme_of
-from probation.noise.ar1 import NoiseModel
+from probation.noise.arma import Arma
+from probation.noise.model import NoiseModel
 from probation.records.record import Noise, Record
 from probation.results.extras import needed
 
@@ -27,7 +28,8 @@ class Posterior:
     r"""Log-posterior of a fit's identified parameters, flat where they are positive.
 
     The size of each record's noise is integrated out with the prior 1 / size:
-    :math:`\ln p = -\tfrac12 \sum_i n_i \ln(r_i^T R_i^{-1} r_i)`, R the correlation of the noise as the fit has it.
+    :math:`\ln p = -\tfrac12 \sum_i n_i \ln(r_i^T R_i^{-1} r_i)`, R that of AR(1) noise with the
+    correlation of neighbours that the fit has.
 
     Attributes
     ----------
@@ -57,7 +59,7 @@ class Posterior:
                 )
             record = Record(each.id, each.time, each.true_strain, each.true_stress, noise=Noise(each.noise_MPa))
             problem = RecordProblem.prepare(record, each.excitation, scheme, fit.substeps)
-            noise = replace(NoiseModel.white(1.0, each.time), correlation=each.noise_correlation)
+            noise = NoiseModel.stationary(each.id, Arma(phi=each.noise_correlation), len(each.time))
             records.append((problem, noise))
         return cls(fit, tuple(records))
 

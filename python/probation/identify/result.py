@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.identify.covariance import mean_inflation
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
+from probation.noise.whiteness import mean_inflation
 from probation.results.data import CURVE, Stored, from_curves
 from probation.results.frames import by_record, rows_frame
 from probation.results.labelled import LabelledMatrix
@@ -40,8 +40,8 @@ METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex"
 class RecordFit(ModelledRecord):
     """One record against the identified law.
 
-    Its `noise_MPa` is the high-frequency part of the fit residual; all of it where the noise model (AR(1), strain
-    noise) leaves nothing else.
+    Its `noise_MPa` is the high-frequency part of the fit residual; all of it where the noise model (correlation,
+    strain noise) leaves nothing else.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class RecordFit(ModelledRecord):
     bias : Bias
         The low-frequency part: size and place.
     noise_correlation : float
-        Of AR(1) stress noise from sample to sample; 0 where none was found.
+        Of the stress noise from sample to sample; 0 where none was found.
     strain_noise_weighed : bool
         Whether the residual was weighed for the strain's noise.
     """
@@ -104,7 +104,8 @@ class Fit(Result, Stored):
         Of the scaled Jacobian.
     records : dict of str to RecordFit
     weighting : str
-        How the fit residual was weighed: "plain", "autocorrelated" (AR(1)), "strain-noise", "strain-noise-frozen", or
+        How the fit residual was weighed: "plain", "autocorrelated", "varying" (its size along a
+        record), "strain-noise", "strain-noise-frozen", or
         "plain, strain noise resampled" on records too long for a matrix.
     autocorrelated : bool
         Whether the fit residual is, which widens the standard errors.

@@ -12,14 +12,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.identify.autocorrelation import fitted_noise
 from probation.identify.bias import low_frequency
-from probation.identify.covariance import Covariance, covariance
+from probation.identify.covariance import Covariance, covariance, noise_widening
 from probation.identify.search import by_least_squares, first_guess
 from probation.identify.strain_noise import carried_at_end, left_over, resampled, share_of_error
-from probation.inference.record_noise import RecordNoise
+from probation.inference.residual_noise import residual_noises
 from probation.inference.strain_noise import LARGEST, StrainNoise
-from probation.noise.ar1 import NoiseModel
 from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excite
 from probation.smoothing.segments import CLEAN
@@ -93,8 +91,8 @@ def weigh(
         if _cost(known, there) < _cost(known, law):
             law = there
         law = by_least_squares(known, law, limits, tolerance=ROUGH_STEP)
-    found = problem.with_noises(_noise_found(problem, law, strain))
-    if not found.carries_strain_noise and not any(noise.stress.correlation for noise in found.noises):
+    found = problem.with_noises(residual_noises(problem, law, strain))
+    if not found.carries_strain_noise and all(noise.stress.plain for noise in found.noises):
         return Weighted(problem, law, added)
     return Weighted(found, by_least_squares(found, law, limits, tolerance=SMALL_STEP), added)
 
@@ -104,6 +102,7 @@ def known_of(weighted: Weighted) -> tuple[Covariance, FloatArray]:
     problem, values = weighted.problem, weighted.law.parameters[weighted.problem.free]
     residual, jacobian = problem.residual_and_jacobian(weighted.law)
     known = covariance(jacobian[:, problem.free], residual, problem.lengths, values)
+    known = known.widened(noise_widening(problem.noises_at(weighted.law)))
     if weighted.resampled is not None:
         known = known.with_added(weighted.resampled, values)
     return known, jacobian
@@ -178,20 +177,4 @@ def _gains(problem: Problem, jacobian: FloatArray) -> list[FloatArray]:
     size[size == 0.0] = 1.0
     inverse = np.linalg.pinv(jacobian / size, rcond=1e-12) / size[:, None]
     parts = np.split(inverse, np.cumsum(problem.lengths)[:-1], axis=1)
-    return [part / noise.stress.scale for part, noise in zip(parts, problem.noises, strict=True)]
-
-
-def _noise_found(problem: Problem, law: Law, strain: Sequence[StrainNoise | None]) -> list[RecordNoise]:
-    """Every record's noise from its residual at `law`: its correlation, and the size of stress and strain noise."""
-    found: list[RecordNoise] = []
-    for each, own in zip(problem.records, strain, strict=True):
-        stress, sensitivity = each.sensitivity(law)
-        model, factor = fitted_noise(
-            NoiseModel.white(each.noise, each.record.time).with_carried(None if own is None else own.carried(law)),
-            stress - each.record.true_stress,
-            sensitivity[:, problem.free],
-            differenced=each.record.noise.stress_MPa is None,
-        )
-        scaled = None if own is None else replace(own, deviation=own.deviation * factor)
-        found.append(RecordNoise(model.with_carried(None), scaled))
-    return found
+    return [part / noise.stress.sigma for part, noise in zip(parts, problem.noises, strict=True)]

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.record_noise import RecordNoise
-from probation.noise.ar1 import NoiseModel
+from probation.noise.arma import Arma
+from probation.noise.model import NoiseModel
+from probation.noise.outliers import without_outliers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -47,7 +49,7 @@ class Problem:
     def of(cls, law: Law, records: Iterable[RecordProblem], held: Sequence[bool]) -> Problem:
         """With white noise of every record's own size."""
         records = tuple(records)
-        noises = tuple(RecordNoise(NoiseModel.white(each.noise, each.record.time)) for each in records)
+        noises = tuple(_white(each, each.noise) for each in records)
         return cls(law, records, tuple(held), noises)
 
     def with_records(self, records: Iterable[RecordProblem]) -> Problem:
@@ -72,7 +74,7 @@ class Problem:
         noises = []
         for each in self.records:
             scale = max(each.noise, float(np.sqrt(np.mean(each.residual(law) ** 2))))
-            noises.append(RecordNoise(NoiseModel.white(scale, each.record.time)))
+            noises.append(_white(each, scale))
         return self.with_noises(noises)
 
     @property
@@ -106,8 +108,13 @@ class Problem:
         return tuple(noise.at(law) for noise in self.noises)
 
     def whitened(self, parts: Iterable[FloatArray], law: Law) -> FloatArray:
-        """One array per record, whitened by the noise at a law, and stacked."""
-        return np.concatenate([noise.at(law).whiten(part) for noise, part in zip(self.noises, parts, strict=True)])
+        """One array per record, its outliers set aside, whitened by the noise at a law, and stacked."""
+        return np.concatenate(
+            [
+                noise.whiten(without_outliers(part, noise.outliers))
+                for noise, part in zip(self.noises_at(law), parts, strict=True)
+            ]
+        )
 
     def data(self, law: Law) -> FloatArray:
         """Measured stress, whitened by the noise at a law, shape (n_samples,) [-]."""
@@ -128,11 +135,14 @@ class Problem:
             stress, sensitivity = each.sensitivity(law)
             residual = stress - each.record.true_stress
             if noise.strain is not None:
-                there = noise.at(law)
-                assert there.carried is not None
-                errors = there.carried.T @ there.solve(residual)
+                errors = noise.at(law).strain_errors(residual)
                 sensitivity = sensitivity.copy()
                 sensitivity[:, self.free] -= noise.strain.slopes(law, errors, self.free.tolist())
             residuals.append(residual)
             jacobians.append(sensitivity)
         return self.whitened(residuals, law), self.whitened(jacobians, law)
+
+
+def _white(each: RecordProblem, level: float) -> RecordNoise:
+    """White stress noise of one size along a record."""
+    return RecordNoise(NoiseModel.stationary(each.record.id, Arma(innovation=level), len(each.record)))

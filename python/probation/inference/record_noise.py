@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from probation.inference.strain_noise import StrainNoise
     from probation.law.modal import Law
-    from probation.noise.ar1 import NoiseModel
+    from probation.noise.model import NoiseModel
 
 KEPT = 2
 """Laws whose noise model is kept, since its factor is slow to make: a search compares a law with the one before."""
@@ -48,4 +48,4 @@ class RecordNoise:
     @property
     def carries_strain_noise(self) -> bool:
         """Whether the residual is weighed for the strain's noise."""
-        return self.strain is not None or self.stress.carried is not None
+        return self.strain is not None or self.stress.carries_strain

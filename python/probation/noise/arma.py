@@ -94,6 +94,16 @@ class Arma:
             exact[done:] = lfilter([1.0], [1.0, theta], moved[done:], axis=0, zi=state)[0]
         return exact
 
+    def log_determinant(self, count: int) -> float:
+        """Logarithm of the determinant of the covariance of so many samples."""
+        phi, theta = self.phi, self.theta
+        total = 2.0 * count * float(np.log(self.innovation))
+        variance, done = (1.0 + 2.0 * phi * theta + theta**2) / (1.0 - phi**2), 0
+        while done < count and abs(variance - 1.0) > 1e-12:
+            total += float(np.log(variance))
+            variance, done = 1.0 + theta**2 - theta**2 / variance, done + 1
+        return total
+
     def simulate(self, rng: np.random.Generator, count: int, size: int = 1) -> FloatArray:
         """Draws, shape (size, count), stationary from the first sample."""
         shocks = rng.standard_normal((size, count))

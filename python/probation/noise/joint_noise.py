@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from scipy.linalg import cholesky, solve_triangular
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -22,3 +23,54 @@ def jointly_whitened(more: FloatArray, values: FloatArray) -> FloatArray:
     directions, shrink = joint_directions(more)
     along = directions.T @ values
     return np.asarray(values - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None])))
+
+
+class Root(Protocol):
+    """W with W^T W = (I + U U^T)^-1."""
+
+    log_determinant: float
+
+    def whiten(self, values: FloatArray) -> FloatArray:
+        """W times columns (n,) or (n, m)."""
+
+    def whiten_transposed(self, values: FloatArray) -> FloatArray:
+        """W^T times the same."""
+
+
+def joint_root(more: FloatArray) -> Root:
+    """For noise U (n, k) beside white noise: by its few directions, else by Cholesky's factor."""
+    return _Few(more) if 3 * more.shape[1] < len(more) else _Full(more)
+
+
+class _Few:
+    """Symmetric: I - Q diag(shrink) Q^T."""
+
+    def __init__(self, more: FloatArray) -> None:
+        self.directions, self.shrink = joint_directions(more)
+        self.log_determinant = -2.0 * float(np.log1p(-self.shrink).sum())
+
+    def whiten(self, values: FloatArray) -> FloatArray:
+        if not self.shrink.size:
+            return values
+        along = self.directions.T @ values
+        return np.asarray(
+            values - self.directions @ (along * (self.shrink if values.ndim == 1 else self.shrink[:, None]))
+        )
+
+    whiten_transposed = whiten
+
+
+class _Full:
+    """Lower triangular, so that samples keep their order: U has about as many columns as rows."""
+
+    def __init__(self, more: FloatArray) -> None:
+        matrix = more @ more.T
+        matrix[np.diag_indices_from(matrix)] += 1.0
+        self.factor = cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
+        self.log_determinant = 2.0 * float(np.log(np.diag(self.factor)).sum())
+
+    def whiten(self, values: FloatArray) -> FloatArray:
+        return np.asarray(solve_triangular(self.factor, values, lower=True, check_finite=False))
+
+    def whiten_transposed(self, values: FloatArray) -> FloatArray:
+        return np.asarray(solve_triangular(self.factor, values, lower=True, trans="T", check_finite=False))

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.noise.joint_noise import joint_directions
+from probation.noise.arma import Arma
+from probation.noise.joint_noise import joint_root
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.noise.arma import Arma
+    from probation.noise.joint_noise import Root
 
 Growth = Literal["constant", "force", "local"]
 
@@ -38,7 +39,7 @@ class NoiseModel:
     quantum : float
         Step of the readings [MPa or as the force over its area], 0 if there is none.
     carried : ndarray, shape (n, k) [MPa]
-        Smooth stress noise that strain noise makes; k may be 0.
+        Stress noise that independent unit errors of the strain make; k may be 0.
     level_variance, shape_variance : float
         Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
         records may share.
@@ -75,8 +76,46 @@ class NoiseModel:
     specimen: FloatArray | None = None
     specimen_id: str | None = None
 
+    @classmethod
+    def stationary(cls, name: str, arma: Arma, count: int, source: str = "as given") -> NoiseModel:
+        """The same all along a record of so many samples, known exactly, without strain noise."""
+        return cls(
+            name=name,
+            arma=arma,
+            profile=np.ones(count),
+            growth="constant",
+            sigma=arma.deviation,
+            white=arma.innovation,
+            quantum=0.0,
+            carried=np.zeros((count, 0)),
+            level_variance=0.0,
+            shape_variance=0.0,
+            outliers=(),
+            source=source,
+        )
+
     def __len__(self) -> int:
         return len(self.profile)
+
+    @property
+    def correlation(self) -> float:
+        """Of neighbouring samples of the rough noise [-]."""
+        phi, theta = self.arma.phi, self.arma.theta
+        return (phi + theta) * (1.0 + phi * theta) / (1.0 + 2.0 * phi * theta + theta**2)
+
+    @property
+    def plain(self) -> bool:
+        """Whether it is white, of one size all along, and of the stress alone."""
+        return self.correlation == 0.0 and self.growth == "constant" and not self.outliers and not self.carries_strain
+
+    @property
+    def carries_strain(self) -> bool:
+        """Whether it has strain noise, as the law propagates it."""
+        return bool(self.carried.shape[1])
+
+    def with_carried(self, carried: FloatArray | None) -> NoiseModel:
+        """The same with other propagated strain noise, shape (n, k) [MPa]; None for none."""
+        return replace(self, carried=np.zeros((len(self), 0)) if carried is None else carried)
 
     @property
     def deviation(self) -> FloatArray:
@@ -92,8 +131,7 @@ class NoiseModel:
     @property
     def square_inflation(self) -> float:
         """Variance of a mean square over that of as many independent samples: 1 + 2 sum of squared autocorrelations."""
-        phi, theta = self.arma.phi, self.arma.theta
-        first = (phi + theta) * (1.0 + phi * theta) / (1.0 + 2.0 * phi * theta + theta**2)
+        first, phi = self.correlation, self.arma.phi
         return 1.0 + 2.0 * first**2 / (1.0 - phi**2)
 
     @property
@@ -105,12 +143,18 @@ class NoiseModel:
         """Columns of `matrix` (n,) or (n, m) in coordinates in which the noise is white with unit variance."""
         values = np.asarray(matrix, dtype=np.float64)
         profile = self.profile if values.ndim == 1 else self.profile[:, None]
-        white = self.arma.whiten(values / profile)
-        directions, shrink = self._smooth_part
-        if not shrink.size:
-            return white
-        along = directions.T @ white
-        return white - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None]))
+        return self._root.whiten(self.arma.whiten(values / profile))
+
+    @cached_property
+    def log_determinant(self) -> float:
+        """Logarithm of the covariance's determinant, in MPa."""
+        rough = self.arma.log_determinant(len(self)) + 2.0 * float(np.log(self.profile).sum())
+        return rough + self._root.log_determinant
+
+    def strain_errors(self, residual: FloatArray) -> FloatArray:
+        """Likeliest strain errors of a residual (n,), in standard deviations: C^T Sigma^-1 r, C = `carried`; (k,)."""
+        white = self._root.whiten_transposed(self.whiten(residual))
+        return np.asarray(self.arma.whiten(self.carried / self.profile[:, None]).T @ white)
 
     def simulate(self, rng: np.random.Generator, size: int = 1) -> FloatArray:
         """Draws of the noise, shape (size, n) [MPa]."""
@@ -148,9 +192,6 @@ class NoiseModel:
         return np.hstack([self.carried, *(each for each in (self.drift, self.specimen) if each is not None)])
 
     @cached_property
-    def _smooth_part(self) -> tuple[FloatArray, FloatArray]:
-        """(I + U U^T)^(-1/2) = I - Q diag(1 - (1 + s^2)^(-1/2)) Q^T, U = Q diag(s) V^T the whitened slow noise."""
-        slow = self._slow
-        if not slow.shape[1]:
-            return np.zeros((len(self), 0)), np.zeros(0)
-        return joint_directions(self.arma.whiten(slow / self.profile[:, None]))
+    def _root(self) -> Root:
+        """Of the whitened slow noise beside white noise."""
+        return joint_root(self.arma.whiten(self._slow / self.profile[:, None]))

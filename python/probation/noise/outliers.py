@@ -54,12 +54,13 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
 
 
 def without_outliers(values: FloatArray, outliers: Sequence[int]) -> FloatArray:
-    """`values` with the outliers replaced by the straight line between their neighbours."""
+    """`values`, (n,) or (n, m), with the outliers replaced by the straight line between their neighbours."""
     if not len(outliers):
         return values
     keep = np.ones(len(values), dtype=bool)
     keep[list(outliers)] = False
     index = np.arange(len(values))
     cleaned = values.copy()
-    cleaned[~keep] = np.interp(index[~keep], index[keep], values[keep])
+    for column in cleaned.reshape(len(values), -1).T:
+        column[~keep] = np.interp(index[~keep], index[keep], column[keep])
     return cleaned

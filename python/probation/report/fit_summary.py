@@ -55,13 +55,15 @@ def noise_text(fit: Fit) -> str:
     what = {
         "plain": "white noise of the stress",
         "autocorrelated": "autocorrelated noise of the stress",
+        "varying": "noise of the stress whose size varies along a record",
         "strain-noise": "noise of the stress, and of the strain as the law carries it there",
         "strain-noise-frozen": "noise of the stress and, at the plain estimate, of the strain",
         "plain, strain noise resampled": "white noise of the stress, and that of the strain drawn again",
     }[fit.weighting]
-    correlated = [each for each in fit.records.values() if each.noise_correlation > 0.0]
+    correlated = [each for each in fit.records.values() if each.noise_correlation != 0.0]
     if correlated:
-        what += ", AR(1) " + ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
+        sizes = ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
+        what += f", correlation of neighbours {sizes}"
     if fit.newey_west:
         what += "; autocorrelated fit residuals (Newey-West)"
     intervals = "; intervals from the profile likelihood" if fit.profiles else ""

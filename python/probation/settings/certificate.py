@@ -95,28 +95,13 @@ class CertificateSettings:
         origin="chosen",
         used_in="inference/parameter.py",
     )
-    strongest_correlation: float = setting(
-        0.9,
-        ("Correlation from sample to sample from which on a residual is a wave, the law's bias, and no noise."),
-        unit="-",
-        origin="chosen",
-        used_in="identify/autocorrelation.py",
-    )
     white_enough: float = setting(
         0.001,
         ("Chance below which white innovations would look as correlated as these do (Ljung & Box 1978)."),
         unit="probability",
         origin="chosen",
         source="Ljung & Box 1978",
-        used_in="identify/autocorrelation.py",
-    )
-    correlation_gain: float = setting(
-        5.41,
-        ("Gain of twice the log-likelihood from which on noise is taken as correlated: 1 % of white records reach it."),
-        unit="deviance",
-        origin="calibrated",
-        source="simulated white records",
-        used_in="identify/autocorrelation.py",
+        used_in="noise/whiteness.py",
     )
     bias_window: float = setting(
         1.0 / 12.0,
@@ -141,7 +126,7 @@ class CertificateSettings:
         ("A residual whose variance at low frequency exceeds the white level by more than this factor is correlated."),
         unit="-",
         origin="chosen",
-        used_in="identify/covariance.py",
+        used_in="noise/whiteness.py",
     )
     negligible_scheme_shift: float = setting(
         0.1,
