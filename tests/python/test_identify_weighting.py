@@ -1,6 +1,7 @@
 """Uncertainty that holds: strain noise, autocorrelated noise, the bias distinguished, the profile of the likelihood."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from scipy.signal import lfilter
 from scipy.special import stdtrit
 
 import probation
-from probation import Campaign, Law, Noise, Record, fit
+from probation import Campaign, Law, Noise, Record
 from probation.identify import strain_noise as strain_noise_module
 from probation.identify import weighting as weighting_module
 from probation.identify.base import base_fit
@@ -25,6 +26,8 @@ from probation.noise.model import NoiseModel
 from probation.noise.white_level import white_level
 from probation.published.experiments import experiment_3
 from probation.smoothing.excitation import excite
+
+fit = partial(probation.fit, gap=False)  # the gap has its own tests
 
 LAW = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
 
