@@ -158,3 +158,14 @@ def test_an_explanation_that_makes_a_held_out_record_worse_is_not_explained():
     assert "nothing in the catalogue explains it" in found.headline
     assert "but fast is predicted worse with it" in found.headline
     assert any("predicted worse" in note for note in found.best.checks.notes)
+
+
+def test_a_fault_in_one_predicted_record_does_not_spoil_another_that_has_its_own():
+    """The judge is compared with the law that was fitted, not with one that is bent by the first record's fault."""
+    found = diagnose(few_records(offset(2.0, "middle", "fast"), held_out=("middle", "fast")), design=False)
+    assert found.verdict == "not_predicted"
+    assert found.judged_on == "fast"
+    assert found.best.effects == ("force_offset",)
+    assert "fast, kept apart, is still missed by 4.0" in found.headline
+    (offset_alone,) = (each for each in found.effects if each.name == "force_offset")
+    assert offset_alone.share == pytest.approx(1.0, abs=0.01)

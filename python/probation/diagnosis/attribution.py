@@ -114,7 +114,7 @@ def attribution(
     best = weighed[0]
     known = best.hypothesis.effects if best.effects else ()
     squares = _squares(base, best.hypothesis, known, found, threads)
-    gap = closure.before_MPa**2 - min(closure.noise_MPa, closure.after_MPa) ** 2
+    gap = squares[()] - min(closure.noise_MPa, closure.after_MPa) ** 2
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
     named = _named(known, closed)
     shares = _shapley(known, closed)

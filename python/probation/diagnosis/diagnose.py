@@ -161,15 +161,14 @@ def diagnose(
     if weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
-    before = fitted.parameters if case.predicted_only else base.parameters
-    shrink, curves = shrink_of(base, before, weighed[0].hypothesis, where.located, skipping, seed=seed)
+    shrink, curves = shrink_of(base, weighed[0].hypothesis, where.located, skipping, seed=seed)
     while gap.exists and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
         told_of = weighed[0].hypothesis
         weighed = _with_unknown(weighed, judged)
         if UNKNOWN in weighed[0].effects:
             verdict = "unexplained"
         if weighed[0].hypothesis is not told_of:
-            shrink, curves = shrink_of(base, before, weighed[0].hypothesis, where.located, skipping, seed=seed)
+            shrink, curves = shrink_of(base, weighed[0].hypothesis, where.located, skipping, seed=seed)
     chosen = answer_set(weighed)
     if gap.exists:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
@@ -267,7 +266,8 @@ def _case(campaign: Campaign, fitted: BaseFit, gap: Gap, based_on: Callable[[Cam
         return _Case(fitted, locate(fitted.whitened, seed=seed), gap.test.p_value)
     joint, judge = all_but_one(campaign, gap)
     where = locate(_with_predictions(fitted), seed=seed)
-    return _Case(based_on(joint), where, gap.held_out_p_value, predicted_only=True, judge=judge)
+    base = replace(based_on(joint), reference=fitted.parameters)
+    return _Case(base, where, gap.held_out_p_value, predicted_only=True, judge=judge)
 
 
 def _explained(

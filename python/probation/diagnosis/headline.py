@@ -94,7 +94,9 @@ def headline(
     )
     judged = shrink.records.get(judge) if judge is not None else None
     if judged is not None and verdict == "explained":
-        found += f"; {judge}, kept apart, is predicted to {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
+        mended = judge not in gap.missed or judged.after_MPa < 0.5 * judged.before_MPa
+        text = "is predicted to" if mended else "is still missed by"
+        found += f"; {judge}, kept apart, {text} {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
     return f"{missed}; {found}."
 
 

@@ -67,9 +67,9 @@ class Worse:
 def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple[Worse, ...]:
     """Held-out records whose misfit an explanation raises by more than noise and its parameters' uncertainty can do.
 
-    With the change d of a prediction and the error e that is left, the misfit rises by (2 d e - d d)/n. Were the
-    explanation right, e would be noise and the error of its parameters: the misfit would fall by d d/n, give or take
-    2 sqrt(d S d)/n with the covariance S of both.
+    With the change d of a prediction and the error e that is left, the mean square of the misfit rises by
+    (2 d e - d d)/n. Were the explanation right, e would be noise, and the misfit would fall by d d/n, give or take
+    2 sqrt(d S d)/n by the covariance S of the noise and 2 sqrt(e J C J' e)/n by that of its parameters, C.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     found = hypothesis.refit
     everywhere = CampaignModel(base.law, base.views)
     explained = everywhere.with_causes(found.model.causes)
-    before = everywhere.residual(base.parameters)
+    before = everywhere.residual(base.before)
     try:
         after, jacobian = explained.residual_and_jacobian(found.parameters)
     except UNSOLVABLE:  # what cannot be predicted cannot judge; `shrink_of` takes note of it
@@ -101,8 +101,9 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
         rise = float(np.mean(last**2 - first**2))
         if rise <= 0.0:
             continue
-        whole = replace(noise, carried=np.hstack([noise.carried, columns[rows]]))
-        scatter = 2.0 * float(np.std(whole.simulate(rng, DRAWS) @ change)) / count
+        by_noise = float(np.std(noise.simulate(rng, DRAWS) @ change))
+        by_parameters = float(np.linalg.norm(columns[rows].T @ last))
+        scatter = 2.0 * float(np.hypot(by_noise, by_parameters)) / count
         if rise + float(np.mean(change**2)) > EVIDENCE.held_out_misfit * scatter:
             sizes = (float(np.sqrt(np.mean(error**2))) for error in (first, last))
             worse.append(Worse(record.name, *sizes))

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 def shrink_of(
     base: BaseFit,
-    parameters: FloatArray,
     best: Hypothesis,
     located: Sequence[Located],
     skipping: Skipping,
@@ -38,8 +37,6 @@ def shrink_of(
     Parameters
     ----------
     base : BaseFit
-    parameters : ndarray, shape (n_base,)
-        Of the base law before the explanation.
     best : Hypothesis
         The explanation; the base law where no effect is needed.
     located : sequence of Located
@@ -50,7 +47,7 @@ def shrink_of(
     """
     rng = np.random.default_rng(seed)
     everywhere = CampaignModel(base.law, base.views)
-    before = everywhere.predict(parameters)
+    before = everywhere.predict(base.before)
     causes = best.refit.model.causes
     after = _predicted(everywhere.with_causes(causes), best.refit.parameters, before, skipping) if causes else before
     noises = {noise.name: noise for noise in base.whitened.noises} | {

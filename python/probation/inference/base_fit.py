@@ -75,6 +75,9 @@ class BaseFit:
         Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
     signals : tuple of Column
         Of the effects that are considered, by `inference.screen`.
+    reference : ndarray, shape (n_base,), optional
+        Parameters whose predictions an explanation is compared with, where they are not those of this fit: of the law
+        that knows fewer records.
     held_out : tuple of RecordResidual
         The records that were not fitted, as these parameters predict them.
     """
@@ -89,6 +92,7 @@ class BaseFit:
     other_starts: tuple[FloatArray, ...] = ()
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
+    reference: FloatArray | None = None
 
     @property
     def model(self) -> CampaignModel:
@@ -99,6 +103,11 @@ class BaseFit:
     def parameters(self) -> FloatArray:
         """Shape (n_base,)."""
         return self.refit.parameters
+
+    @property
+    def before(self) -> FloatArray:
+        """Parameters of the law that an explanation is compared with, shape (n_base,)."""
+        return self.parameters if self.reference is None else self.reference
 
     @cached_property
     def errors(self) -> list[FloatArray]:
