@@ -60,9 +60,9 @@ def main() -> None:
         {str(aim["aim"]): aim["reached"] for aim in score.content["aims"]}  # type: ignore[attr-defined]
         for score in (score_split(options.folder, answers=place, after_opening=True) for place in places.values())
     ]
-    print(f"{'':<60}" + "".join(f"  {label:>20}" for label in places))
+    print(f"{'':<60}" + "".join(f"  {label:>30}" for label in places))
     for name in columns[0]:
-        print(f"{name:<60}" + "".join(f"  {column[name]!s:>20.20}" for column in columns))
+        print(f"{name:<60}" + "".join(f"  {column[name]!s:>30.30}" for column in columns))
 
 
 if __name__ == "__main__":

@@ -193,7 +193,7 @@ def test_shapes_that_disagree_are_named():
         replace(record, tangent=record.tangent[:-1])
 
 
-def rough_beside(size, scatter=1.0, others=2):
+def rough_jointly(size, scatter=1.0, others=2):
     """Records of white noise; the last with teeth, twelve in all, and neighbouring samples that scatter otherwise."""
     records = gap_noise.records("white", rng(4))[: others + 1]
     last = records[-1]
@@ -202,17 +202,17 @@ def rough_beside(size, scatter=1.0, others=2):
 
 
 def test_teeth_on_one_record_are_not_its_noise_where_neighbouring_samples_scatter_as_in_the_others():
-    alone = estimate_noise(rough_beside(100.0)[-1:])[0]
-    beside = estimate_noise(rough_beside(100.0))[-1]
+    alone = estimate_noise(rough_jointly(100.0)[-1:])[0]
+    beside = estimate_noise(rough_jointly(100.0))[-1]
     assert alone.sigma > 3.0 * gap_noise.SIGMA
     assert beside.sigma == pytest.approx(gap_noise.SIGMA, rel=0.15)
     assert "other records" in beside.source
 
 
 def test_a_record_that_is_noisier_from_sample_to_sample_keeps_its_noise():
-    found = estimate_noise(rough_beside(0.0, scatter=5.0))[-1]
+    found = estimate_noise(rough_jointly(0.0, scatter=5.0))[-1]
     assert found.sigma == pytest.approx(5.0 * gap_noise.SIGMA, rel=0.15)
 
 
 def test_one_other_record_is_no_majority():
-    assert "other records" not in estimate_noise(rough_beside(100.0, others=1))[-1].source
+    assert "other records" not in estimate_noise(rough_jointly(100.0, others=1))[-1].source

@@ -83,7 +83,7 @@ def test_nonlinear_noisy_data_end_where_the_gradient_is_zero():
     assert_allclose(found.x, [5.0, 1.3], atol=0.1)
 
 
-def test_a_coordinate_that_wants_out_stays_at_its_bound_and_the_rest_is_best_beside_it():
+def test_a_coordinate_that_wants_out_stays_at_its_bound_and_the_rest_is_best_jointly_it():
     """The slope is -3; held at 0, the best constant is the mean."""
     design, data = line()
     bounds = Bounds(np.array([-np.inf, 0.0]), np.array([np.inf, np.inf]))

@@ -155,8 +155,8 @@ def _weighed(
         score = log(COMPARISON.one_cause / count) + _place(each, ids) + each.log_evidence
         scores.append((each.effects, each.records, score, each))
     for each in singles[:2]:
-        beside = search.beside_unknown(each)
-        score = log(COMPARISON.unknown_with_one / count) + _place(each, ids) + beside.log_evidence_beside_unknown
+        beside = search.with_unknown(each)
+        score = log(COMPARISON.unknown_with_one / count) + _place(each, ids) + beside.log_evidence_with_unknown
         scores.append((tuple(sorted((*each.effects, "unknown"))), each.records, score, each))
     for each in pairs:
         share = COMPARISON.two_causes / max(count * (count - 1) / 2, 1)

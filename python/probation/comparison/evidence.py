@@ -114,7 +114,7 @@ class Tangent:
         total += 0.5 * float(pull @ covariance @ pull) + 0.5 * float(np.linalg.slogdet(covariance)[1])
         return total + 0.5 * len(step) * float(np.log(2.0 * np.pi)) + float(np.sum(inside))
 
-    def log_integral_beside_unknown(self, smooth: SmoothChange) -> float:
+    def log_integral_with_unknown(self, smooth: SmoothChange) -> float:
         """The same with an unknown change of any size beside it."""
         return float(logsumexp([self.log_integral(smooth, size) for size in SIZES])) - float(np.log(len(SIZES)))
 

@@ -51,7 +51,7 @@ class Found:
         On those records; causes that sit in different records were fitted apart.
     log_evidence : float
         Over that of no change.
-    log_evidence_beside_unknown : float
+    log_evidence_with_unknown : float
         With an unknown change in the same records beside it.
     """
 
@@ -59,7 +59,7 @@ class Found:
     records: tuple[str, ...]
     refits: tuple[Refit, ...]
     log_evidence: float
-    log_evidence_beside_unknown: float = -np.inf
+    log_evidence_with_unknown: float = -np.inf
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -103,7 +103,7 @@ class ChangeSearch:
     def unknown(self) -> tuple[float, ...]:
         """Log evidence of an unknown change in every record, over none."""
         return tuple(
-            Tangent.nothing(own).log_integral_beside_unknown(smooth) + 0.5 * float(own @ own)
+            Tangent.nothing(own).log_integral_with_unknown(smooth) + 0.5 * float(own @ own)
             for own, smooth in zip(self.still, self.smooth, strict=True)
         )
 
@@ -174,12 +174,12 @@ class ChangeSearch:
             return None
         return Found(causes, tuple(view.id for view in views), (done,), self._log_evidence(done))
 
-    def beside_unknown(self, found: Found) -> Found:
+    def with_unknown(self, found: Found) -> Found:
         """The same with its evidence beside an unknown change in the same records, if it is in one record."""
         if len(found.records) > 1 or len(found.refits) > 1:
             return found
         at = self._index(found.records[0])
-        score = Tangent.of(found.refits[0]).log_integral_beside_unknown(self.smooth[at])
+        score = Tangent.of(found.refits[0]).log_integral_with_unknown(self.smooth[at])
         score += 0.5 * float(self.still[at] @ self.still[at])
         return Found(found.causes, found.records, found.refits, found.log_evidence, score)
 

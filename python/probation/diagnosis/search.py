@@ -65,7 +65,7 @@ class Search:
         self._singles(columns)
         if self.base.scatter.any:
             self._scatter_around_the_best()
-        self._look_beside_the_leading()
+        self._try_with_unknown()
         self._told(0.6)
         size = 1
         while size < SEARCH.most_effects:
@@ -80,7 +80,7 @@ class Search:
                 self._additions(each)
             if size == 1 and left:
                 self._swaps()
-            self._look_beside_the_leading()
+            self._try_with_unknown()
             if not self.ranked(size + 1) or self.ranked()[0].effects in {each.effects for each in leading}:
                 break
             size += 1
@@ -105,7 +105,7 @@ class Search:
         steps = SEARCH.round_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
-        again._look_beside_the_leading()
+        again._try_with_unknown()
         return again.found
 
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
@@ -285,7 +285,7 @@ class Search:
         forms = form_columns(found, self.base.whitener)
         return Hypothesis(found, evidence(found, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
 
-    def _look_beside_the_leading(self) -> None:
+    def _try_with_unknown(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
         ahead = [
             *self.ranked()[: SEARCH.with_unknown],

@@ -110,7 +110,7 @@ def profile(
             at += sign * step
             if not limits[name][0] < at < limits[name][1]:
                 break
-            there, cost = _best_beside(problem, index, at, there, limits)
+            there, cost = _best_jointly(problem, index, at, there, limits)
             rise = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
             points.append((at, sign * rise))
             if rise > FARTHEST * quantile:
@@ -127,7 +127,7 @@ def profile(
     return Profile(name, value, values, root, quantile, ends)
 
 
-def _best_beside(
+def _best_jointly(
     problem: Problem, index: int, value: float, near: Law, limits: Mapping[str, tuple[float, float]]
 ) -> tuple[Law, float]:
     """The law with one parameter at a value and the others at their best, from a law close by; and its cost."""

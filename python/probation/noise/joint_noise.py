@@ -1,4 +1,4 @@
-"""White coordinates where more noise comes beside what is white already."""
+"""White coordinates jointly with noise that comes on top of what is white already."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def joint_directions(more: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def jointly_whitened(more: FloatArray, values: FloatArray) -> FloatArray:
-    """(I + U U^T)^(-1/2) times columns (n,) or (n, m), U the noise that comes beside, shape (n, k)."""
+    """(I + U U^T)^(-1/2) times columns (n,) or (n, m), U the noise on top, shape (n, k)."""
     directions, shrink = joint_directions(more)
     along = directions.T @ values
     return np.asarray(values - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None])))
