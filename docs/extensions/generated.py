@@ -56,6 +56,7 @@ def setup(app: "Sphinx") -> dict[str, bool]:
     """Write the pages, before Sphinx looks for sources."""
     app.connect("config-inited", lambda app, config: _write_all(app))
     app.connect("autodoc-process-docstring", _marks)
+    app.connect("autodoc-process-docstring", _whole_sentence, priority=900)  # after napoleon
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -82,6 +83,12 @@ def _keep(page: Path, text: str) -> None:
 def _marks(app: "Sphinx", what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
     """Single backquotes of the docstrings are code, as in NumPy's own convention for names."""
     lines[:] = [re.sub(r"(?<![`:\w])`([^`<>]+)`(?![`_])", r"``\1``", line) for line in lines]
+
+
+def _whole_sentence(app: "Sphinx", what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Put together again what napoleon takes for "type: description" in the docstring of a property."""
+    if what == "property" and len(lines) > 2 and lines[-1].startswith(":type: ") and lines[0]:
+        lines[0] = f"{lines.pop()[len(':type: ') :]}: {lines[0]}"
 
 
 def api_page() -> str:

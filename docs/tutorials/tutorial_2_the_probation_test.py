@@ -2,21 +2,21 @@
 The probation test
 ==================
 
-*You have tests driven in different ways and ask whether one set of parameters holds for all: whether the law belongs to
-the material or to the test.*
+*You have tests driven in different ways and ask whether one set of parameters holds for all:
+whether the law belongs to the material or to the test.*
 
-A law that fits a record has shown little: three parameters bend to one curve. The probation test asks more. Identify
-on one test, **predict another with nothing adjusted**, and compare parameters that were identified on each test alone.
-A law that passes is called *intrinsic*.
+A law that fits a record has shown little: three parameters bend to one curve. The probation
+test asks more. Identify on one test, **predict another with nothing adjusted**, and compare
+parameters that were identified on each test alone. A law that passes is called *intrinsic*.
 """
 
 # %%
 # Three tests of one material
 # ---------------------------
 #
-# The records are made up: a ramp, and two tests in which the grips move at constant speed and the specimen necks, so
-# that the strain rate in the neck rises tenfold and falls again. One law makes all three, so we know what the test
-# should say.
+# The records are made up: a ramp, and two tests in which the grips move at constant speed and
+# the specimen necks, so that the strain rate in the neck rises tenfold and falls again. One law
+# makes all three, so we know what the test should say.
 
 import tempfile
 from pathlib import Path
@@ -26,8 +26,12 @@ import numpy as np
 
 import probation
 
-relation = probation.Weissenberg(0.00464, 0.0367)  # τ_max from the strain rate: eq. (11) of the paper
-truth = probation.Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=relation)
+relation = probation.Weissenberg(
+    0.00464, 0.0367
+)  # τ_max from the strain rate: eq. (11) of the paper
+truth = probation.Law(
+    unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=relation
+)
 tests = {
     "ramp": probation.named_history("ramp", rate=0.005, strain=1.6, samples=601),
     "grips-slow": probation.named_history("necking", grip_speed=0.02, samples=601),
@@ -36,7 +40,11 @@ tests = {
 
 figure, axes = plt.subplots(figsize=(6.4, 3.0))
 for name, test in tests.items():
-    rate = np.gradient(test.true_strain, test.time) if test.strain_rate is None else test.strain_rate
+    rate = (
+        np.gradient(test.true_strain, test.time)
+        if test.strain_rate is None
+        else test.strain_rate
+    )
     axes.semilogy(test.true_strain, rate, label=name)
 axes.set(xlabel="true strain [–]", ylabel="strain rate [1/s]")
 axes.legend()
@@ -45,19 +53,27 @@ axes.legend()
 # A campaign is a folder
 # ----------------------
 #
-# It holds the files of the records and a ``campaign.toml``. Two things are said there that no file can say: which
-# *companion relation* gives τ_max from the strain rate (:doc:`/companion`), and which records are **held out**, so
-# that nothing is fitted to them.
+# It holds the files of the records and a ``campaign.toml``. Two things are said there that no
+# file can say: which *companion relation* gives τ_max from the strain rate (:doc:`/companion`),
+# and which records are **held out**, so that nothing is fitted to them.
 
 
 def write_campaign(folder, laws):
     """Solve each test by its law, add the noise of a load cell, write the folder."""
     folder.mkdir()
     noise = np.random.default_rng(0)
-    text = ['name = "hdpe"', "[law.companion]", 'form = "weissenberg"', "slope = 0.00464", "intercept = 0.0367"]
+    text = [
+        'name = "hdpe"',
+        "[law.companion]",
+        'form = "weissenberg"',
+        "slope = 0.00464",
+        "intercept = 0.0367",
+    ]
     text += ["[law.fixed]", "unrelaxed_modulus_MPa = 3220.0"]
     for name, test in tests.items():
-        fine = probation.StrainHistory(test.time, test.true_strain, strain_rate=test.strain_rate)
+        fine = probation.StrainHistory(
+            test.time, test.true_strain, strain_rate=test.strain_rate
+        )
         stress = laws[name].stress(fine, scheme="sa3") + noise.normal(0.0, 0.04, len(test.time))
         np.savetxt(
             folder / f"{name}.csv",
@@ -68,7 +84,13 @@ def write_campaign(folder, laws):
         )
         control = "strain-rate" if name == "ramp" else "displacement-rate"
         role = "identify" if name == "ramp" else "held-out"
-        text += ["[[record]]", f'id = "{name}"', f'file = "{name}.csv"', f'control = "{control}"', f'role = "{role}"']
+        text += [
+            "[[record]]",
+            f'id = "{name}"',
+            f'file = "{name}.csv"',
+            f'control = "{control}"',
+            f'role = "{role}"',
+        ]
     (folder / "campaign.toml").write_text("\n".join(text) + "\n")
     return probation.Campaign.load(folder)
 
@@ -90,9 +112,11 @@ print(certificate.reason)
 # %%
 # Three questions were asked, and each can fail by itself:
 #
-# 1. **Prediction.** Identified on the ramp, does the law predict both grip-driven tests, nothing adjusted? What is
-#    left is compared with the noise and with a tolerance (5 % of the largest stress unless you say otherwise).
-# 2. **Consistency.** Identified on each record alone, does each parameter keep its value, given its standard errors?
+# 1. **Prediction.** Identified on the ramp, does the law predict both grip-driven tests,
+#    nothing adjusted? What is left is compared with the noise and with a tolerance (5 % of the
+#    largest stress unless you say otherwise).
+# 2. **Consistency.** Identified on each record alone, does each parameter keep its value, given
+#    its standard errors?
 # 3. **Description.** Does the law with parameters of its own describe each record at all?
 
 print(certificate.summary())
@@ -104,11 +128,15 @@ certificate.plot()
 # A law that does not pass
 # ------------------------
 #
-# Now let the fast test harden less: G falls from 1.8 to 1.5 MPa, as if the specimen had warmed. Each record by itself
-# is still fitted to the noise; a fit would not have told us.
+# Now let the fast test harden less: G falls from 1.8 to 1.5 MPa, as if the specimen had warmed.
+# Each record by itself is still fitted to the noise; a fit would not have told us.
 
-softer = probation.Law(unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.5, companion=relation)
-failing = probation.certify(write_campaign(work / "two-laws", {**dict.fromkeys(tests, truth), "grips-fast": softer}))
+softer = probation.Law(
+    unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.5, companion=relation
+)
+failing = probation.certify(
+    write_campaign(work / "two-laws", {**dict.fromkeys(tests, truth), "grips-fast": softer})
+)
 print(failing.verdict)
 print(failing.reason)
 
@@ -116,13 +144,16 @@ print(failing.reason)
 failing.plot()
 
 # %%
-# The certificate names the parameter that does not keep its value. It does not say why: that is the next question.
+# The certificate names the parameter that does not keep its value. It does not say why: that is
+# the next question.
 #
 # What to remember
 # ----------------
 #
-# - A good fit is no evidence that the law is right. A good prediction of a test driven otherwise is.
-# - Tests must differ: three repeats of one test ask nothing new. :doc:`/isolability` says what planned tests can tell.
+# - A good fit is no evidence that the law is right. A good prediction of a test driven
+#   otherwise is.
+# - Tests must differ: three repeats of one test ask nothing new. :doc:`/isolability` says what
+#   planned tests can tell.
 # - Give the tolerance before you look: ``probation certify --tolerance 0.02``.
 #
 # Next

@@ -4,17 +4,17 @@ Into finite elements
 
 *You have an identified law and want it in a finite-element code, with an error that you know.*
 
-There are two ways. A **format** that a code has already (Prony series, flow curves by rate) takes part of the law, at a
-cost that is stated. A **user material** takes all of it: the C++ point of this package behind the interface of Abaqus,
-CalculiX, MGIS or plain C.
+There are two ways. A **format** that a code has already (Prony series, flow curves by rate)
+takes part of the law, at a cost that is stated. A **user material** takes all of it: the C++
+point of this package behind the interface of Abaqus, CalculiX, MGIS or plain C.
 """
 
 # %%
 # The law
 # -------
 #
-# Usually it comes from a fit: ``probation fit hdpe-2020/ --json fit.json``, then ``probation export fit.json …``. Here
-# we write it down.
+# Usually it comes from a fit: ``probation fit hdpe-2020/ --json fit.json``, then ``probation
+# export fit.json …``. Here we write it down.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -32,22 +32,25 @@ law = probation.Law(
 # Fewer modes
 # -----------
 #
-# The law has 50 modes, and each is a state variable at every integration point (six in three dimensions). Nine modes
-# keep the stress within a thousandth.
+# The law has 50 modes, and each is a state variable at every integration point (six in three
+# dimensions). Nine modes keep the stress within a thousandth.
 
 modes, errors = [3, 4, 5, 6, 7, 9, 11], []
 for count in modes:
     errors.append(probation.reduce_spectrum(modes=count).error)
 figure, axes = plt.subplots(figsize=(6.4, 2.8))
 axes.semilogy(modes, errors, "o-")
-axes.set(xlabel="modes kept", ylabel="relative error of the stress", title="What fewer modes cost")
+axes.set(
+    xlabel="modes kept", ylabel="relative error of the stress", title="What fewer modes cost"
+)
 
 # %%
 # A file for a user material
 # --------------------------
 #
-# In a terminal: ``probation export fit.json --format abaqus-umat --modes 9 -o hdpe.inp``. The file is read back from
-# its own text and solved again; the error against the identified law is in its header.
+# In a terminal: ``probation export fit.json --format abaqus-umat --modes 9 -o hdpe.inp``. The
+# file is read back from its own text and solved again; the error against the identified law is
+# in its header.
 
 card = probation.export(law, "abaqus-umat", name="hdpe", modes=9)
 print(card.text[:2600])
@@ -56,8 +59,9 @@ print(card.text[:2600])
 # A file for a code without user materials
 # ----------------------------------------
 #
-# A Prony series is linear viscoelasticity: it has one relaxation spectrum, at one strain rate, and no hardening. The
-# header says what is lost. Whether that is enough for you depends on the strain that you expect.
+# A Prony series is linear viscoelasticity: it has one relaxation spectrum, at one strain rate,
+# and no hardening. The header says what is lost. Whether that is enough for you depends on the
+# strain that you expect.
 
 prony = probation.export(law, "abaqus-prony", name="hdpe", rate=0.005)
 print(prony.summary())
@@ -66,7 +70,8 @@ print(prony.summary())
 # Compare before you trust
 # ------------------------
 #
-# The stress of one element under the history that matters to you, by the exported modes and by the full law:
+# The stress of one element under the history that matters to you, by the exported modes and by
+# the full law:
 
 history = probation.named_history("necking", grip_speed=0.08, samples=401)
 reduced = probation.Law(
@@ -76,10 +81,14 @@ reduced = probation.Law(
     companion=probation.Weissenberg(0.00464, 0.0367),
     spectrum=probation.reduce_spectrum(modes=9).spectrum,
 )
-driven = probation.StrainHistory(history.time, history.true_strain, strain_rate=history.strain_rate)
+driven = probation.StrainHistory(
+    history.time, history.true_strain, strain_rate=history.strain_rate
+)
 full = law.stress(driven, scheme="sa3")
 short = reduced.stress(driven, scheme="sa3")
-figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1))
+figure, (top, bottom) = plt.subplots(
+    2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1)
+)
 top.plot(history.true_strain, full, label="50 modes")
 top.plot(history.true_strain, short, "--", label="9 modes")
 top.set_ylabel("true stress [MPa]")
@@ -92,8 +101,9 @@ print(f"largest difference: {np.abs(short - full).max():.3f} MPa")
 # The material point in three dimensions
 # --------------------------------------
 #
-# The point works at finite strain. Here it is driven in isochoric tension, one increment after another, and compared
-# with the law in one dimension. The same C++ is what Abaqus or CalculiX call.
+# The point works at finite strain. Here it is driven in isochoric tension, one increment after
+# another, and compared with the law in one dimension. The same C++ is what Abaqus or CalculiX
+# call.
 
 from probation.fe.point import MaterialPoint
 
@@ -112,8 +122,9 @@ print(f"three dimensions less one: {np.abs(np.array(axial) - increments).max():.
 # A bar that necks
 # ----------------
 #
-# With felupe (``pip install 'probation[fe]'``) the point drives a whole bar: a round specimen, a section 2 % smaller in
-# its middle, grips at constant speed. The mesh is coarse, so that this page is built in seconds.
+# With felupe (``pip install 'probation[fe]'``) the point drives a whole bar: a round specimen,
+# a section 2 % smaller in its middle, grips at constant speed. The mesh is coarse, so that this
+# page is built in seconds.
 
 from probation.fe.bar import Bar
 from probation.fe.necking import neck
@@ -122,10 +133,14 @@ bar = Bar(elements=(12, 1), centre_strain=1.2, largest_step=0.02)
 necking = neck(point, bar)
 figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.0))
 left.plot(necking.nominal_strain, necking.nominal_stress)
-left.set(xlabel="nominal strain [–]", ylabel="nominal stress [MPa]", title="What the machine sees")
+left.set(
+    xlabel="nominal strain [–]", ylabel="nominal stress [MPa]", title="What the machine sees"
+)
 right.plot(*necking.outline, color="C0")
 right.plot(necking.outline[0], -necking.outline[1], color="C0")
-right.set(xlabel="along the bar [mm]", ylabel="radius [mm]", title="The bar at the end (half of it)")
+right.set(
+    xlabel="along the bar [mm]", ylabel="radius [mm]", title="The bar at the end (half of it)"
+)
 right.set_aspect("equal")
 
 # %%

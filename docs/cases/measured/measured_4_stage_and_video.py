@@ -2,14 +2,16 @@
 A strain of the stage, a strain of the video
 ============================================
 
-**Measured:** a Ti–Zr–Nb alloy on a small tensile stage, and the distance of two markers by video (Gazder and
-Niessen).
+**Measured:** a Ti–Zr–Nb alloy on a small tensile stage, and the distance of two markers by
+video (Gazder and Niessen).
 
-**A law would miss:** the elastic part, by far. The stage's displacement makes the metal look as soft as a polymer.
+**A law would miss:** the elastic part, by far. The stage's displacement makes the metal look as
+soft as a polymer.
 
-**It is:** the compliance and the slack of the stage, a third of a millimetre on a gauge of five. Here the cause is
-known, because the video saw the specimen itself. A metal needs another law, so no fit is made: the case shows what a
-record looks like whose strain is not the specimen's.
+**It is:** the compliance and the slack of the stage, a third of a millimetre on a gauge of
+five. Here the cause is known, because the video saw the specimen itself. A metal needs another
+law, so no fit is made: the case shows what a record looks like whose strain is not the
+specimen's.
 """
 
 from pathlib import Path
@@ -19,8 +21,10 @@ import numpy as np
 
 
 def data() -> Path:
-    """The folder of the measured records: beside the checkout, some folders above this script."""
-    return next(at / "shared/data" for at in Path.cwd().parents if (at / "shared/data").is_dir())
+    """The folder of the measured records: beside the checkout, above this script."""
+    return next(
+        at / "shared/data" for at in Path.cwd().parents if (at / "shared/data").is_dir()
+    )
 
 
 def numbers(path, columns):
@@ -42,13 +46,17 @@ time, displacement, force = stage[:, 0], stage[:, 3] * 1e-3, stage[:, 4]  # s, m
 by_video = video[:, 6] / video[0, 6] - 1.0  # the outer pair of markers
 
 # %%
-# Two clocks: the video starts when it is switched on. Both curves begin to rise, and both have a knee, 45 s apart; that
-# is the shift.
+# Two clocks: the video starts when it is switched on. Both curves begin to rise, and both have
+# a knee, 45 s apart; that is the shift.
 
 shift = 45.0
 figure, axes = plt.subplots(figsize=(6.4, 3.0))
 axes.plot(time, force / force.max(), label="force, stage")
-axes.plot(video[:, 0] + shift, by_video / by_video.max(), label="distance of the markers, video, shifted")
+axes.plot(
+    video[:, 0] + shift,
+    by_video / by_video.max(),
+    label="distance of the markers, video, shifted",
+)
 axes.set(xlabel="time of the stage [s]", ylabel="part of the largest [–]", xlim=(60, 185))
 axes.legend()
 
@@ -74,6 +82,7 @@ print(f"stage {100 * by_stage[at]:.1f} %, markers {100 * strain[at]:.1f} %:", en
 print(f"{gauge * (by_stage[at] - strain[at]):.2f} mm went into the stage")
 
 # %%
-# A polymer ten times softer than the stage hides the same fault better: there it looks like a softer start, or like an
-# effect of the material. :doc:`/built/cases/synthetic/case_2_the_machine_gives_way` shows how a diagnosis finds it
+# A polymer ten times softer than the stage hides the same fault better: there it looks like a
+# softer start, or like an effect of the material.
+# :doc:`/built/cases/synthetic/case_2_the_machine_gives_way` shows how a diagnosis finds it
 # where other records of the same material are sound.

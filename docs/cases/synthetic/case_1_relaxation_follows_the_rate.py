@@ -2,13 +2,14 @@
 Relaxation follows the rate
 ===========================
 
-**Measured:** a specimen of polyethylene between grips at 0.02 mm/s. It necks, and the strain rate in the neck rises
-from 4e-4 to 4e-3 1/s and falls again. A second test at 0.08 mm/s is held out.
+**Measured:** a specimen of polyethylene between grips at 0.02 mm/s. It necks, and the strain
+rate in the neck rises from 4e-4 to 4e-3 1/s and falls again. A second test at 0.08 mm/s is held
+out.
 
 **The law missed:** with a constant relaxation time, the stress by up to 19 MPa.
 
-**It was:** a relaxation time that falls as the rate rises. This is the discovery of the paper whose law this is; the
-records are made after its experiments 2 and 3.
+**It was:** a relaxation time that falls as the rate rises. This is the discovery of the paper
+whose law this is; the records are made after its experiments 2 and 3.
 """
 
 import probation
@@ -21,8 +22,8 @@ diagnosis = probation.diagnose(campaign)
 print(diagnosis.headline)
 
 # %%
-# The fitted law bends through the record: too low in the first tenth of the strain, too high around 0.8. The record
-# that was held out shows what that bend is worth.
+# The fitted law bends through the record: too low in the first tenth of the strain, too high
+# around 0.8. The record that was held out shows what that bend is worth.
 
 # sphinx_gallery_thumbnail_number = 1
 diagnosis.plot()
@@ -36,8 +37,9 @@ residual_map(diagnosis)
 probability_figure(diagnosis)
 
 # %%
-# The exponent says how: with 0 the relaxation time is a constant, with 1 the Weissenberg number is. Its value here,
-# 0.92, is what eq. (11) of the paper has. The next step is a companion relation of one's own: :doc:`/companion`.
+# The exponent says how: with 0 the relaxation time is a constant, with 1 the Weissenberg number
+# is. Its value here, 0.92, is what eq. (11) of the paper has. The next step is a companion
+# relation of one's own: :doc:`/companion`.
 
 for parameter in diagnosis.best.parameters:
     print(parameter.name, f"{parameter.value:.3f} ± {parameter.se:.3f}")

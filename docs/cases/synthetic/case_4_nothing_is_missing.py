@@ -6,7 +6,8 @@ Nothing is missing
 
 **The law missed:** nothing.
 
-**It was:** noise. An honest diagnosis must say so, and must say how large an effect could still hide.
+**It was:** noise. An honest diagnosis must say so, and must say how large an effect could still
+hide.
 """
 
 import numpy as np
@@ -17,7 +18,10 @@ from probation.report.residual_map import residual_map
 
 relation = {"slope": 0.00464, "intercept": 0.0367}
 law = probation.Law(
-    unrelaxed_modulus=3220.0, alpha=1.0, hardening_modulus=1.8, companion=probation.Weissenberg(**relation)
+    unrelaxed_modulus=3220.0,
+    alpha=1.0,
+    hardening_modulus=1.8,
+    companion=probation.Weissenberg(**relation),
 )
 tests = {
     "ramp-slow": probation.named_history("ramp", rate=1e-3, strain=1.2, samples=401),
@@ -26,15 +30,24 @@ tests = {
 }
 noise = np.random.default_rng(5)
 stress = {
-    name: law.stress(probation.StrainHistory(test.time, test.true_strain, strain_rate=test.strain_rate), scheme="sa3")
+    name: law.stress(
+        probation.StrainHistory(test.time, test.true_strain, strain_rate=test.strain_rate),
+        scheme="sa3",
+    )
     for name, test in tests.items()
 }
 campaign = probation.Campaign.from_arrays(
     np.concatenate([test.time for test in tests.values()]),
     true_strain=np.concatenate([test.true_strain for test in tests.values()]),
-    true_stress=np.concatenate([values + noise.normal(0.0, 0.04, len(values)) for values in stress.values()]),
+    true_stress=np.concatenate(
+        [values + noise.normal(0.0, 0.04, len(values)) for values in stress.values()]
+    ),
     record=[name for name, test in tests.items() for _ in test.time],
-    control={"ramp-slow": "strain-rate", "ramp-fast": "strain-rate", "grips": "displacement-rate"},
+    control={
+        "ramp-slow": "strain-rate",
+        "ramp-fast": "strain-rate",
+        "grips": "displacement-rate",
+    },
     law=LawSettings(companion=CompanionSettings("weissenberg", relation)),
     name="sound",
 )
@@ -49,8 +62,10 @@ print(diagnosis.headline)
 residual_map(diagnosis)
 
 # %%
-# "No effect is needed" keeps most of the probability. What remains goes to effects that these tests could not see if
-# they were there and small: that is what the last lines of the summary are for.
+# "No effect is needed" keeps most of the probability. What remains goes to effects that these
+# tests could not see if they were there and small: that is what the last lines of the summary
+# are for.
 
 for explanation in diagnosis.explanations[:4]:
-    print(f"{explanation.probability:6.1%}  {' + '.join(explanation.effects) or 'no effect is needed'}")
+    named = " + ".join(explanation.effects) or "no effect is needed"
+    print(f"{explanation.probability:6.1%}  {named}")
