@@ -1,5 +1,7 @@
 """Equations as MathML, which browsers draw themselves: a page needs neither network nor script."""
 
+import re
+
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 from sphinx.application import Sphinx
@@ -12,7 +14,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
 
 
 def _inline(writer: nodes.NodeVisitor, node: nodes.Element) -> None:
-    writer.body.append(latex2mathml.tex2mathml(node.astext(), as_block=False))
+    writer.body.append(_mathml(node.astext(), block=False))
     raise nodes.SkipNode
 
 
@@ -20,5 +22,17 @@ def _displayed(writer: nodes.NodeVisitor, node: nodes.Element) -> None:
     source = node.astext().strip()
     if r"\\" in source and r"\begin" not in source:
         source = rf"\begin{{aligned}}{source}\end{{aligned}}"
-    writer.body.append(f'<div class="equation">{latex2mathml.tex2mathml(source, as_block=True)}</div>')
+    writer.body.append(f'<div class="equation">{_mathml(source, block=True)}</div>')
     raise nodes.SkipNode
+
+
+_ACCENTED = re.compile(
+    r"<munderover>\s*(<mi[^>]*>[^<]*</mi>)\s*(<m(i|n|row)>.*?</m\3>)\s*(<mo stretchy=\"false\">[˙ˆ¯]</mo>)\s*</munderover>",
+    re.DOTALL,
+)
+"""What the converter makes of an accented letter with an index: the index below the letter."""
+
+
+def _mathml(source: str, *, block: bool) -> str:
+    made = latex2mathml.tex2mathml(source, as_block=block)
+    return _ACCENTED.sub(r'<msub><mover accent="true">\1\4</mover>\2</msub>', made)

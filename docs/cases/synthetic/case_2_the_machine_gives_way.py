@@ -14,7 +14,6 @@ crosshead counts that as strain of the specimen.
 import numpy as np
 
 import probation
-from probation.law.settings import CompanionSettings, LawSettings
 from probation.report.diagnosis_figures import probability_figure, record_figure
 
 relation = {"slope": 0.00464, "intercept": 0.0367}
@@ -48,7 +47,7 @@ campaign = probation.Campaign.from_arrays(
     true_stress=np.concatenate(stress),
     record=record,
     control="strain-rate",
-    law=LawSettings(companion=CompanionSettings("weissenberg", relation)),
+    law=probation.LawSettings(companion=probation.CompanionSettings("weissenberg", relation)),
     name="crosshead",
 )
 diagnosis = probation.diagnose(

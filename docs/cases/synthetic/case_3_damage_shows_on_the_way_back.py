@@ -14,7 +14,6 @@ section that is lost is lost.
 import numpy as np
 
 import probation
-from probation.law.settings import CompanionSettings, LawSettings
 from probation.report.diagnosis_figures import probability_figure
 from probation.report.residual_map import residual_map
 
@@ -51,7 +50,7 @@ campaign = probation.Campaign.from_arrays(
     true_stress=np.concatenate(stress),
     record=record,
     control="strain-rate",
-    law=LawSettings(companion=CompanionSettings("weissenberg", relation)),
+    law=probation.LawSettings(companion=probation.CompanionSettings("weissenberg", relation)),
     name="voids",
 )
 diagnosis = probation.diagnose(

@@ -13,7 +13,6 @@ hide.
 import numpy as np
 
 import probation
-from probation.law.settings import CompanionSettings, LawSettings
 from probation.report.residual_map import residual_map
 
 relation = {"slope": 0.00464, "intercept": 0.0367}
@@ -48,7 +47,7 @@ campaign = probation.Campaign.from_arrays(
         "ramp-fast": "strain-rate",
         "grips": "displacement-rate",
     },
-    law=LawSettings(companion=CompanionSettings("weissenberg", relation)),
+    law=probation.LawSettings(companion=probation.CompanionSettings("weissenberg", relation)),
     name="sound",
 )
 diagnosis = probation.diagnose(campaign)

@@ -14,7 +14,6 @@ decide.
 import numpy as np
 
 import probation
-from probation.law.settings import CompanionSettings, LawSettings
 from probation.report.diagnosis_figures import probability_figure
 
 relation = {"slope": 0.00464, "intercept": 0.0367}
@@ -40,8 +39,8 @@ campaign = probation.Campaign.from_arrays(
     true_stress=stress + noise.normal(0.0, 0.04, len(test.time)),
     record="fast",
     control="strain-rate",
-    law=LawSettings(
-        companion=CompanionSettings("weissenberg", relation),
+    law=probation.LawSettings(
+        companion=probation.CompanionSettings("weissenberg", relation),
         fixed={"unrelaxed_modulus_MPa": 3220.0},
     ),
     name="one-test",
