@@ -27,7 +27,8 @@ def _displayed(writer: nodes.NodeVisitor, node: nodes.Element) -> None:
 
 
 _ACCENTED = re.compile(
-    r"<munderover>\s*(<mi[^>]*>[^<]*</mi>)\s*(<m(i|n|row)>.*?</m\3>)\s*(<mo stretchy=\"false\">[˙ˆ¯]</mo>)\s*</munderover>",
+    r"<munderover>\s*(<mi[^>]*>[^<]*</mi>)\s*(<m(i|n|row)>.*?</m\3>)\s*"
+    r'(<mo stretchy="false">[˙ˆ¯]</mo>)\s*</munderover>',
     re.DOTALL,
 )
 """What the converter makes of an accented letter with an index: the index below the letter."""

@@ -56,8 +56,8 @@ axes.legend()
 # It holds the files of the records and a ``campaign.toml``. Three things are said there that no
 # file can say: which *companion relation* gives τ_max from the strain rate (:doc:`/companion`);
 # which records are **held out**, so that nothing is fitted to them; and how far specimens
-# differ. Real ones do, by some per cent, and where nothing is said that is allowed for. These are
-# made up and alike: ``scatter = "none"``.
+# differ. Real ones do, by some per cent, and where nothing is said that is allowed for. These
+# are made up and alike: ``scatter = "none"``.
 
 
 def write_campaign(folder, laws):
