@@ -128,6 +128,7 @@ def test_a_verdict_that_was_edited_is_refused():
         ("identify.result.Fit", "cli.main", "'cli.main' as a kind of value"),
         ("identify.result.Fit", "__main__.main", "'__main__.main' as a kind of value"),
         ("identify.result.Fit", "results.data.Stored", "'results.data.Stored' as a kind of value"),
+        ('"type": "float64"', '"type": "object"', "found an array of object"),
         ('"rms_MPa":', '"rms":', "found no 'rms_MPa'"),
     ],
 )

@@ -153,6 +153,13 @@ def _written_array(value: NDArray[Any], inner: Callable[[Any], Any]) -> dict[str
     return {"is": "array", "type": value.dtype.name, "shape": list(value.shape), "values": values}
 
 
+def _read_array(content: Mapping[str, Any]) -> NDArray[Any]:
+    kind = np.dtype(content["type"])
+    if kind.kind not in "biuf":
+        raise TypeError(f"an array of {kind.name}")
+    return np.array([decoded(each) for each in content["values"]], dtype=kind).reshape(content["shape"])
+
+
 _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
     (float, lambda value, _: {"is": "number", "value": str(value)}),
     (tuple, lambda value, inner: [inner(each) for each in value]),
@@ -169,9 +176,7 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "list": lambda content: [decoded(each) for each in content["values"]],
     "set": lambda content: frozenset(decoded(each) for each in content["values"]),
     "slice": lambda content: slice(*(decoded(each) for each in content["values"])),
-    "array": lambda content: np.array(
-        [decoded(each) for each in content["values"]], dtype=np.dtype(content["type"])
-    ).reshape(content["shape"]),
+    "array": _read_array,
     "mapping": lambda content: {decoded(key): decoded(each) for key, each in content["values"]},
 }
 """What `decoded` makes of each of them; any other name is that of a class."""

@@ -37,5 +37,5 @@ def answer_in(text: str, schema: str) -> Iterator[Mapping[str, Any]]:
         yield content
     except KeyError as missing:
         raise InputError(f"the text: found no {missing.args[0]!r}, expected {expected}") from None
-    except (TypeError, AttributeError, ValueError, StopIteration) as wrong:
+    except (TypeError, AttributeError, ValueError, StopIteration, IndexError, ArithmeticError) as wrong:
         raise InputError(f"the text: found {' '.join(str(wrong).split())}, expected {expected}") from None
