@@ -152,7 +152,7 @@ def test_the_function_in_the_figure_is_the_one_that_was_put_in():
 @pytest.fixture(scope="module")
 def undiagnosed():
     """Nothing in what is considered explains it."""
-    return diagnose(campaign(CYCLES, softened), effects=["force_offset"], threads=1, design=False)
+    return diagnose(campaign(CYCLES, softened), effects=["force_offset"], threads=1)
 
 
 def test_a_diagnosis_without_an_explanation_describes_what_is_left(undiagnosed, tmp_path):
@@ -177,3 +177,24 @@ def test_an_explanation_down_to_the_noise_leaves_nothing_to_describe():
     assert found.verdict == "explained"
     assert found.remainder is None
     assert json.loads(found.to_json())["remainder"] is None
+
+
+def test_without_an_explanation_the_next_tests_settle_what_the_rest_depends_on(undiagnosed):
+    found = undiagnosed
+    assert found.next_test == found.next_tests[0]
+    variables = {each.variable for each in found.remainder.depends_on}
+    for each in found.next_tests:
+        assert {name for names in each.separates for name in names} <= variables
+        assert each.cost
+    assert found.next_test.probability_after > found.next_test.probability_before
+    assert "a function of the largest strain so far" in found.next_test.what
+
+
+def test_a_free_function_predicts_a_record_it_was_fitted_to():
+    """The same record as a test that is not done yet: to within what the function leaves elsewhere."""
+    left = described("temperature")
+    first = left.functions[0]
+    for view in first.found.model.views:
+        stress, spread = first.on(view)
+        assert np.sqrt(np.mean((stress - view.data) ** 2)) < 2.0 * first.error_MPa
+        assert spread.shape[0] == len(view.data)

@@ -29,6 +29,7 @@ from probation.diagnosis.probabilities import (
     with_unseen,
 )
 from probation.diagnosis.remainder import is_left, remainder_of
+from probation.diagnosis.remainder_tests import remainder_tests
 from probation.diagnosis.remainder_words import with_remainder
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
@@ -178,7 +179,9 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     told(0.9)
     following, apart = (
-        _designed(base, considered, weighed, chosen, found, skipping, deadline, workers, seed) if design else ((), None)
+        _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed)
+        if design
+        else ((), None)
     )
     told(1.0)
     return Diagnosis(
@@ -305,6 +308,7 @@ def _designed(
     weighed: Sequence[Weighed],
     chosen: Sequence[tuple[str, ...]],
     found: Sequence[Hypothesis],
+    left: Remainder | None,
     skipping: Skipping,
     budget: Budget,
     threads: int,
@@ -319,6 +323,8 @@ def _designed(
         following = skipping.tried(
             "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=threads, seed=seed)
         )
+        if not following and left is not None:
+            following = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
     apart = skipping.tried(
         "what these tests can discriminate",
         lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=threads),

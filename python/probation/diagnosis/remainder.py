@@ -5,16 +5,18 @@ docs/diagnosis-method.md, section 12.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from scipy.interpolate import BSpline
 
 from probation.diagnosis.remainder_words import description
-from probation.diagnosis.variables import phases_of, variables_of
+from probation.diagnosis.variables import every_phase, every_variable, least_below, phases_of, variables_of
+from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.records.noise import scatter
+from probation.results.data import LEFT_OUT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.variables import Variable
+    from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
     from probation.noise.model import NoiseModel
@@ -141,6 +144,8 @@ class Remainder:
     description : str
         One sentence.
     curve : RemainderCurve or None
+    functions : tuple of FreeFunction
+        Of the variables of `depends_on`, fitted to all records: what tests could settle.
     """
 
     rms_MPa: float  # noqa: N815 - as it leaves the program
@@ -148,6 +153,7 @@ class Remainder:
     depends_on: tuple[Dependence, ...]
     description: str
     curve: RemainderCurve | None = None
+    functions: tuple[FreeFunction, ...] = field(default=(), metadata=LEFT_OUT)
 
     def to_dict(self) -> dict[str, Any]:
         """As in `remainder` of docs/formats.md."""
@@ -157,6 +163,61 @@ class Remainder:
             "depends_on": [each.to_dict() for each in self.depends_on],
             "description": self.description,
         }
+
+
+@dataclass(frozen=True, eq=False)
+class FreeFunction:
+    """A function of one variable, fitted together with the law.
+
+    Attributes
+    ----------
+    dependence : Dependence
+    term : _Term
+    found : Refit
+        The explanation beside which it stands.
+    parameters : ndarray, shape (p,)
+        Of law and explanation, refitted.
+    coefficients : ndarray, shape (size,)
+    root : ndarray, shape (p + size, k)
+        R with R R^T the covariance of search coordinates and coefficients.
+    samples : ndarray
+        Values of the variable that it was fitted to.
+    least : float
+        As in `variables.every_phase`.
+    error_MPa : float
+        Root mean square of what it leaves where it was not fitted, noise included.
+    """
+
+    dependence: Dependence
+    term: _Term
+    found: Refit
+    parameters: FloatArray
+    coefficients: FloatArray
+    root: FloatArray
+    samples: FloatArray
+    least: float
+    error_MPa: float  # noqa: N815
+
+    def on(self, view: RecordView) -> tuple[FloatArray, FloatArray]:
+        """Stress (n_samples,) and factor (n_samples, k) of its covariance on a record that is not done yet [MPa]."""
+        base, causes = self.found.model.split(self.parameters)
+        shared = [(cause, values) for cause, values in causes if cause.records is None]
+        model = CampaignModel(self.found.model.law, (view,), [cause for cause, _ in shared])
+        parameters = model.parameters(base, *(values for _, values in shared))
+        residual, jacobian = model.residual_and_jacobian(parameters)
+        stress = residual + model.data
+        variable = next(each for each in every_variable((view,), ("",)) if each.name == self.dependence.variable)
+        inside = np.ones(len(stress), dtype=bool)
+        if self.term.when is not None:
+            inside = every_phase((view,), self.least)[self.term.when]
+        columns = np.zeros((len(stress), self.term.size))
+        columns[inside] = _basis(variable.values[inside], self.samples, self.term)
+        if self.term.acts == "factor":
+            columns *= stress[:, None]
+        kept = [at for at, name in enumerate(self.found.model.parameter_names) if name in model.parameter_names]
+        slopes = jacobian * self.found.coordinates.slopes(self.parameters)[kept]
+        rows = [*kept, *range(len(self.root) - self.term.size, len(self.root))]
+        return stress + columns @ self.coefficients, np.hstack([slopes, columns]) @ self.root[rows]
 
 
 class _Term(NamedTuple):
@@ -228,7 +289,10 @@ def remainder_of(
     curve = problem.curve(leading[0].term) if leading else None
     most = max((each.explained for each in trials), default=0.0)
     text = description(closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
-    return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve)
+    functions = tuple(
+        problem.function(trial.term, each, before) for trial, each in zip(leading, depends_on, strict=True)
+    )
+    return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve, functions)
 
 
 def _terms(variables: Sequence[Variable], problem: _Problem) -> Iterator[_Term]:
@@ -332,6 +396,29 @@ class _Problem:
             function_y=100.0 * function if term.acts == "factor" else function,
         )
 
+    def function(self, term: _Term, dependence: Dependence, before_of: Mapping[str, float]) -> FreeFunction:
+        """Fitted to all records."""
+        together = self._weight[:, None] * np.hstack([self._tangent, self._columns(term)])
+        normal = _regular(together.T @ together, self._precision, smooth=_is_smooth(term))
+        solved = self._beside(term)
+        size = np.sqrt(np.diag(normal))
+        values, vectors = np.linalg.eigh(normal / np.outer(size, size))
+        least = self._noise**2
+        error = least + (1.0 - dependence.explained) * max(before_of[dependence.judged_on] - least, 0.0)
+        root = vectors / np.sqrt(np.maximum(values, 1e-10 * values[-1])) / size[:, None] * np.sqrt(error / least)
+        kept = [*range(self._count), *range(len(solved) - term.size, len(solved))]
+        return FreeFunction(
+            dependence=dependence,
+            term=term,
+            found=self._found,
+            parameters=self.with_function(term),
+            coefficients=solved[len(solved) - term.size :],
+            root=root[kept],
+            samples=term.variable.values[self.inside(term.when)],
+            least=least_below(self._found.model.views),
+            error_MPa=float(np.sqrt(error)),
+        )
+
     def _columns(self, term: _Term) -> FloatArray:
         """The stress that each coefficient of a function adds, shape (n_samples, size) [MPa]."""
         inside, values = self.inside(term.when), term.variable.values
@@ -384,17 +471,23 @@ def _is_smooth(term: _Term) -> bool:
     return not term.variable.is_category and term.size > SIZES[0]
 
 
-def _solved(normal: FloatArray, along: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
-    """Least squares with the priors of what was there before; of the function hardly more than that it is smooth."""
+def _regular(normal: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
+    """Normal equations with the priors of what was there before; of the function hardly more than that it is smooth."""
     normal = normal.copy()
-    diagonal = np.diag(normal).copy()
     count = len(precision)
-    size = len(diagonal) - count
+    size = len(normal) - count
     if size:
+        diagonal = np.diag(normal)
         bent = np.diff(np.eye(size), 2, axis=0) if smooth else np.zeros((0, size))
         own = max(float(diagonal[count:].mean()), 1e-12 * max(float(diagonal.max()), 1e-300))
         normal[count:, count:] += own * (RIDGE * np.eye(size) + SMOOTH * bent.T @ bent)
     normal[:count, :count] += np.diag(precision)
+    return normal
+
+
+def _solved(normal: FloatArray, along: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
+    """Least squares of `_regular` equations."""
+    normal = _regular(normal, precision, smooth=smooth)
     scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
     return np.asarray(np.linalg.lstsq(normal / np.outer(scale, scale), along / scale, rcond=1e-10)[0] / scale)
 

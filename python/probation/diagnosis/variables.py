@@ -68,7 +68,23 @@ class Variable:
 
 
 def variables_of(views: Sequence[RecordView], specimens: Sequence[str]) -> list[Variable]:
-    """All variables that take more than one value.
+    """Those that take more than one value.
+
+    Parameters
+    ----------
+    views : sequence of RecordView
+    specimens : sequence of str
+        Of which specimen each of them is.
+    """
+    return [
+        each
+        for each in every_variable(views, specimens)
+        if np.ptp(each.values) > NEARLY * max(float(np.max(np.abs(each.values))), 1e-300)
+    ]
+
+
+def every_variable(views: Sequence[RecordView], specimens: Sequence[str]) -> list[Variable]:
+    """All that is known of these records.
 
     Parameters
     ----------
@@ -115,7 +131,7 @@ def variables_of(views: Sequence[RecordView], specimens: Sequence[str]) -> list[
     if all(each is not None for each in temperatures):
         values = np.concatenate([each for each in temperatures if each is not None])
         found.append(Variable("temperature", "the temperature", "temperature [°C]", values))
-    return [each for each in found if np.ptp(each.values) > NEARLY * max(float(np.max(np.abs(each.values))), 1e-300)]
+    return found
 
 
 def phases_of(views: Sequence[RecordView]) -> dict[str, NDArray[np.bool_]]:
@@ -125,22 +141,31 @@ def phases_of(views: Sequence[RecordView]) -> dict[str, NDArray[np.bool_]]:
     ----------
     views : sequence of RecordView
     """
-    least = BELOW * max(float(np.max(view.true_strain)) for view in views)
+    phases = every_phase(views, least_below(views))
+    total = sum(len(view.data) for view in views)
+    enough = max(COVERED * total, FEWEST)
+    return {name: inside for name, inside in phases.items() if enough < int(inside.sum()) < total - enough}
+
+
+def least_below(views: Sequence[RecordView]) -> float:
+    """Strain below the largest so far from which on a specimen is unloaded, not noisy."""
+    return BELOW * max(float(np.max(view.true_strain)) for view in views)
+
+
+def every_phase(views: Sequence[RecordView], least: float) -> dict[str, NDArray[np.bool_]]:
+    """Which samples are in which phase, each of shape (n_samples,); `least` is `least_below` of the fitted records."""
     signs, below = [], []
     for view in views:
         signs.append(_direction(view))
         below.append(view.sampled(view.largest_strain - view.true_strain) > least)
     sign, reloaded = np.concatenate(signs), np.concatenate(below)
-    phases = {
+    return {
         "loading": sign > 0.0,
         "unloading": sign < 0.0,
         "reloading": (sign > 0.0) & reloaded,
         "unloading_and_reloading": reloaded,
         "hold": sign == 0.0,
     }
-    total = len(sign)
-    enough = max(COVERED * total, FEWEST)
-    return {name: inside for name, inside in phases.items() if enough < int(inside.sum()) < total - enough}
 
 
 def _rate(view: RecordView) -> FloatArray:

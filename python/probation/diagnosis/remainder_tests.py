@@ -1,0 +1,106 @@
+"""Tests that would settle on what a remainder depends (docs/diagnosis-method.md, section 12)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.design.next_test import judged
+from probation.design.planned_record import planned_view
+from probation.design.planned_tests import Laboratory, PlannedTest, planned_tests
+from probation.design.predicted import Prediction
+from probation.diagnosis.next import as_answer
+from probation.diagnosis.remainder_words import function_name
+from probation.inference.unsolvable import UNSOLVABLE
+from probation.parallel import in_parallel
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.design.next_test import RankedTest
+    from probation.diagnosis.remainder import FreeFunction, Remainder
+    from probation.diagnosis.result import NextTest
+    from probation.effects.record_view import RecordView
+    from probation.inference.base_fit import BaseFit
+
+RIVALS = 3
+"""Variables that a test is planned for."""
+
+INSTANTS = 40
+"""Instants of a planned test that count: what a free function leaves is alike from sample to sample."""
+
+WARMER = 15.0
+"""Change of temperature of a planned test [°C]."""
+
+DOUBT = 0.05
+"""Added to the part that a function leaves, for the odds between variables."""
+
+NOT_PLANNED = ("specimen",)
+"""Variables of which a planned test has no value."""
+
+
+def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) -> tuple[NextTest, ...]:
+    """Tests that discriminate the variables on which a remainder may depend, the most worth first.
+
+    Each free function predicts each test, with what the records leave open of its coefficients and with the error that
+    it has on records left out; the odds between variables are those of what they explain to what they leave.
+
+    Parameters
+    ----------
+    base : BaseFit
+    left : Remainder
+    threads, seed : int
+    """
+    rivals = [each for each in left.functions if each.dependence.variable not in NOT_PLANNED][:RIVALS]
+    if len(rivals) < 2:
+        return ()
+    odds = np.array([each.dependence.explained / (1.0 - each.dependence.explained + DOUBT) for each in rivals])
+    prior = odds / odds.sum()
+    error = rivals[0].error_MPa
+    answers = [[each.dependence.variable] for each in rivals]
+    names = [f"a function of {function_name(each.dependence)}" for each in rivals]
+
+    def work(planned: tuple[PlannedTest, RecordView]) -> RankedTest | None:
+        test, view = planned
+        try:
+            ways = [_predicted(each, owner, view, error) for owner, each in enumerate(rivals)]
+        except UNSOLVABLE:
+            return None
+        group = list(range(len(rivals)))
+        return judged(test, ways, prior, group, answers, names, float(prior.max()), seed=seed)
+
+    found = [each for each in in_parallel(work, _planned(base, rivals), threads) if each is not None]
+    if not found:
+        return ()
+    return as_answer(sorted(found, key=lambda each: -each.worth), float(prior.max()))
+
+
+def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) -> Prediction:
+    stress, spread = rival.on(view)
+    some = np.unique(np.linspace(0, len(stress) - 1, INSTANTS).astype(int))
+    return Prediction(owner, 1.0, stress[some] / error, spread[some] / error)
+
+
+def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[PlannedTest, RecordView]]:
+    """Tests of the same laboratory, at the last temperature, and one at another where that may matter."""
+    views = base.model.views
+    usual = None if views[-1].temperature is None else float(np.mean(views[-1].temperature))
+    tests = [
+        (test, _at(planned_view(test.name, test.time, test.true_strain, test.jumps, views), usual))
+        for test in planned_tests(Laboratory.of(base.model, base.parameters))
+    ]
+    if usual is None or all(each.dependence.variable != "temperature" for each in rivals):
+        return tests
+    again = next((test for test, _ in tests if test.name == "repeat"), tests[0][0])
+    for change in (WARMER, -WARMER):
+        what = f"{again.what}, at {usual + change:.0f} °C"
+        test = replace(again, name="other_temperature", what=what, repeats=None)
+        view = planned_view(test.name, test.time, test.true_strain, test.jumps, views)
+        tests.append((test, _at(view, usual + change)))
+    return tests
+
+
+def _at(view: RecordView, temperature: float | None) -> RecordView:
+    return view if temperature is None else replace(view, temperature=np.full(len(view.data), temperature))
