@@ -9,10 +9,9 @@ import numpy as np
 
 from probation.design.next_test import judged
 from probation.design.planned_record import planned_view
-from probation.design.planned_tests import Laboratory, PlannedTest, planned_tests
+from probation.design.planned_tests import Laboratory, PlannedTest, planned_tests, repeats
 from probation.design.predicted import Prediction
 from probation.diagnosis.next import as_answer
-from probation.diagnosis.remainder_words import function_name
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
@@ -37,6 +36,9 @@ WARMER = 15.0
 DOUBT = 0.05
 """Added to the part that a function leaves, for the odds between variables."""
 
+CHANGE_WITH_A_REPEAT = ("order",)
+"""Variables that differ in the repeat of a record: of all others the record itself has told already."""
+
 NOT_PLANNED = ("specimen",)
 """Variables of which a planned test has no value."""
 
@@ -60,7 +62,7 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
     prior = odds / odds.sum()
     error = rivals[0].error_MPa
     answers = [[each.dependence.variable] for each in rivals]
-    names = [f"a function of {function_name(each.dependence)}" for each in rivals]
+    names = [each.dependence.title for each in rivals]
 
     def work(planned: tuple[PlannedTest, RecordView]) -> RankedTest | None:
         test, view = planned
@@ -86,14 +88,16 @@ def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) 
 def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[PlannedTest, RecordView]]:
     """Tests of the same laboratory, at the last temperature, and one at another where that may matter."""
     views = base.model.views
+    known = {each.dependence.variable for each in rivals}
     usual = None if views[-1].temperature is None else float(np.mean(views[-1].temperature))
     tests = [
         (test, _at(planned_view(test.name, test.time, test.true_strain, test.jumps, views), usual))
         for test in planned_tests(Laboratory.of(base.model, base.parameters))
+        if test.repeats is None or known & {*CHANGE_WITH_A_REPEAT}
     ]
-    if usual is None or all(each.dependence.variable != "temperature" for each in rivals):
+    if usual is None or "temperature" not in known:
         return tests
-    again = next((test for test, _ in tests if test.name == "repeat"), tests[0][0])
+    again = next(iter(repeats(Laboratory.of(base.model, base.parameters))))
     for change in (WARMER, -WARMER):
         what = f"{again.what}, at {usual + change:.0f} °C"
         test = replace(again, name="other_temperature", what=what, repeats=None)
