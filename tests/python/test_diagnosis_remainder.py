@@ -12,6 +12,7 @@ from probation.diagnosis.remainder import remainder_of
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.records.record import Noise
+from probation.records.specimens import Specimens
 
 LAW = Law(unrelaxed_modulus=2500.0, tau_max=5.0, hardening_modulus=2.0)
 NOISE = 0.04
@@ -54,7 +55,7 @@ def campaign(histories, fault, *, temperatures=None, seed=1):
                 noise=Noise(strain=0.0),
             )
         )
-    return Campaign("a remainder", tuple(records))
+    return Campaign("a remainder", tuple(records), specimens=Specimens("none"))
 
 
 def softened(time, strain, temperature, stress):
@@ -187,7 +188,8 @@ def test_without_an_explanation_the_next_tests_settle_what_the_rest_depends_on(u
         assert {name for names in each.separates for name in names} <= variables
         assert each.cost
     assert found.next_test.probability_after > found.next_test.probability_before
-    assert "a function of the largest strain so far" in found.next_test.what
+    assert "between the largest strain so far and" in found.next_test.what
+    assert "unload" in found.next_test.what
 
 
 def test_a_free_function_predicts_a_record_it_was_fitted_to():

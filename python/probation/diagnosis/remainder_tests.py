@@ -12,6 +12,7 @@ from probation.design.planned_record import planned_view
 from probation.design.planned_tests import Laboratory, PlannedTest, planned_tests, repeats
 from probation.design.predicted import Prediction
 from probation.diagnosis.next import as_answer
+from probation.diagnosis.variables import every_phase
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
@@ -32,6 +33,9 @@ INSTANTS = 40
 
 WARMER = 15.0
 """Change of temperature of a planned test [°C]."""
+
+VISITED = 0.02
+"""Part of its samples that a test must have in the phase in which the leading function acts."""
 
 DOUBT = 0.05
 """Added to the part that a function leaves, for the odds between variables."""
@@ -73,10 +77,18 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
         group = list(range(len(rivals)))
         return judged(test, ways, prior, group, answers, names, float(prior.max()), seed=seed)
 
-    found = [each for each in in_parallel(work, _planned(base, rivals), threads) if each is not None]
+    planned = _planned(base, rivals)
+    visiting = [(test, view) for test, view in planned if _visits(view, rivals[0])] or planned
+    found = [each for each in in_parallel(work, visiting, threads) if each is not None]
     if not found:
         return ()
     return as_answer(sorted(found, key=lambda each: -each.worth), float(prior.max()))
+
+
+def _visits(view: RecordView, leading: FreeFunction) -> bool:
+    """Whether a test enters the phase in which the leading function acts."""
+    when = leading.term.when
+    return when is None or int(every_phase((view,), leading.least)[when].sum()) > VISITED * len(view.data)
 
 
 def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) -> Prediction:
