@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import probation
 from campaigns.few_records import few_records, offset
 from probation import diagnose
 from probation.diagnosis.held_out import HeldToAccount, made_worse
@@ -62,7 +63,7 @@ def test_the_errors_of_predictions_stand_in_the_summary(paper):
     assert paper.headline in paper.summary()
 
 
-def test_the_only_record_that_was_predicted_is_fitted_and_none_judges():
+def test_the_only_record_that_was_predicted_is_fitted_and_none_judges(tmp_path):
     found = diagnose(few_records(offset(2.0, "middle"), held_out=("middle",)), design=False)
     assert found.verdict == "not_predicted"
     assert found.best.effects == ("force_offset",)
@@ -71,6 +72,12 @@ def test_the_only_record_that_was_predicted_is_fitted_and_none_judges():
     assert found.shrink.held_out is None
     assert found.shrink.identify.closure > 0.98
     assert "offset of the force in middle explains" in found.headline.lower()
+    found.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "none is left to judge it by" in page
+    assert "What was only predicted" in page
+    again = probation.Diagnosis.from_json(found.to_json())
+    assert (again.verdict, again.held_out, again.summary()) == (found.verdict, found.held_out, found.summary())
 
 
 def test_parameters_that_the_fitted_records_hardly_determine_leave_room_for_an_error():

@@ -105,7 +105,8 @@ def _how_far(found: Diagnosis) -> str:
         f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
     )
     if shrink.held_out is None:
-        return f"{text}. No record was held out, so that nothing here was predicted."
+        none = "The only record that was held out is among them" if found.held_out else "No record was held out"
+        return f"{text}. {none}, so that nothing here was predicted."
     return (
         f"{text}. Records that were held out are predicted to {shrink.held_out.after_MPa:.3g} MPa rms instead of "
         f"{shrink.held_out.before_MPa:.3g} MPa (gap closed: {closed(shrink.held_out)})."
@@ -211,6 +212,8 @@ def _judge(found: Diagnosis) -> str:
     """Whether anything was predicted."""
     if found.shrink.held_out is not None:
         return "Held-out records are the fair judge: nothing was adjusted to them."
+    if found.held_out:
+        return "The only record that was held out was needed to find the cause, so that none is left to judge it by."
     what = "the explanation" if mended_by(found) else "the law"
     return f"No record was held out (--held-out ID), so that {what} was fitted to all that it is judged by."
 
