@@ -88,7 +88,7 @@ def _from_headings(table: Table) -> dict[str, Column]:
                 "one",
                 row=table.header_row,
                 column=column.label,
-                remedy=f"choose by position: columns = {{ {role} = {column.position + 1} }}",
+                remedy=f"choose by position: {_said(role, column.position + 1)}",
             )
         if role is not None:
             implied[role] = column
@@ -165,17 +165,17 @@ def _nothing_for(table: Table, group: tuple[str, ...]) -> InputError:
             f"{len(table.columns)} columns without headings",
             "headings such as time_s,true_strain,true_stress_MPa",
             row=table.row_numbers[0],
-            remedy="add them, or name columns by position: columns = { time = 1, true_strain = 2, … }",
+            remedy="add them, or name columns by position: columns = { time = 1, … } (--column time=1 …)",
         )
     labels = [column.label for column in table.columns]
     vague = [column.label for column in table.columns if normalised(column.name) in VAGUE.get(quantity, ())]
     remedy = (
-        f"{quoted(vague[0])} may be true or engineering: say which, columns = {{ true_{quantity} = … }}"
+        f"{quoted(vague[0])} may be true or engineering: say which, {_said(f'true_{quantity}')}"
         if vague
         else _likeliest_slip(labels, group)
     )
     if quantity == "time":
-        remedy += '; or, of a curve without time, say test_rate = "0.001 1/s"'
+        remedy += '; or, of a curve without time, say test_rate = "0.001 1/s" (--test-rate)'
     return bad_input(
         table.path,
         f"no {quantity} column among {listed(labels, 'and')}",
@@ -190,5 +190,10 @@ def _likeliest_slip(labels: list[str], group: tuple[str, ...]) -> str:
     for label in labels:
         hint = likely(normalised(label), sorted(headings))
         if hint and role_of(label) is None:
-            return f"{hint[:-1]} where it says {quoted(label)}? Or name it: columns = {{ {group[0]} = … }}"
-    return f"name it: columns = {{ {group[0]} = … }}"
+            return f"{hint[:-1]} where it says {quoted(label)}? Or name it: {_said(group[0])}"
+    return f"name it: {_said(group[0])}"
+
+
+def _said(role: str, label: str | int = "…") -> str:
+    """How a column is named, in campaign.toml and on the command line."""
+    return f"columns = {{ {role} = {label} }} (--column {role}={label})"

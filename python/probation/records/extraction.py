@@ -159,7 +159,7 @@ def dimension(table: Table, reading: Reading, options: ReadOptions, key: str, ro
     value = stated.get(key)
     if value is None:
         raise InputError(
-            f"{table.path}: found a {role} but no {key}, expected specimen = {{ {key} = … }}; "
+            f"{table.path}: found a {role} but no {key}, expected specimen = {{ {key} = … }} (--specimen {key}=…); "
             f"a {role} becomes true strain or stress through it"
         )
     return float(value)
@@ -265,7 +265,7 @@ def _in_internal_units(table: Table, role: str, column: Column, values: FloatArr
             f"{ROLES[role].kind} for {role}",
             row=table.header_row,
             column=column.label,
-            remedy=f"correct the heading, or say units = {{ {role} = … }}",
+            remedy=f"correct the heading, or say units = {{ {role} = … }} (--unit {role}=…)",
         ) from None
 
 
@@ -334,14 +334,14 @@ def _unstated_units(
     entries = ", ".join(f'{role} = "…"' for role in bare)
     return (
         f"no unit is stated for {noun} {labels} of {table.path.name}: {assumed} assumed; "
-        f"if that is wrong, say units = {{ {entries} }}",
+        f"if that is wrong, say units = {{ {entries} }} (--unit)",
     )
 
 
 def _roles_of_units(table: Table, columns: Mapping[str, Column], options: ReadOptions) -> list[str]:
     return [
         f"column {quoted(column.label)} is read as {role}: its heading is a unit and nothing else; "
-        f"if that is wrong, say columns = {{ … }}"
+        f"if that is wrong, say columns = {{ … }} (--column)"
         for role, column in columns.items()
         if role not in options.columns and not table.roles and is_role_of_unit(role, column)
     ]

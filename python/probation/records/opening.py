@@ -17,7 +17,7 @@ def several_specimens(path: Path, count: int) -> InputError:
         path,
         f"{count} specimens side by side",
         "a choice",
-        remedy=f"say specimen_index = 1 … {count}",
+        remedy=f"say specimen_index = 1 … {count} (--specimen-index)",
     )
 
 

@@ -69,7 +69,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
     reading = read_tables(source, grid, options)
     like = tuple(other for other, (grid, _) in long if _is_headed_alike(grid, reading.tables[0]))
     ignored = [other for other, _ in filled if other != name]
-    note = f"read sheet {quoted(name)} only; choose another with sheet = …: {', '.join(ignored)}"
+    note = f"read sheet {quoted(name)} only; choose another with sheet = … (--sheet): {', '.join(ignored)}"
     return replace(
         reading,
         tables=tuple(_as_shown(table, percents) for table in reading.tables),
