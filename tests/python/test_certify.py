@@ -164,7 +164,7 @@ def ramps(*tests, **settings):
         law = probation.Law(unrelaxed_modulus=modulus, tau_max=tau, hardening_modulus=hardening)
         stress = law.stress(time, rate * time, scheme="exact") + NOISE * random.standard_normal(len(time))
         records.append(probation.Record(f"ramp{at}", time, rate * time, stress, control="strain-rate", role=role))
-    return probation.Campaign("ramps", tuple(records), LawSettings(**settings))
+    return probation.Campaign("ramps", tuple(records), LawSettings(**settings), probation.Specimens("none"))
 
 
 def test_a_time_that_differs_between_the_records_identified_together_is_what_fails():

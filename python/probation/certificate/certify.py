@@ -108,17 +108,18 @@ def certify(
 
     base = step(trial.base())
     gap = gap_of(campaign)
+    scatter = None if gap is None else gap.scatter
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
     predictions = {
         record.id: predict(source, known, record, tolerance, excitation, relation)
         for source, known, record in _pairs(trial, base, step)
     }
     free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
-    own = {record: estimates(found, record, relation=relation) for record, found in free.items()}
+    own = {record: estimates(found, record, relation=relation, specimens=scatter) for record, found in free.items()}
     modulus, modulus_error = _modulus(base, own, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
     known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
     alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
-    held = {record: estimates(found, record, modulus_error, relation) for record, found in alone.items()}
+    held = {record: estimates(found, record, modulus_error, relation, scatter) for record, found in alone.items()}
     parameters = _judge(own, held)
     failing = [name for name, each in parameters.items() if not each.passes]
     kept = [name for name in parameters if name not in failing]

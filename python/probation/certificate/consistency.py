@@ -28,12 +28,15 @@ class Estimate:
     shifts : tuple of float
         What one standard error of each common cause moves it by: of E_u, held on all records alike, and of what the
         companion relation was calibrated with.
+    se_specimen : float
+        What its specimen may differ by from others: no error of the value, but none of a difference either.
     """
 
     value: float
     se: float | None
     se_noise: float | None
     shifts: tuple[float, ...] = ()
+    se_specimen: float = 0.0
 
     @property
     def total_se(self) -> float | None:
@@ -74,7 +77,8 @@ class Consistency:
     def contradicts(self, value: float) -> bool:
         """Whether some record says clearly, by `CERTIFICATE.clearly`, that the parameter has another value."""
         return any(
-            each.total_se and abs(each.value - value) > CERTIFICATE.clearly * each.total_se
+            each.total_se
+            and abs(each.value - value) > CERTIFICATE.clearly * np.hypot(each.total_se, each.se_specimen)
             for each in self.by_record.values()
         )
 
@@ -101,7 +105,9 @@ def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
         return float(np.mean([each.value for each in by_record.values()])), 1.0, False
     values = np.array([each.value for each in known])
     shifts = np.array([each.shifts for each in known])
-    precision = np.linalg.inv(np.diag([each.se**2 for each in known if each.se]) + shifts @ shifts.T)
+    precision = np.linalg.inv(
+        np.diag([each.se**2 + each.se_specimen**2 for each in known if each.se]) + shifts @ shifts.T
+    )
     mean = float(precision.sum(axis=0) @ values / precision.sum())
     if len(values) < 2:
         return mean, 1.0, False

@@ -102,7 +102,12 @@ class Certificate(Result, Stored):
                     "p_value": each.p_value,
                     "mean": each.mean if each.passes else None,
                     "by_record": {
-                        record: {"value": found.value, "se": found.total_se, "se_noise": found.se_noise}
+                        record: {
+                            "value": found.value,
+                            "se": found.total_se,
+                            "se_noise": found.se_noise,
+                            "se_specimen": found.se_specimen,
+                        }
                         for record, found in each.by_record.items()
                     },
                 }

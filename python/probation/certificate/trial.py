@@ -21,13 +21,17 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
-    from probation.identify.result import Fit
+    from probation.identify.result import Fit, RecordFit
+    from probation.inference.scatter import Scatter
     from probation.law.schemes import Scheme
     from probation.law.settings import LawSettings
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
     from probation.smoothing.methods import Method as ExcitationMethod
 
+
+LATE = 1e-6
+"""Strain over which the start of a specimen's strain is shifted for a difference quotient [-]."""
 
 PARAMETERS = 3
 """Of the law: E_u, tau_max or alpha, G."""
@@ -94,8 +98,24 @@ def companion_factor(found: Fit, excitation: Excitation, relation: CalibratedCom
     return relation.prediction_factor(found.law, excitation, scheme=scheme_of(found.scheme, found.start), scatter=False)
 
 
+def specimen_factor(found: Fit, record: RecordFit, scatter: Scatter | None) -> FloatArray:
+    """What deviations of a record's specimen do to its stress, of one standard deviation each, (n_times, k) [MPa]."""
+    if scatter is None or not scatter.any:
+        return np.zeros((len(record.time), 0))
+    history = record.excitation
+    scheme = scheme_of(found.scheme, found.start)
+    late = replace(history, true_strain=history.true_strain - LATE * (np.arange(len(record.time)) > 0))
+    stress, shifted = (found.law.stress(each.strain_history(), scheme=scheme) for each in (history, late))
+    columns = np.column_stack([record.sensitivity * found.law.parameters, stress, (shifted - stress) / LATE])
+    return np.asarray(columns * np.array(scatter.deviations))
+
+
 def estimates(
-    found: Fit, record_id: str, modulus_error: float = 0.0, relation: CalibratedCompanion | None = None
+    found: Fit,
+    record_id: str,
+    modulus_error: float = 0.0,
+    relation: CalibratedCompanion | None = None,
+    specimens: Scatter | None = None,
 ) -> dict[str, Estimate]:
     """What a fit on one record alone says of its parameters, with noise and model bias in the errors.
 
@@ -107,6 +127,8 @@ def estimates(
         Standard error of E_u [MPa] where the fit holds it.
     relation : CalibratedCompanion, optional
         What is known of the law's companion relation.
+    specimens : Scatter, optional
+        How far specimens differ.
     """
     free = free_parameters(found)
     record = found.records[record_id]
@@ -115,6 +137,8 @@ def estimates(
         [record.sensitivity[:, 0] * modulus_error, companion_factor(found, record.excitation, relation)]
     )
     moves = -np.linalg.lstsq(record.sensitivity[:, free], common, rcond=None)[0]
+    deviations = specimen_factor(found, record, specimens)
+    apart = np.linalg.norm(np.linalg.lstsq(record.sensitivity[:, free], deviations, rcond=None)[0], axis=1)
     scatter = 0.0 if relation is None else relation.log_scatter  # of single tests: in tau_max, and so in alpha
     result = {}
     for position, index in enumerate(free):
@@ -125,7 +149,8 @@ def estimates(
         if error is None or error > CERTIFICATE.weakly_identifiable * abs(known.value):
             result[name] = Estimate(known.value, None, None)
         else:
-            result[name] = Estimate(known.value, error, known.se, tuple(moves[position].tolist()))
+            shifts = tuple(moves[position].tolist())
+            result[name] = Estimate(known.value, error, known.se, shifts, float(apart[position]))
     return result
 
 

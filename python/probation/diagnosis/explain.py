@@ -74,7 +74,7 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
     assumed, of the specimens that were tested. A parameter at its bound has none.
     """
     found = base.refit
-    covariance = base.covariance_of_tested if base.scatter.source == "assumed" else base.covariance
+    covariance = base.covariance if base.scatter.known else base.covariance_of_tested
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     result = []
     ended = np.any(found.at_bound, axis=0)

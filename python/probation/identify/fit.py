@@ -16,6 +16,7 @@ from probation.identify.describe import describe
 from probation.identify.given import given
 from probation.identify.profile import INTERVALS, Intervals
 from probation.identify.result import METHODS, Fit, Method
+from probation.identify.scattered import with_scatter
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, weigh
@@ -33,6 +34,7 @@ from probation.smoothing.excitation import excite
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from probation.inference.base_fit import BaseFit
     from probation.records.campaign import Campaign
     from probation.smoothing.methods import Method as ExcitationMethod
 PARAMETERS = 3
@@ -134,7 +136,7 @@ def fit(
         progress(0.9)
     found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
     if gap and not bounds and excitation == "auto":
-        found = replace(found, gap=gap_of(campaign, hold, predicted=False))
+        found = _judged(found, campaign, hold)
     if progress:
         progress(1.0)
     return found
@@ -171,11 +173,24 @@ def gap_of(campaign: Campaign, hold: Mapping[str, float] | None = None, *, predi
     Gap or None
         None where the records are too few or too odd for the test.
     """
-    few = thin(campaign)[0]
     try:
-        return find_gap(base_fit(few, plain_fit(few, hold=hold)).screened(effects()), effects(), predicted=predicted)
+        return find_gap(_base_of(campaign, hold), effects(), predicted=predicted)
     except UNSOLVABLE:
         return None
+
+
+def _judged(found: Fit, campaign: Campaign, hold: Mapping[str, float] | None) -> Fit:
+    """The fit with the test for a gap, and its errors with what replicates show of the specimens' scatter."""
+    try:
+        base = _base_of(campaign, hold)
+        return with_scatter(replace(found, gap=find_gap(base, effects(), predicted=False)), base)
+    except UNSOLVABLE:
+        return found
+
+
+def _base_of(campaign: Campaign, hold: Mapping[str, float] | None) -> BaseFit:
+    few = thin(campaign)[0]
+    return base_fit(few, plain_fit(few, hold=hold)).screened(effects())
 
 
 def _least_squares(

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from probation.law.schemes import Scheme, SchemeName, Start
 
 Method = Literal["least-squares", "variable-projection", "simplex"]
+ErrorsOf = Literal["specimens", "material"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")
 
 
@@ -125,6 +126,11 @@ class Fit(Result, Stored):
         How many parameters of the noise were estimated.
     warnings : tuple of str
     data_sha256 : str
+    gap : Gap or None
+        Whether the records hold more than noise; None where that was not tested.
+    errors_of : {"specimens", "material"}
+        Whose parameters the standard errors and intervals are of: the specimens' that were tested, or, where
+        their scatter is known from replicates or stated, the material's mean.
     """
 
     SCHEMA: ClassVar[str] = "probation.fit/1"
@@ -153,6 +159,7 @@ class Fit(Result, Stored):
     warnings: tuple[str, ...] = field(default=())
     data_sha256: str = ""
     gap: Gap | None = None
+    errors_of: ErrorsOf = "specimens"
 
     @from_curves
     def rms_MPa(self) -> float:
@@ -325,6 +332,8 @@ class Fit(Result, Stored):
         bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({part} % of the largest stress)"
         if self.gap is not None and not self.gap.in_fitted:
             quality = "the law describes the records to within their noise"
+            if self.gap.hangs_on_scatter:
+                quality += f" and their specimens' differences ({self.gap.scatter.text})"
         elif self.bias_MPa > 2.0 * self.noise_MPa:
             quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:
@@ -368,6 +377,7 @@ class Fit(Result, Stored):
             "weighting": self.weighting,
             "intervals": "profile" if self.profiles else "standard-error",
             "autocorrelated": self.autocorrelated,
+            "errors_of": self.errors_of,
             "residual": {"rms_MPa": self.rms_MPa, "noise_MPa": self.noise_MPa, "bias_MPa": self.bias_MPa},
             "scheme_error": {
                 "max_MPa": self.scheme_error_MPa,

@@ -187,6 +187,8 @@ class Gap:
             "held_out": self.in_held_out,
             "p_value": self.test.p_value,
             "size": self.size.to_dict(),
+            "scatter": self.scatter.to_dict(),
+            "if_alike": self.in_fitted or self.hangs_on_scatter,
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
         }
 

@@ -92,6 +92,11 @@ class Scatter:
         return f"specimens {'are said to ' if self.source == 'stated' else ''}differ by {listed(parts, 'and')}"
 
     @property
+    def known(self) -> bool:
+        """Whether it is more than an assumption: from replicates, or stated."""
+        return self.source in ("replicates", "stated")
+
+    @property
     def any(self) -> bool:
         """Whether specimens may differ at all."""
         return any(size > 0.0 for size in self.deviations)

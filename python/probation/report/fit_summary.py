@@ -46,6 +46,8 @@ def fit_summary(fit: Fit) -> str:
         )
     steps = f", {fit.substeps} steps from sample to sample" if fit.substeps > 1 else ""
     lines += ["", f"  {fit.method}, scheme {fit.scheme}{steps}, start {fit.start}", f"  {noise_text(fit)}"]
+    if whose := errors_text(fit):
+        lines.append(f"  {whose}")
     lines += [f"  warning: {warning}" for warning in fit.warnings]
     return "\n".join(lines)
 
@@ -68,6 +70,15 @@ def noise_text(fit: Fit) -> str:
         what += "; autocorrelated fit residuals (Newey-West)"
     intervals = "; intervals from the profile likelihood" if fit.profiles else ""
     return f"standard errors for {what}{intervals}"
+
+
+def errors_text(fit: Fit) -> str:
+    """Whose parameters the errors are of, where specimens may differ; empty where that was not looked at."""
+    if fit.gap is None or not fit.gap.scatter.any:
+        return ""
+    if fit.errors_of == "material":
+        return f"they are of the material's mean: {fit.gap.scatter.text}"
+    return "they are of the specimens that were tested; how far others differ is not known"
 
 
 def estimate_text(parameter: Parameter) -> str:
