@@ -4,6 +4,7 @@ import pytest
 
 from campaigns.replicates import LAW, replicates
 from probation import fit
+from probation.inference.parameter import outside_name as known_as
 
 TRUTH = dict(zip(("unrelaxed_modulus", "alpha", "hardening_modulus"), LAW.parameters, strict=True))
 
@@ -20,6 +21,7 @@ def test_replicates_widen_the_errors_to_those_of_the_material(replicated):
         known = replicated.parameters[name]
         assert 0.004 < known.se / true < 0.05
         assert known.interval95[0] < true < known.interval95[1]
+        assert replicated.covariance[known_as(name), known_as(name)] == pytest.approx(known.se**2)
     assert "specimens' differences" in replicated.verdict
     assert "of the material's mean: specimens differ by" in replicated.summary()
 

@@ -54,6 +54,7 @@ def with_scatter(found: Fit, base: BaseFit) -> Fit:
         parameters=parameters,
         product=product,
         correlation=total / np.outer(deviation, deviation),
+        covariance=replace(found.covariance, matrix=total),
         errors_of="material",
     )
 
