@@ -77,8 +77,7 @@ class Consistency:
     def contradicts(self, value: float) -> bool:
         """Whether some record says clearly, by `CERTIFICATE.clearly`, that the parameter has another value."""
         return any(
-            each.total_se
-            and abs(each.value - value) > CERTIFICATE.clearly * np.hypot(each.total_se, each.se_specimen)
+            each.total_se and abs(each.value - value) > CERTIFICATE.clearly * np.hypot(each.total_se, each.se_specimen)
             for each in self.by_record.values()
         )
 
