@@ -52,6 +52,7 @@ campaign = probation.Campaign.from_arrays(
     control="strain-rate",
     law=probation.LawSettings(companion=probation.CompanionSettings("weissenberg", relation)),
     name="voids",
+    specimens=probation.Specimens("none"),  # virtual specimens are alike
 )
 diagnosis = probation.diagnose(
     campaign,

@@ -49,6 +49,7 @@ campaign = probation.Campaign.from_arrays(
     },
     law=probation.LawSettings(companion=probation.CompanionSettings("weissenberg", relation)),
     name="sound",
+    specimens=probation.Specimens("none"),  # virtual specimens are alike
 )
 diagnosis = probation.diagnose(campaign)
 print(diagnosis.verdict)

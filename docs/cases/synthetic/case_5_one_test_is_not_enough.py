@@ -44,6 +44,7 @@ campaign = probation.Campaign.from_arrays(
         fixed={"unrelaxed_modulus_MPa": 3220.0},
     ),
     name="one-test",
+    specimens=probation.Specimens("none"),  # virtual specimens are alike
 )
 diagnosis = probation.diagnose(
     campaign,
