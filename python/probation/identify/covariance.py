@@ -11,6 +11,7 @@ from scipy.special import ndtri, stdtrit
 
 from probation.inference.information import inverse_information
 from probation.noise.whiteness import correlation_lags
+from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -103,13 +104,13 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
 def noise_widening(noises: Sequence[NoiseModel]) -> float:
     """By how much standard errors widen because autocorrelated noise is only known as its estimate is.
 
-    The variance v of the logarithm of its spectrum at low frequency is that of a variance from 2 / v samples: the ratio
+    The variance v of the logarithm of its spectrum where it matters is that of a variance from 2 / v samples: the ratio
     of Student's quantiles for so many and for all of them.
     """
     if all(noise.correlation == 0.0 for noise in noises):
         return 1.0
     level = 1.0 / sum(1.0 / max(noise.level_variance, 1e-12) for noise in noises)
-    variance = max(noise.shape_variance for noise in noises) + level
+    variance = CERTIFICATE.slow_noise_share * max(noise.shape_variance for noise in noises) + level
     return float(stdtrit(2.0 / variance, 0.975) / ndtri(0.975)) if variance > 1e-6 else 1.0
 
 

@@ -128,6 +128,17 @@ class CertificateSettings:
         origin="chosen",
         used_in="noise/whiteness.py",
     )
+    slow_noise_share: float = setting(
+        0.25,
+        (
+            "Part of the variance of autocorrelated noise's level at frequency zero that widens standard errors: "
+            "parameters weigh higher frequencies, too, whose level is known better."
+        ),
+        unit="-",
+        origin="calibrated",
+        source="coverage of fits with AR(1) noise of 0.5 and 0.8 on ramps of 150 to 600 samples",
+        used_in="identify/covariance.py",
+    )
     negligible_scheme_shift: float = setting(
         0.1,
         "Shift of a parameter by the scheme's own error that is let pass [standard errors].",
