@@ -26,7 +26,7 @@ from probation.errors import InputError
 OLD = "what was there before\n"
 LAW = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "tau_max_s=5.2", "--set", "hardening_modulus_MPa=2.5"]
 MAKE = ["--seed", "7", "--count", "1", "--processes", "1"]
-READ = {"--truth", "--require", "--truths", "--answers", "--beside"}
+READ = {"--strain-file", "--truth", "--require", "--truths", "--answers", "--beside"}
 """Options that name files or folders and only read them; --truths and --answers, where `blind score` has them."""
 
 
