@@ -200,3 +200,18 @@ def test_a_free_function_predicts_a_record_it_was_fitted_to():
         stress, spread = first.on(view)
         assert np.sqrt(np.mean((stress - view.data) ** 2)) < 2.0 * first.error_MPa
         assert spread.shape[0] == len(view.data)
+
+
+def test_a_function_of_the_specimen_says_of_which():
+    """The second of three reads 2 MPa too much; its level is no function that another record could confirm."""
+
+    def second_is_higher(time, strain, temperature, stress):
+        return stress + 2.0 * (time[-1] > 3000.0) * np.minimum(strain / 0.02, 1.0)
+
+    found = campaign(CYCLES, second_is_higher)
+    base = base_fit(found, plain_fit(found))
+    left = float(np.sqrt(np.mean(base.model.residual(base.parameters) ** 2)))
+    told = remainder_of(base, base.refit, Closure(left, left, NOISE, None, None, ""))
+    own = next(each for each in told.depends_on if each.variable in ("specimen", "order"))
+    assert own.explained > 0.5
+    assert "of 3 ." not in told.description

@@ -16,7 +16,6 @@ from probation.inference.candidate import cause_key
 from probation.inference.refit import refit
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
-from probation.noise.own_deviations import own_deviations
 from probation.parallel import in_parallel
 from probation.settings.evidence import EVIDENCE
 
@@ -114,7 +113,9 @@ def attribution(
     best = weighed[0]
     known = best.hypothesis.effects if best.effects else ()
     squares = _squares(base, best.hypothesis, known, found, threads)
-    gap = squares[()] - min(closure.noise_MPa, closure.after_MPa) ** 2
+    differ = _differ(base)
+    floor = 1.0 if differ else closure.noise_MPa**2
+    gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
     named = _named(known, closed)
     shares = _shapley(known, closed)
@@ -142,7 +143,7 @@ def attribution(
     return Attribution(
         effects=tuple(entries),
         named=tuple(sorted(named, key=lambda name: -shares[name])),
-        after_MPa=float(np.sqrt(squares[named])),
+        after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
         probability=min(sum(each.probability for each in weighed if {*named} <= {*each.effects}), 1.0),
     )
 
@@ -150,7 +151,11 @@ def attribution(
 def _squares(
     base: BaseFit, best: Hypothesis, known: tuple[str, ...], found: Sequence[Hypothesis], threads: int
 ) -> dict[tuple[str, ...], float]:
-    """Mean square of what every part of the best explanation leaves, law and effects refitted [MPa^2]."""
+    """Mean square of what every part of the best explanation leaves, law and effects refitted [MPa^2].
+
+    Where specimens differ, in units of the noise: their deviations are refitted with every part, and only there does a
+    part never close more than the whole.
+    """
     solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
@@ -167,18 +172,24 @@ def _squares(
 
     refits = dict(zip(parts, in_parallel(fitted, parts, threads), strict=True))
     best_refit = best.refit if known else base.refit
-    own = np.concatenate(own_deviations(_errors(base, best_refit), base.whitened.noises))
-    squares = {(): _mean_square(base, base.refit, own), known: _mean_square(base, best_refit, own)}
+    squares = {(): _mean_square(base, base.refit), known: _mean_square(base, best_refit)}
     for part, each in refits.items():
         # What cannot be solved closes no more than its own parts do.
         below = [squares[smaller] for smaller in squares if {*smaller} < {*part}]
-        squares[part] = _mean_square(base, each, own) if each is not None else min(below)
+        squares[part] = _mean_square(base, each) if each is not None else min(below)
     return squares
 
 
-def _mean_square(base: BaseFit, found: Refit, own: FloatArray) -> float:
-    """Of the errors on the fitted records without the specimens' own deviations, shape (n_samples,) [MPa^2]."""
-    return float(np.mean((np.concatenate(_errors(base, found)) - own) ** 2))
+def _mean_square(base: BaseFit, found: Refit) -> float:
+    """Of the errors on the fitted records [MPa^2]; of the whitened ones where specimens differ."""
+    if _differ(base):
+        return found.chi_square / len(found.residual)
+    return float(np.mean(np.concatenate(_errors(base, found)) ** 2))
+
+
+def _differ(base: BaseFit) -> bool:
+    """Whether specimens may differ."""
+    return any(noise.specimen is not None for noise in base.whitened.noises)
 
 
 def _errors(base: BaseFit, found: Refit) -> list[FloatArray]:

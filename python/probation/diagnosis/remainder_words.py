@@ -78,8 +78,10 @@ def _size(curve: RemainderCurve) -> str:
 
 
 def _place(curve: RemainderCurve, at: int) -> str:
-    name, _, unit = curve.label.partition(" [")
+    name, bracket, unit = curve.label.partition(" [")
     value = float(curve.function_x[at])
+    if not bracket:  # a count or a group
+        return f"{name} {value:.0f}"
     if unit.startswith("log₁₀"):
         return f"a strain rate of {10.0**value:.2g} 1/s"
     shown = f"{value:.3g} {unit.rstrip(']')}".removesuffix(" –")

@@ -120,12 +120,18 @@ def every_variable(views: Sequence[RecordView], specimens: Sequence[str]) -> lis
         Variable(
             "loading_or_unloading",
             "whether the strain grows, is held or falls",
-            "-1: unloading, 0: hold, 1: loading",
+            "direction of straining (−1: unloading, 0: hold, 1: loading)",
             stacked(_direction),
             is_category=True,
         ),
-        Variable("order", "the order of the tests", "number of the test", number(lambda view: 1.0 + view.index)),
-        Variable("specimen", "the specimen", "specimen", number(lambda view: place[view.id]), is_category=True),
+        Variable("order", "the order of the tests", "test number", number(lambda view: 1.0 + view.index)),
+        Variable(
+            "specimen",
+            "the specimen",
+            "specimen number",
+            number(lambda view: 1.0 + place[view.id]),
+            is_category=True,
+        ),
     ]
     temperatures = [view.temperature for view in views]
     if all(each is not None for each in temperatures):
