@@ -89,7 +89,7 @@ def _program_figures(block: tuple, block_vars: dict, gallery_conf: dict) -> str:
         return ""
     _SHOWN.add(shown)
     path = next(block_vars["image_path_iterator"])
-    shown.savefig(path, dpi=200)
+    shown.savefig(path, dpi=120)  # about the size that it is drawn for
     return figure_rst([path], gallery_conf["src_dir"])
 
 

@@ -34,9 +34,7 @@ for name, rate in rates.items():
     if name == "medium":
         force = true_stress * np.exp(-test.true_strain)  # over the initial section
         recorded = np.log(np.exp(test.true_strain) + given_way * force)
-        true_stress = force * np.exp(
-            recorded
-        )  # what the laboratory makes of force and recorded strain
+        true_stress = force * np.exp(recorded)  # as the laboratory computes it
     time.append(test.time)
     strain.append(recorded)
     stress.append(true_stress + noise.normal(0.0, 0.04, len(test.time)))
