@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.scatter import Scatter
+    from probation.inference.screen import Column
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
 
@@ -226,39 +227,39 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    test = _survivor(base, sizes, seed)
+    test = _survivor(base.whitened, base.signals, sizes, seed)
     alike = None
     if base.scatter.any and not test.rejected:
-        columns = WhitenedColumns.of(base.signals, Whitener(base.alike.noises), len(base.alike))
-        alike = with_sharp(GapTester(base.alike, columns.by_effect(), seed=seed)(), base.alike)
+        alike = _tested(base.alike, base.signals, seed)
     held_out = {}
     for record, noise in zip(*predictions(base), strict=True) if predicted else ():
         whitened = Whitened.of([record], [noise])
         view = next(view for view in base.views if view.id == record.name)
         signals = screen(CampaignModel(base.law, [view]), base.parameters, effects, threads=threads)
-        columns = WhitenedColumns.of(signals, Whitener((noise,)), len(record))
-        found = with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
+        found = _survivor(whitened, signals, sizes, seed)
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 
-def _survivor(base: BaseFit, sizes: Mapping[str, GapSize], seed: int) -> GapTest:
-    """The test of the fitted records; of a gap that is a fraction of the noise, the most doubtful of its answers.
+def _survivor(whitened: Whitened, signals: Sequence[Column], sizes: Mapping[str, GapSize], seed: int) -> GapTest:
+    """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
     Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
     level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
-    test = with_sharp(GapTester(base.whitened, base.columns.by_effect(), seed=seed)(), base.whitened)
-    noises = base.whitened.noises
+    test = _tested(whitened, signals, seed)
+    noises = whitened.noises
     if not test.rejected or any(sizes[noise.name].rms_MPa > FRACTION * _rms(noise.deviation) for noise in noises):
         return test
-    drifting = tuple(_drifting(noise) for noise in noises)
-    whitened = Whitened.of(base.whitened.records, drifting)
-    columns = WhitenedColumns.of(base.signals, Whitener(drifting), len(whitened))
-    other = with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
+    other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
+
+
+def _tested(whitened: Whitened, signals: Sequence[Column], seed: int) -> GapTest:
+    columns = WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
+    return with_sharp(GapTester(whitened, columns.by_effect(), seed=seed)(), whitened)
 
 
 def _drifting(noise: NoiseModel) -> NoiseModel:
