@@ -120,7 +120,6 @@ def test_a_history_that_cannot_be_is_refused_when_it_is_made(options, message):
             r"SA3\(substeps=2\); .* substeps=1",
         ),
         (lambda: LAW.sensitivity(HISTORY, scheme=probation.SA3(substeps=2), directions=[]), r"SA3\(substeps=2\)"),
-        (lambda: probation.fit(None, probation.SA3(substeps=2)), r"SA3\(substeps=2\)"),
     ],
 )
 def test_a_call_that_does_not_fit_together_is_named(call, message):

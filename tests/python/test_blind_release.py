@@ -5,6 +5,7 @@ import json
 import pytest
 
 from probation.cli import main
+from probation.commands import progress
 from probation.errors import InputError
 from probation_studies.blind import make as making
 from probation_studies.blind import release
@@ -98,10 +99,11 @@ def test_a_scored_test_split_says_that_it_is_too_small_and_spends_its_seed(tmp_p
 
 def test_a_small_test_split_is_made_with_a_warning(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(making, "_make_one", lambda *_: "")
+    monkeypatch.setattr(progress, "LOGGED_AFTER", 0.0)
     make = ["blind", "make", "--seed", "9", "--count", "20", "--processes", "1", "--out"]
     assert main([*make, str(tmp_path / "one"), "--split", "test"]) == 0
     told = capsys.readouterr().err
     assert "--count: found 20; a release takes 600 or more, 250 nulls among them" in told
-    assert "making test: 2 of 20" in told
+    assert "making test: 10 %" in told
     assert main([*make, str(tmp_path / "two")]) == 0
     assert "release" not in capsys.readouterr().err

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from probation import Campaign, diagnose
+from probation import Campaign, Specimens, diagnose
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data"
 pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured records are not beside the checkout")
@@ -48,7 +48,9 @@ def test_neither_rate_effect_alone_describes_vhb_down_to_its_noise():
     for each in whole.records:
         role = "held-out" if each.id == "0d03_3d0" else "identify"
         records.append(thinned(each, 40, int(np.argmax(each.true_strain)) + 1, role))
-    found = diagnose(replace(whole, records=tuple(records)), effects=[RATE, HARDENING], design=False)
+    found = diagnose(
+        replace(whole, records=tuple(records), specimens=Specimens("none")), effects=[RATE, HARDENING], design=False
+    )
     assert found.verdict == "unexplained"
     assert set(found.best.effects) <= {RATE, HARDENING, "unknown"}
     assert found.shrink.identify.before_MPa > 20 * found.noise_MPa
@@ -61,7 +63,11 @@ def test_what_leaves_five_times_the_noise_stands_beside_something_unknown():
     files = [DATA / "vhb4910" / f"{name}.csv" for name in ("0d01_3d0", "0d05_3d0")]
     whole = Campaign.from_files(files, control="displacement-rate")
     records = tuple(thinned(each, 10, int(np.argmax(each.true_strain)) + 1) for each in whole.records)
-    found = diagnose(replace(whole, records=records), effects=(HARDENING, "spectrum_shape"), design=False)
+    found = diagnose(
+        replace(whole, records=records, specimens=Specimens("none")),
+        effects=(HARDENING, "spectrum_shape"),
+        design=False,
+    )
     assert found.verdict == "unexplained"
     assert found.shrink.identify.after_MPa > 4.0 * found.noise_MPa
     assert "unknown" in found.best.effects

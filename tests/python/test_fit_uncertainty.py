@@ -87,7 +87,7 @@ def test_bands_hold_what_they_promise_under_autocorrelated_noise(correlation, le
 
 
 def test_autocorrelated_noise_widens_the_confidence_band():
-    """By sqrt((1 + 0.6)/(1 - 0.6)) = 2 about."""
+    """By less than sqrt((1 + 0.6)/(1 - 0.6)) = 2: of white noise, too, slow noise that nobody sees is allowed for."""
 
     def noisy(correlation):
         random = np.random.default_rng(3)
@@ -98,7 +98,7 @@ def test_autocorrelated_noise_widens_the_confidence_band():
         for rho in (0.0, 0.6)
     )
     ratio = np.median(wide.standard_error[1:] / plain.standard_error[1:])
-    assert 1.5 < ratio < 2.7
+    assert 1.2 < ratio < 2.7
 
 
 def test_a_band_can_be_asked_for_at_another_level_and_drawn():

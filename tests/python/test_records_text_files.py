@@ -212,7 +212,7 @@ def test_a_column_without_a_unit_says_so_in_one_line(read):
     told = [warning for warning in warnings if "no unit" in warning]
     assert told == [
         "no unit is stated for columns 'Displacement' and 'Load' of record.csv: mm and N assumed; "
-        'if that is wrong, say units = { displacement = "…", force = "…" }'
+        'if that is wrong, say units = { displacement = "…", force = "…" } (--unit)'
     ]
     stated = read("Displacement;Load;Time (s)\n" + rows, specimen=SPECIMEN, units={"force": "kN", "displacement": "mm"})
     assert not any("no unit" in warning for warning in stated.warnings)

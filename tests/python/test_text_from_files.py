@@ -3,6 +3,7 @@
 import io
 import json
 import sys
+import time
 from xml.etree import ElementTree
 
 import numpy as np
@@ -12,6 +13,7 @@ import probation
 from probation import cli
 from probation._text import printable, printable_lines, printed_escaped
 from probation.answers import json_answer
+from probation.commands import progress
 from probation.commands.delivery import tell
 from probation.commands.progress import shown
 from probation.exporting.exporting import export_law
@@ -120,8 +122,10 @@ def test_markup_in_a_name_is_no_markup_of_the_progress_bar(monkeypatch):
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr(progress, "SHOWN_AFTER", 0.0)
     with printed_escaped(), shown("on [/] [red]x\x1b[5m[/red]") as advance:
         advance(1, 2, "[/nonsense]")
+        time.sleep(0.3)
     assert "[/] [red]x\\u001b[5m[/red]" in terminal.getvalue()
     assert "\x1b[5m" not in terminal.getvalue()
 

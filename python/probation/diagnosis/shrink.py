@@ -53,8 +53,7 @@ def shrink_of(
     noises = {noise.name: noise for noise in base.whitened.noises} | {
         noise.name: noise for noise in base.held_out_noises
     }
-    own = _of_specimens(base, after)
-    before, after = ({name: values - own.get(name, 0.0) for name, values in each.items()} for each in (before, after))
+    before, after = (_without_specimens(base, each) for each in (before, after))
     pieces = {
         view.id: Piece(
             without_outliers(before[view.id] - view.data, noises[view.id].outliers),
@@ -120,14 +119,15 @@ def _predicted(
     return found
 
 
-def _of_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """What of the residuals of the identify records their specimens' deviations make; by record [MPa]."""
+def _without_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Predictions by record [MPa] as they are once each specimen of an identify record has its own deviations."""
     noises, views = base.whitened.noises, base.model.views
     residuals = [
         without_outliers(predicted[view.id] - view.data, noise.outliers)
         for view, noise in zip(views, noises, strict=True)
     ]
-    return {view.id: part for view, part in zip(views, own_deviations(residuals, noises), strict=True)}
+    own = {view.id: part for view, part in zip(views, own_deviations(residuals, noises), strict=True)}
+    return {name: values - own.get(name, 0.0) for name, values in predicted.items()}
 
 
 def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:

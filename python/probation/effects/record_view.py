@@ -14,8 +14,6 @@ from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
 from probation.smoothing.excitation import excite
-from probation.smoothing.penalised_spline import smooth_cubic
-from probation.smoothing.segmented import smooth_segments
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -160,6 +158,9 @@ class RecordView:
 
         It owes nothing to a law, unlike `nominal_data`; knees between jumps are rounded.
         """
+        from probation.smoothing.penalised_spline import smooth_cubic  # noqa: PLC0415 - few need scipy.interpolate
+        from probation.smoothing.segmented import smooth_segments  # noqa: PLC0415
+
         time, samples = self.sampled(self.time), self.data / self.sampled(self.stretch)
         jumps = [jump // self.stride for jump in self.jumps]
         smooth = smooth_segments(smooth_cubic, time, samples, jumps, noise=0.0).true_strain
