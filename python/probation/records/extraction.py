@@ -101,7 +101,7 @@ def extract(
         return _filmed(table, reading, options, columns, raw, samples, film)
     role = next(role for role in STRAIN_ROLES if role in columns)
     column = columns[role]
-    stated = role in options.units or column.unit is not None or bool(table.roles)  # a profile knows its strain
+    stated = role in options.units or column.unit is not None
     length = dimension(table, reading, options, "gauge_length_mm", role) if role == "displacement" else None
     stretch = stretch_from(role, samples[role], length)
     _check_stretch(table, role, column, raw, stretch, stated)
