@@ -43,14 +43,16 @@ class EvidenceSettings:
         0.08,
         "Prior probability of an effect outside the catalogue.",
         unit="probability",
-        origin="chosen",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
         used_in="diagnosis/probabilities.py",
     )
     unknown_with_known: float = setting(
         0.01,
         "Prior probability of an effect outside the catalogue jointly with one of it.",
         unit="probability",
-        origin="chosen",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
         used_in="diagnosis/probabilities.py",
     )
     evidence_power: float = setting(
@@ -108,7 +110,8 @@ class EvidenceSettings:
             "stays so, shared out to those that were not tried."
         ),
         unit="-",
-        origin="chosen",
+        origin="calibrated",
+        source="docs/blind-results.md: calibrate, seed 43",
         used_in="diagnosis/probabilities.py",
     )
     noted_with_others: float = setting(
