@@ -64,6 +64,9 @@ SMALLEST = {"true_strain": 1e-30, "true_stress": 1e-30}
 SHORTEST_STEP = 1e-15
 """Shortest time from one sample to the next [s]: a femtosecond, in which no specimen strains."""
 
+SMALLEST_DIMENSION, LARGEST_DIMENSION = 1e-9, 1e9
+"""Of a specimen, in mm or mm²: from below an atom to a thousand kilometres."""
+
 LARGEST_PARAMETER = 1e30
 """Largest magnitude of a number in campaign.toml, in its own unit: moduli, times, coefficients, variances."""
 

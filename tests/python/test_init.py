@@ -13,6 +13,7 @@ from probation import Campaign, InputError, fit, init_campaign
 from probation.cli import main
 from probation.commands.init import _Asking
 from probation.published.experiments import twin_campaign
+from probation.records.initial import init_campaign as init_campaign_module
 from probation.records.initial.control import guess_control
 from probation.records.initial.questions import Question
 
@@ -191,3 +192,34 @@ def test_the_control_is_guessed_of_the_strain():
     for control, values in strain.items():
         made = type(record)("a", TIME, values, values)
         assert guess_control(made) == control
+
+
+def test_after_a_disk_that_was_full_the_same_call_can_be_made_again(lab, tmp_path, monkeypatch):
+    name = next(iter(FILES))
+    whole = init_campaign_module.InitialCampaign.report
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(init_campaign_module.InitialCampaign, "report", full)
+    how = {"specimen": {"area_mm2": 40.0, "gauge_length_mm": 50.0}}
+    with pytest.raises(OSError, match="space"):
+        init_campaign([lab / name], tmp_path / "one", **how)
+    monkeypatch.setattr(init_campaign_module.InitialCampaign, "report", whole)
+    init_campaign([lab / name], tmp_path / "one", **how)
+    assert sorted(each.name for each in (tmp_path / "one").iterdir()) == sorted([name, "campaign.toml", "records.html"])
+
+
+def test_a_name_that_no_campaign_can_hold_is_refused_before_anything_is_written(lab, tmp_path):
+    name = next(iter(FILES))
+    odd = tmp_path / "odd\udcff.csv"
+    shutil.copy(lab / name, odd)
+    with pytest.raises(InputError, match="not UTF-8"):
+        init_campaign([odd], tmp_path / "one")
+    assert not (tmp_path / "one").exists()
+
+
+@pytest.mark.parametrize("value", [1e200, 1e-320], ids=str)
+def test_a_dimension_beyond_all_specimens_is_refused(lab, value):
+    with pytest.raises(InputError, match=r"specimen\.diameter_mm: found .* expected a positive number from"):
+        Campaign.from_files([lab / next(iter(FILES))], specimen={"diameter_mm": value})

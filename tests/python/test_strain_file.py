@@ -162,3 +162,9 @@ def test_markers_on_a_yielding_metal_do_not_tell_their_clock_and_are_not_guessed
     elastic = (record.true_stress > 100.0) & (record.true_stress < 400.0) & (record.true_strain < 0.02)
     modulus = np.polyfit(record.true_strain[elastic], record.true_stress[elastic], 1)[0]
     assert 20e3 < modulus < 70e3  # a beta alloy; the stage alone says 4e3
+
+
+@pytest.mark.parametrize("scale", [1e2, 1e3, 1e9], ids=str)
+def test_a_film_on_a_clock_of_another_unit_tells_no_shift(scale):
+    found = estimate_shift(CLOCK, FORCE, CROSSHEAD, scale * FILM, _filmed())
+    assert np.isinf(found.se)

@@ -23,6 +23,7 @@ _UNKNOWN = 0.25  # of the shorter record: a shift that is known no better is not
 _RIVAL = 3.0  # times the least rest: a minimum elsewhere below it may be the right one
 _ONSET = 0.3  # of the largest value: up to there a signal is looked at for its onset
 _FEWEST = 10  # samples of an onset
+_FEWEST_STEPS = 20  # of the grid in the shorter record: fewer tell no shift
 _FINE = 20  # shifts in a step of the grid, about the best one
 
 
@@ -72,6 +73,8 @@ def estimate_shift(
         return _by_onset(time, force, strain_time, strain)
     shorter = min(float(np.ptp(time)), float(np.ptp(strain_time)))
     step = max(shorter / _STEPS, float(np.median(np.diff(time))), float(np.median(np.diff(strain_time))))
+    if shorter < _FEWEST_STEPS * step:
+        return Shift(float(time[0] - strain_time[0]), np.inf, "rates of strain, displacement and force", ())
     grid, rate = _rate(strain_time, strain, step)
     known = [_rate(time, values, step) for values in (displacement, -force)]
     lowest = float(time[0] - strain_time[-1]) + _OVERLAP * shorter

@@ -13,6 +13,9 @@ from probation.records.units import convert, measures
 
 FloatArray = NDArray[np.float64]
 
+SLOWEST = 1e-30
+"""Slowest test [1/s or mm/s]; times stay numbers."""
+
 _RATE = re.compile(r"\s*([+]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S.*?)\s*")
 
 
@@ -38,7 +41,7 @@ def parse_rate(path: Path, text: str) -> tuple[float, bool]:
                 )
             except ValueError:
                 break
-            if 0.0 < value <= LARGEST["strain_rate"]:
+            if SLOWEST <= value <= LARGEST["strain_rate"]:
                 return value, is_speed
     raise InputError(
         f"{path}: test_rate: found {quoted(text)}, expected a positive number with a unit, "

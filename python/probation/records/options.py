@@ -8,6 +8,7 @@ from typing import TypedDict, Unpack
 
 from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
+from probation.limits import LARGEST_DIMENSION, SMALLEST_DIMENSION
 from probation.records.made_time import parse_rate
 from probation.records.roles import ROLES, STRAIN_ROLES, STRESS_ROLES
 
@@ -118,8 +119,12 @@ def read_options(path: Path, **how: Unpack[ReadingKeys]) -> ReadOptions:
                 f"{path}: columns.{role}: found {label!r}, expected a heading or a position counted from 1"
             )
     for key, value in specimen.items():
-        if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < float("inf"):
-            raise InputError(f"{path}: specimen.{key}: found {value!r}, expected a positive number")
+        number = not isinstance(value, bool) and isinstance(value, int | float)
+        if not number or not SMALLEST_DIMENSION <= value <= LARGEST_DIMENSION:
+            raise InputError(
+                f"{path}: specimen.{key}: found {value!r}, expected a positive number "
+                f"from {SMALLEST_DIMENSION:g} to {LARGEST_DIMENSION:g}"
+            )
     return ReadOptions(
         profile=how.get("profile"),
         columns=columns,

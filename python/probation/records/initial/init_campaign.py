@@ -100,6 +100,9 @@ def init_campaign(
     if not files:
         raise InputError("found no files, expected at least one")
     paths = [Path(file) for file in files]
+    for path in paths:
+        if any("\ud800" <= character <= "\udfff" for character in path.name):
+            raise InputError(f"{path}: found a name that is not UTF-8, which no {FILE_NAME} can hold; rename the file")
     single = _by_file(paths, by_file or {})
     target = _Target(folder, link)
     entries: list[Entry] = []
@@ -117,7 +120,11 @@ def init_campaign(
     made = InitialCampaign(
         Campaign.load(folder), folder, {entry.record.id: f"{entry.file}: {entry.read}" for entry in entries}
     )
-    made.report(folder / PAGE_NAME)
+    try:
+        made.report(folder / PAGE_NAME)
+    except OSError:
+        (folder / FILE_NAME).unlink()  # so that the same call can be made again
+        raise
     return made
 
 
@@ -140,10 +147,15 @@ class _Target:
         stem, ending = path.name.partition(".")[0] or "record", "".join(path.suffixes)
         name, number = path.name, 2
         taken = {FILE_NAME, PAGE_NAME, *(each.casefold() for each in self._sources)}
-        while name.casefold() in taken or kind_of(self._folder / name) is not None:
+        while name.casefold() in taken or not self._is_free(name, path):
             name, number = f"{stem}-{number}{ending}", number + 1
         self._sources[name] = path
         return name
+
+    def _is_free(self, name: str, path: Path) -> bool:
+        """Whether nothing has that name in the folder, or the same bytes: an attempt before left them there."""
+        kind = kind_of(self._folder / name)
+        return kind is None or (kind == "a file" and read_whole(self._folder / name) == read_whole(path))
 
     def write(self) -> None:
         """Copy the files, byte for byte."""
