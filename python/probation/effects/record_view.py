@@ -156,7 +156,7 @@ class RecordView:
     def smooth_nominal_data(self) -> FloatArray:
         """Recorded force over the initial section by a penalised spline between jumps of the rate, (n,) [MPa].
 
-        It owes nothing to a law, unlike `nominal_data`; knees between jumps are rounded.
+        No law enters it, unlike `nominal_data`. Kinks that are no jump of the rate are rounded.
         """
         from probation.smoothing.penalised_spline import smooth_cubic  # noqa: PLC0415 - few need scipy.interpolate
         from probation.smoothing.segmented import smooth_segments  # noqa: PLC0415

@@ -26,6 +26,7 @@ from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimens_of
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
+from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -47,9 +48,6 @@ if TYPE_CHECKING:
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
-
-FARTHEST_MOVE = 5.0
-"""Standard deviations of the specimens' scatter by which the best parameters may move once specimens may differ."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,10 +274,10 @@ def fit_views(
 def _ran_away(plain: FloatArray, found: FloatArray, scatter: Scatter) -> bool:
     """Whether the parameters moved by more than specimens differ, once these were let differ.
 
-    Then the law misses the records for another reason. It is measured in the few directions that no specimen can take,
-    and the parameters follow these to where the law means nothing: from there no effect can be searched for.
+    Then the law misses the records for another reason. The misfit counts only along what no deviation of a specimen
+    explains; the parameters follow that to values without meaning, and no search for an effect can begin there.
     """
-    size = FARTHEST_MOVE * max(scatter.deviations) * np.abs(plain)
+    size = NOISE.farthest_move * max(scatter.deviations) * np.abs(plain)
     return bool((np.abs(found - plain) > size).any())
 
 

@@ -8,13 +8,10 @@ from numpy.typing import NDArray
 
 from probation._complaint import quoted
 from probation.errors import InputError
-from probation.limits import LARGEST
+from probation.limits import LARGEST, SMALLEST_PARAMETER
 from probation.records.units import convert, measures
 
 FloatArray = NDArray[np.float64]
-
-SLOWEST = 1e-30
-"""Slowest test [1/s or mm/s]; times stay numbers."""
 
 _RATE = re.compile(r"\s*([+]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S.*?)\s*")
 
@@ -41,7 +38,7 @@ def parse_rate(path: Path, text: str) -> tuple[float, bool]:
                 )
             except ValueError:
                 break
-            if SLOWEST <= value <= LARGEST["strain_rate"]:
+            if SMALLEST_PARAMETER <= value <= LARGEST["strain_rate"]:
                 return value, is_speed
     raise InputError(
         f"{path}: test_rate: found {quoted(text)}, expected a positive number with a unit, "

@@ -293,6 +293,16 @@ class NoiseSettings:
         origin="chosen",
         used_in="noise/own_deviations.py",
     )
+    farthest_move: float = setting(
+        5.0,
+        (
+            "Standard deviations of the specimens' scatter by which the base law's parameters may move once specimens "
+            "may differ; beyond, it misses the records for another reason and stays where it was."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="inference/base_fit.py",
+    )
     on_grid: float = setting(
         0.02,
         "Largest rms distance from the grid, as a fraction of its step.",
