@@ -13,35 +13,22 @@ from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import FOR_THE_DESIGN, Budget
-from probation.diagnosis.checks import checks
+from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
-from probation.diagnosis.held_out import HeldToAccount, all_but_one, made_worse
-from probation.diagnosis.linear import linear_hypotheses
+from probation.diagnosis.held_out import all_but_one, made_worse
 from probation.diagnosis.next import is_stretched, next_test_of
-from probation.diagnosis.probabilities import (
-    answer_set,
-    given_a_gap,
-    given_no_gap,
-    weigh,
-    with_unknown,
-    with_unknown_leading,
-    with_unseen,
-)
+from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
 from probation.diagnosis.remainder_words import with_remainder
-from probation.diagnosis.remaining import leaves_too_much, remaining_gap
-from probation.diagnosis.result import UNKNOWN, Diagnosis, Verdict
-from probation.diagnosis.search import Search
-from probation.diagnosis.shrink import shrink_of
+from probation.diagnosis.result import UNKNOWN, Diagnosis
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
-from probation.effects.large_faults import with_large_faults
 from probation.effects.registry import effects as catalogue
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.inference.base_fit import BaseFit, fit_law, with_joint_noise
+from probation.inference.base_fit import BaseFit, fit_law
 from probation.inference.gap import TOLERANCE, as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
 from probation.law.schemes import identifying
@@ -49,7 +36,6 @@ from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
 from probation.progress import shows_progress
 from probation.records.checks import require_signal
-from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -60,7 +46,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.remainder import Remainder
-    from probation.diagnosis.result import Checks, NextTest
+    from probation.diagnosis.result import NextTest
     from probation.effects.effect import Effect
     from probation.inference.gap import Gap
     from probation.inference.protocol import GapLaw
@@ -150,30 +136,27 @@ def diagnose(
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     told(0.35)
-    if gap.exists:
-        considered = with_large_faults(considered, base.model.views)
-        base, found, weighed, judged, verdict = _explained(
-            base, considered, p_value, workers, seed, skipping, deadline, told
-        )
-    else:
-        found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
-        judged, verdict = {}, "no_gap"
-    if weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
+    causes = causes_of(
+        base,
+        considered,
+        p_value,
+        gap=gap.exists,
+        threads=workers,
+        seed=seed,
+        skipping=skipping,
+        budget=deadline,
+        progress=lambda part: told(0.35 + 0.45 * part),
+    )
+    base, considered, found = causes.base, causes.considered, causes.found
+    if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     told(0.85)
-    shrink, curves = shrink_of(base, weighed[0].hypothesis, where.located, skipping, seed=seed)
-    while gap.exists and UNKNOWN not in weighed[0].effects and leaves_too_much(shrink):
-        told_of = weighed[0].hypothesis
-        weighed = _with_unknown(weighed, judged)
-        if UNKNOWN in weighed[0].effects:
-            verdict = "unexplained"
-        if weighed[0].hypothesis is not told_of:
-            shrink, curves = shrink_of(base, weighed[0].hypothesis, where.located, skipping, seed=seed)
+    causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
+    weighed, verdict = causes.weighed, causes.verdict
     chosen = answer_set(weighed)
     if gap.exists:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
-    best, explanations = weighed[0], explanations_of(weighed, judged)
+    best, explanations = weighed[0], explanations_of(weighed, causes.checks)
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
@@ -273,29 +256,6 @@ def _case(campaign: Campaign, fitted: BaseFit, gap: Gap, based_on: Callable[[Cam
     return _Case(base, where, gap.held_out_p_value, predicted_only=True, judge=judge)
 
 
-def _explained(
-    base: BaseFit,
-    considered: tuple[Effect, ...],
-    p_value: float,
-    threads: int,
-    seed: int,
-    skipping: Skipping,
-    budget: Budget,
-    progress: Callable[[float], None],
-) -> tuple[BaseFit, list[Hypothesis], list[Weighed], dict[tuple[str, ...], Checks], Verdict]:
-    """Of a gap: the base fit with the noise estimated anew, hypotheses, weighed and checked; verdict."""
-    base, found = _searched(base, considered, threads, skipping, budget, lambda part: progress(0.35 + 0.45 * part))
-    weighed = given_a_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
-    account = HeldToAccount(base, seed=seed)
-    weighed = account.ranked(weighed)
-    left, judged = _judged(weighed, answer_set(weighed), base, account, seed)
-    worse = account.worse(weighed[0].hypothesis)
-    if UNKNOWN not in weighed[0].effects and (worse or _another_acts(weighed[0], base, seed)):
-        weighed = _with_unknown(weighed, judged)
-    verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-    return base, found, weighed, judged, verdict
-
-
 def _left(base: BaseFit, best: Hypothesis, closure: Closure, campaign: Campaign) -> Remainder | None:
     """What the best explanation leaves, described; None where that is noise."""
     specimens = {record.id: record.specimen_id for record in campaign.records}
@@ -330,57 +290,6 @@ def _designed(
         lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=threads),
     )
     return following or (), apart
-
-
-def _judged(
-    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, account: HeldToAccount, seed: int
-) -> tuple[bool, dict[tuple[str, ...], Checks]]:
-    """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
-    left, found = False, {}
-    for index, each in enumerate(weighed[: len(chosen)]):
-        if index and not each.hypothesis.causes:
-            continue
-        after = remaining_gap(each.hypothesis.refit, base, seed=seed)
-        if index == 0:
-            left = after.rejected
-        if each.hypothesis.causes:
-            made = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
-            refused = tuple(one.text for one in account.worse(each.hypothesis))
-            found[each.effects] = replace(made, notes=(*made.notes, *refused))
-    return left, found
-
-
-def _with_unknown(weighed: Sequence[Weighed], judged: dict[tuple[str, ...], Checks]) -> list[Weighed]:
-    """The best explanation led by itself with an unknown effect beside, which keeps its checks."""
-    known = weighed[0].effects
-    if known in judged:
-        judged.setdefault(with_unknown(known), judged[known])
-    return with_unknown_leading(weighed)
-
-
-def _another_acts(best: Weighed, base: BaseFit, seed: int) -> bool:
-    """Whether what is left is more than the errors of the best explanation's forms, or nothing was explained."""
-    if not best.hypothesis.causes:
-        return True
-    return remaining_gap(best.hypothesis.refit, base, seed=seed, share=1.0).rejected
-
-
-def _searched(
-    base: BaseFit,
-    considered: tuple[Effect, ...],
-    threads: int,
-    skipping: Skipping,
-    budget: Budget,
-    progress: Callable[[float], None],
-) -> tuple[BaseFit, list[Hypothesis]]:
-    """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
-    search = Search(base, considered, threads, progress, skipping, budget)
-    found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
-    leading = search.ranked()
-    if not leading:
-        return base, found
-    base = with_joint_noise(search.base, leading[0].refit)
-    return base, search.reconsidered(base)
 
 
 def _law_text(campaign: Campaign) -> str:

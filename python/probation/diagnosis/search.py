@@ -63,7 +63,7 @@ class Search:
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
         self._singles(columns)
-        if self.base.scatter.any:
+        if self.base.scatter.any and not self.base.noise_is_known:
             self._scatter_around_the_best()
         self._try_with_unknown()
         self._told(0.6)

@@ -78,6 +78,8 @@ class BaseFit:
         that knows fewer records.
     held_out : tuple of RecordResidual
         The records that were not fitted, as these parameters predict them.
+    noise_is_known : bool
+        Whether the noise was had without the law, so that no explanation changes it.
     """
 
     law: GapLaw
@@ -91,6 +93,7 @@ class BaseFit:
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
     reference: FloatArray | None = None
+    noise_is_known: bool = False
 
     @property
     def model(self) -> CampaignModel:

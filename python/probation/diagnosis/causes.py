@@ -1,0 +1,186 @@
+"""Which causes explain a gap between a base law and its records, and how probable each is.
+
+Of a law that was fitted (`probation.diagnose`) and of one that was measured on other records (`probation.compare`)
+alike: docs/diagnosis-method.md, sections 4 and 6 to 8.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from probation.diagnosis.checks import checks
+from probation.diagnosis.held_out import HeldToAccount
+from probation.diagnosis.linear import linear_hypotheses
+from probation.diagnosis.probabilities import (
+    answer_set,
+    given_a_gap,
+    given_no_gap,
+    weigh,
+    with_unknown,
+    with_unknown_leading,
+)
+from probation.diagnosis.remaining import leaves_too_much, remaining_gap
+from probation.diagnosis.result import UNKNOWN
+from probation.diagnosis.search import Search
+from probation.diagnosis.shrink import shrink_of
+from probation.effects.large_faults import with_large_faults
+from probation.inference.base_fit import with_joint_noise
+from probation.settings.evidence import EVIDENCE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from probation.detection.where import Located
+    from probation.diagnosis.budget import Budget
+    from probation.diagnosis.hypothesis import Hypothesis
+    from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
+    from probation.diagnosis.skipped import Skipping
+    from probation.effects.effect import Effect
+    from probation.inference.base_fit import BaseFit
+
+
+@dataclass(frozen=True, eq=False)
+class Causes:
+    """Explanations of what a base law leaves.
+
+    Attributes
+    ----------
+    base : BaseFit
+        With the noise as the best explanation leaves it.
+    considered : tuple of Effect
+        With the forms of large faults, where there is a gap.
+    found : list of Hypothesis
+        All that were solved.
+    weighed : list of Weighed
+        By probability.
+    checks : dict of tuple of str to Checks
+        Of the explanations of the answer set.
+    verdict : {"explained", "no_gap", "unexplained"}
+    """
+
+    base: BaseFit
+    considered: tuple[Effect, ...]
+    found: list[Hypothesis]
+    weighed: list[Weighed]
+    checks: Mapping[tuple[str, ...], Checks]
+    verdict: Verdict
+
+    @property
+    def best(self) -> Hypothesis:
+        """What stands for the most probable explanation."""
+        return self.weighed[0].hypothesis
+
+    def with_unknown_beside(self) -> Causes:
+        """The best explanation led by itself with an unknown effect beside, which keeps its checks."""
+        known = self.weighed[0].effects
+        kept = dict(self.checks)
+        if known in kept:
+            kept.setdefault(with_unknown(known), kept[known])
+        weighed = with_unknown_leading(self.weighed)
+        verdict: Verdict = "unexplained" if UNKNOWN in weighed[0].effects else self.verdict
+        return replace(self, weighed=weighed, checks=kept, verdict=verdict)
+
+    def shrunk(
+        self, located: Sequence[Located], skipping: Skipping, *, seed: int
+    ) -> tuple[Causes, Shrink, dict[str, RecordCurves]]:
+        """How far the gap shrinks (`shrink_of`), and the causes: an unknown effect gains where much is left."""
+        causes = self
+        shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
+        while causes.verdict != "no_gap" and UNKNOWN not in causes.weighed[0].effects and leaves_too_much(shrink):
+            before, causes = causes.best, causes.with_unknown_beside()
+            if causes.best is not before:
+                shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
+        return causes, shrink, curves
+
+
+def causes_of(
+    base: BaseFit,
+    considered: Sequence[Effect],
+    p_value: float,
+    *,
+    gap: bool,
+    threads: int,
+    seed: int,
+    skipping: Skipping,
+    budget: Budget,
+    progress: Callable[[float], None],
+) -> Causes:
+    """Explanations of what a base law leaves, weighed and checked.
+
+    Parameters
+    ----------
+    base : BaseFit
+        With the signals of the effects, `BaseFit.screened`.
+    considered : sequence of Effect
+    p_value : float
+        Of the test for a gap.
+    gap : bool
+        Whether there is one. If not, the linearised model says all there is to say.
+    threads, seed : int
+    skipping : Skipping
+    budget : Budget
+    progress : callable
+        Called with the fraction done.
+    """
+    considered = tuple(considered)
+    if not gap:
+        found = linear_hypotheses(base, base.columns, skipping)
+        weighed = given_no_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
+        return Causes(base, considered, found, weighed, {}, "no_gap")
+    considered = with_large_faults(considered, base.model.views)
+    base, found = _searched(base, considered, threads, skipping, budget, progress)
+    weighed = given_a_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
+    account = HeldToAccount(base, seed=seed)
+    weighed = account.ranked(weighed)
+    left, judged = _judged(weighed, answer_set(weighed), base, account, seed)
+    verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
+    causes = Causes(base, considered, found, weighed, judged, verdict)
+    worse = account.worse(causes.best)
+    if UNKNOWN not in weighed[0].effects and (worse or _another_acts(causes.best, base, seed)):
+        return causes.with_unknown_beside()
+    return causes
+
+
+def _searched(
+    base: BaseFit,
+    considered: tuple[Effect, ...],
+    threads: int,
+    skipping: Skipping,
+    budget: Budget,
+    progress: Callable[[float], None],
+) -> tuple[BaseFit, list[Hypothesis]]:
+    """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
+    search = Search(base, considered, threads, progress, skipping, budget)
+    found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
+    leading = search.ranked()
+    if not leading or base.noise_is_known:
+        return base, found
+    base = with_joint_noise(search.base, leading[0].refit)
+    return base, search.reconsidered(base)
+
+
+def _judged(
+    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, account: HeldToAccount, seed: int
+) -> tuple[bool, dict[tuple[str, ...], Checks]]:
+    """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
+    left, found = False, {}
+    for index, each in enumerate(weighed[: len(chosen)]):
+        if index and not each.hypothesis.causes:
+            continue
+        after = remaining_gap(each.hypothesis.refit, base, seed=seed)
+        if index == 0:
+            left = after.rejected
+        if each.hypothesis.causes:
+            made = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
+            refused = tuple(one.text for one in account.worse(each.hypothesis))
+            found[each.effects] = replace(made, notes=(*made.notes, *refused))
+    return left, found
+
+
+def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:
+    """Whether what is left is more than the errors of the best explanation's forms, or nothing was explained."""
+    if not best.causes:
+        return True
+    return remaining_gap(best.refit, base, seed=seed, share=1.0).rejected
