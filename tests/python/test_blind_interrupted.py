@@ -24,7 +24,7 @@ class Truth:
     def to_json(self):
         return '{"name": "' + self.name + '"}'
 
-def quick(seed, index, split):
+def quick(seed, index, split, stratum):
     time.sleep(0.02)
     name = f"{split}-{index:04d}"
     drawn = np.random.default_rng([seed, index]).standard_normal(400)

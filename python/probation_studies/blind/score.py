@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.origin import origin
+from probation_studies.blind.laboratory_named import OWN
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.opening import handed_in, record_opening
 from probation_studies.blind.release import shortfall
@@ -105,6 +106,7 @@ def score_split(
     found, failed = _answers(layout, names)
     content: dict[str, object] = {
         "split": split,
+        "laboratory": published.get("laboratory", OWN),
         "campaigns": len(seals),
         "made": published.get("made"),
         "seeds": sorted({cast("int", truth["seed"]) for truth in opened.values()}),

@@ -10,6 +10,7 @@ from probation.commands.delivery import add_delivery, deliver, output_folder, ou
 from probation.commands.progress import shown
 from probation.commands.streams import say
 from probation.errors import InputError
+from probation_studies.blind.laboratory_named import LABORATORIES, OWN
 
 NAME = "blind"
 
@@ -17,6 +18,7 @@ _DESCRIPTION = """\
 The sealed benchmark: campaigns of a virtual laboratory whose cause is withheld, answers to them, and scores.
 
   probation blind make --seed 7 --count 100 --out split/      campaigns, and a seal of every truth
+  probation blind make --laboratory NAME …                    another laboratory's
   probation blind solve split/                                answers, each with the version that gave it
   probation blind score split/ --report score.html             opens the truths, checks the seals, scores
 
@@ -32,7 +34,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     steps = parser.add_subparsers(title="steps", metavar="STEP", dest="step")
     make = steps.add_parser("make", help="campaigns of a virtual laboratory, their truths sealed")
     make.add_argument("--seed", type=int, required=True, help="another seed gives other campaigns")
-    make.add_argument("--count", type=int, default=100, help="campaigns (100)")
+    make.add_argument("--count", type=int, help="campaigns (100), their strata drawn")
+    make.add_argument(
+        "--strata", metavar="NAME=COUNT,…", type=_strata, help="instead of --count: campaigns of each stratum"
+    )
+    make.add_argument(
+        "--laboratory", metavar="NAME", default=OWN, help=f"which one makes them: {', '.join(LABORATORIES)} ({OWN})"
+    )
     make.add_argument(
         "--split", choices=("develop", "calibrate", "test"), default="develop", help="what it may be used for (develop)"
     )
@@ -71,6 +79,17 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     return parser
 
 
+def _strata(text: str) -> dict[str, int]:
+    """Of "none=300,single=60", the mapping."""
+    found: dict[str, int] = {}
+    for entry in text.split(","):
+        name, _, count = entry.partition("=")
+        if not count.isdigit() or name in found:
+            raise argparse.ArgumentTypeError(f"found {text!r}, expected such as none=300,single=60")
+        found[name] = int(count)
+    return found
+
+
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     if options.step is None:
@@ -82,16 +101,18 @@ def _make(options: argparse.Namespace) -> int:
     from probation_studies.blind.make import make_split  # noqa: PLC0415 - see the package
     from probation_studies.blind.release import LEAST_CAMPAIGNS, LEAST_NULLS  # noqa: PLC0415
 
-    if options.split == "test" and options.count < LEAST_CAMPAIGNS:
-        warn(
-            f"--count: found {options.count}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them"
-        )
+    count = 100 if options.count is None and options.strata is None else options.count
+    whole = sum(options.strata.values()) if count is None else count
+    if options.split == "test" and whole < LEAST_CAMPAIGNS:
+        warn(f"--count: found {whole}; a release takes {LEAST_CAMPAIGNS} or more, {LEAST_NULLS} nulls among them")
     with shown(f"making {options.split}") as advance, cluster(options.scheduler) as executor:
         layout = make_split(
             options.out,
             seed=options.seed,
-            count=options.count,
+            count=count,
+            strata=options.strata,
             split=options.split,
+            laboratory=options.laboratory,
             truths=options.truths,
             processes=options.processes,
             executor=executor,

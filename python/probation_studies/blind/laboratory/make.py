@@ -49,7 +49,7 @@ _OUTSIDE_LEFT = 3.0
 _ATTEMPTS = 60
 
 
-def make(seed: int, index: int, split: str = "develop") -> SealedCampaign:
+def make(seed: int, index: int, split: str = "develop", stratum: str | None = None) -> SealedCampaign:
     """Make one campaign; the same for the same arguments.
 
     Parameters
@@ -58,18 +58,23 @@ def make(seed: int, index: int, split: str = "develop") -> SealedCampaign:
         Not negative.
     split : {"develop", "calibrate", "test"}
         May be tuned on, probabilities tempered on, scored once per release.
+    stratum : {"none", "single", "pair", "outside", "mimic"}, optional
+        Drawn if left out.
 
     Raises
     ------
     InputError
-        For another split, or negative numbers.
+        For another split or stratum, or negative numbers.
     """
     if split not in SPLITS:
         raise InputError(f"split: found {split!r}, expected one of {', '.join(SPLITS)}")
     if seed < 0 or index < 0:
         raise InputError(f"seed, index: found {seed}, {index}, expected numbers that are not negative")
     random = np.random.default_rng(np.random.SeedSequence([crc32(split.encode()), seed, index]))
-    stratum = str(random.choice(STRATA, p=_PARTS))
+    drawn = str(random.choice(STRATA, p=_PARTS))
+    stratum = drawn if stratum is None else stratum
+    if stratum not in STRATA:
+        raise InputError(f"stratum: found {stratum!r}, expected one of {', '.join(STRATA)}")
     for _ in range(_ATTEMPTS):
         found = _attempt(random, stratum)
         if found is not None:
