@@ -11,6 +11,7 @@ from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import RecordView, views_of
 from probation.inference.callable_law import CallableLaw
 from probation.inference.model import CampaignModel
+from probation.inference.problem import Problem
 from probation.inference.refit import Refit, refit
 from probation.noise.arma import Arma
 from probation.noise.model import NoiseModel
@@ -82,4 +83,4 @@ def solved(law, seen, causes=(), start=None, **options) -> Refit:
     """A refit to the last digit."""
     model = CampaignModel(law, seen, causes)
     begin = model.start if start is None else np.asarray(start, dtype=np.float64)
-    return refit(model, begin, whitener(seen), **{"most_steps": 200, "settled": 1e-11, **options})
+    return refit(Problem(model, whitener(seen)), begin, **{"most_steps": 200, "settled": 1e-11, **options})

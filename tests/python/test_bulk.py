@@ -15,9 +15,10 @@ import probation
 from probation import BulkIdentification, Law, PowerLaw, Record, StrainHistory, Weissenberg, bulk, identify_many
 from probation.identify.covariance import covariance
 from probation.identify.search import by_least_squares, first_guess
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
-from probation.law.schemes import make_solver
+from probation.records.record import Noise
 from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.5)
@@ -36,20 +37,20 @@ def by_scipy(law, time, strain, stress, scheme, held=(False, False, False)):
 
     Where the data hardly tell a parameter, that search stops a few 1e-6 short: a Gauss-Newton step takes it on.
     """
-    record = Record("a", time, strain, stress, control="other")
-    prepared = RecordProblem.prepare(record, excite(record, "raw"), scheme)
-    prepared = replace(prepared, solver=make_solver(StrainHistory(time, strain).engine, scheme), noise=1.0)
-    problem = Problem.of(law, [prepared], held)
+    record = Record("a", time, strain, stress, control="other", noise=Noise(1.0))
+    names = [name for name, fixed in zip(law.parameter_names, held, strict=True) if fixed]
+    jumps = tuple(int(jump) for jump in StrainHistory(time, strain).jumps)
+    view = replace(measured_view(record, excite(record, "raw"), scheme), jumps=jumps)
+    problem = Problem.white(DnlrLaw(law, names), [view])
     limits = dict.fromkeys(law.parameter_names, (0.0, np.inf))
     best = by_least_squares(problem, first_guess(problem, limits), limits)
     residual, jacobian = problem.residual_and_jacobian(best)
-    known = covariance(jacobian[:, problem.free], residual, [len(time)], best.parameters[problem.free])
+    known = covariance(jacobian, residual, [len(time)], best)
     cost = float(residual @ residual)
-    estimates = best.parameters
-    step = np.linalg.lstsq(jacobian[:, problem.free] * estimates[problem.free], -residual, rcond=None)[0]
+    step = np.linalg.lstsq(jacobian * best, -residual, rcond=None)[0]
     if np.abs(step).max() < 1e-4:
-        estimates[problem.free] *= 1.0 + step
-    return estimates, known, cost
+        best = best * (1.0 + step)
+    return problem.law_at(best).parameters, known, cost
 
 
 def random_record(seed):

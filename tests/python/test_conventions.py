@@ -14,8 +14,9 @@ from probation.field.identify import identify_field
 from probation.identify import base
 from probation.identify.fit import plain_fit
 from probation.identify.search import search_range
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = (ROOT / "python" / "probation",)
@@ -122,9 +123,7 @@ def test_a_fit_and_a_diagnosis_search_the_same_relaxation_times():
     law = base.base_fit(campaign, plain_fit(campaign)).law
     low, high = law.bounds
     at = law.parameter_names.index("tau_max_s")
-    problem = Problem.of(
-        law.law, [RecordProblem.prepare(r, probation.excite(r), "sa3") for r in campaign.records], 3 * [False]
-    )
+    problem = Problem.white(DnlrLaw(law.law), [measured_view(r, probation.excite(r), "sa3") for r in campaign.records])
     assert (low[at], high[at]) == search_range(problem, {})
 
 

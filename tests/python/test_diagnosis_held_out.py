@@ -120,9 +120,11 @@ def test_the_base_fit_knows_nothing_of_records_that_are_held_out():
 def with_cause(base, name, *records):
     """The base law and one effect in those records, or in all, refitted."""
     known = effect(name)
-    model = base.model.with_causes([Cause(known, known.forms[0], records or None)])
-    start = model.parameters(base.parameters, (0.1 * known.forms[0].amplitude.scale, *known.forms[0].typical[1:]))
-    found = refit(model, start, base.whitener)
+    problem = base.problem.with_causes([Cause(known, known.forms[0], records or None)])
+    start = problem.model.parameters(
+        base.parameters, (0.1 * known.forms[0].amplitude.scale, *known.forms[0].typical[1:])
+    )
+    found = refit(problem, start)
     return Hypothesis(found, evidence(found, base.refit, base.discrepancy, unknown=False))
 
 

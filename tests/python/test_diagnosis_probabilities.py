@@ -19,7 +19,6 @@ from probation.diagnosis.probabilities import (
 )
 from probation.effects.cause import Cause
 from probation.inference.evidence import Evidence
-from probation.inference.model import CampaignModel
 from probation.settings.evidence import EVIDENCE
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
@@ -38,8 +37,8 @@ def made(name, kind="material", more_forms=()):
 
 
 def hypothesis(*causes, log_evidence=0.0, unknown=-np.inf):
-    model = CampaignModel(problem.bar(), VIEWS, causes)
-    found = replace(BASE, model=model, parameters=model.start)
+    asked = BASE.problem.with_causes(causes)
+    found = replace(BASE, problem=asked, parameters=asked.model.start)
     return Hypothesis(found, Evidence(log_evidence, 0.0, unknown, np.zeros((0, 0))))
 
 

@@ -16,9 +16,9 @@ from probation.identify import weighting as weighting_module
 from probation.identify.base import base_fit
 from probation.identify.bias import bias_of
 from probation.identify.fit import plain_fit
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_noise import RecordNoise
-from probation.inference.record_problem import RecordProblem
 from probation.inference.strain_noise import StrainNoise
 from probation.law.settings import LawSettings
 from probation.noise.arma import Arma
@@ -96,8 +96,7 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
     """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
-    problem = RecordProblem.prepare(record, excitation, "sa3")
-    carried = StrainNoise.of(problem.excitation, problem.scheme, problem.substeps).carried(LAW)
+    carried = StrainNoise.of(excitation, "sa3").carried(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
     for at in range(100):
@@ -124,20 +123,19 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
 def test_the_search_descends_along_the_gradient_of_the_cost_with_sigma_re_evaluated(method):
     """d/d theta of r^T Sigma(theta)^-1 r by central differences."""
     record = ramp_record(strain_noise=1e-3, samples=100)
-    prepared = RecordProblem.prepare(record, excite(record, method), "sa3")
-    strain = StrainNoise.of(prepared.excitation, prepared.scheme, prepared.substeps)
-    problem = Problem.of(LAW, [prepared], (False, False, False))
-    problem = problem.with_noises([RecordNoise(problem.noises[0].stress, strain)])
-    away = LAW.with_parameters(LAW.parameters * [0.95, 1.02, 1.01])
+    view = measured_view(record, excite(record, method), "sa3")
+    problem = Problem.white(DnlrLaw(LAW), [view])
+    problem = problem.with_noises(problem.whitener.noises, [StrainNoise.of(view.excitation, "sa3")])
+    away = LAW.parameters * [0.95, 1.02, 1.01]
     residual, jacobian = problem.residual_and_jacobian(away)
     for index in range(3):
         sides = []
         for sign in (1.0, -1.0):
-            moved = away.parameters
+            moved = away.copy()
             moved[index] *= 1.0 + sign * 1e-4
-            there = problem.residual(away.with_parameters(moved))
+            there = problem.residual(moved)
             sides.append(there @ there)
-        slope = (sides[0] - sides[1]) / (2e-4 * away.parameters[index])
+        slope = (sides[0] - sides[1]) / (2e-4 * away[index])
         assert 2.0 * residual @ jacobian[:, index] == pytest.approx(slope, rel=2e-3)
 
 

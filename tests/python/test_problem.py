@@ -8,18 +8,20 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import probation
 from probation import Law, Record
+from probation.effects.cause import Cause
+from probation.effects.registry import effect
 from probation.identify.profile import profile
 from probation.identify.search import by_least_squares
 from probation.identify.weighting import Weighted, known_of
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_noise import RecordNoise
-from probation.inference.record_problem import RecordProblem
 from probation.inference.strain_noise import StrainNoise
 from probation.smoothing.excitation import excite
 
 LAW = Law(unrelaxed_modulus=3224.0, tau_max=5.207, hardening_modulus=2.556)
 LIMITS = dict.fromkeys(LAW.parameter_names, (0.0, np.inf))
-AWAY = LAW.with_parameters(LAW.parameters * [0.9, 1.1, 1.02])
+START, AWAY = LAW.parameters, LAW.parameters * [0.9, 1.1, 1.02]
 
 
 def problem(samples=80):
@@ -28,14 +30,14 @@ def problem(samples=80):
     time = np.linspace(0.0, 400.0, samples)
     stress = probation.ramp_stress(LAW, 0.005, time) + 0.04 * random.normal(size=samples)
     record = Record("ramp", time, 0.005 * time + 3e-4 * random.normal(size=samples), stress, control="strain-rate")
-    prepared = RecordProblem.prepare(record, excite(record, "raw"), "sa3")
-    white = Problem.of(LAW, [prepared], (False, False, False))
-    strain = replace(StrainNoise.of(prepared.excitation, "sa3"), deviation=3e-4)
-    return white.with_noises([RecordNoise(white.noises[0].stress, strain)])
+    view = measured_view(record, excite(record, "raw"), "sa3")
+    white = Problem.white(DnlrLaw(LAW), [view])
+    strain = replace(StrainNoise.of(view.excitation, "sa3"), deviation=3e-4)
+    return white.with_noises(white.whitener.noises, [strain])
 
 
 def test_nothing_in_it_can_be_set():
-    for name in ("law", "records", "held", "noises"):
+    for name in ("model", "law", "whitener", "moving"):
         with pytest.raises(FrozenInstanceError):
             setattr(problem(), name, None)
 
@@ -44,7 +46,7 @@ def test_a_search_and_a_profile_leave_it_as_it_was():
     """The residual at one law, before and after the noise was asked for at many others."""
     asked = problem()
     before = asked.residual_and_jacobian(AWAY)
-    best = by_least_squares(asked, LAW, LIMITS)
+    best = by_least_squares(asked, START, LIMITS)
     weighted = Weighted(asked, best)
     first = profile(weighted, known_of(weighted)[0], 2, 1.99, LIMITS)
     for then, now in zip(before, asked.residual_and_jacobian(AWAY), strict=True):
@@ -56,20 +58,34 @@ def test_a_search_and_a_profile_leave_it_as_it_was():
 def test_the_noise_of_a_law_is_that_of_a_problem_made_for_it():
     """Moving to it and back, or frozen there: one answer."""
     asked = problem()
-    asked.residual(LAW)
-    asked.residual(LAW.with_parameters(LAW.parameters * 1.2))
+    asked.residual(START)
+    asked.residual(1.2 * START)
     assert_allclose(asked.residual(AWAY), problem().residual(AWAY), rtol=1e-12)
     assert_array_equal(asked.frozen_at(AWAY).residual(AWAY), asked.residual(AWAY))
-    assert not asked.frozen_at(AWAY).noise_moves
+    assert asked.frozen_at(AWAY).moving is None
 
 
 def test_what_differs_is_another_problem():
     asked = problem()
-    held = asked.with_held(1, AWAY)
-    assert (list(held.free), list(asked.free)) == ([0, 2], [0, 1, 2])
-    assert held.law_at(np.array([1.0, 2.0])).tau_max == AWAY.tau_max
-    fine = asked.with_records(each.with_substeps(4) for each in asked.records)
-    assert (fine.records[0].substeps, asked.records[0].substeps) == (4, 1)
+    held = asked.with_law(asked.law.holding("tau_max", LAW.with_parameters(AWAY)))
+    assert (list(held.law.free), list(asked.law.free)) == ([0, 2], [0, 1, 2])
+    assert held.law_at(np.array([1.0, 2.0])).tau_max == AWAY[1]
+    fine = asked.with_views(view.with_substeps(4) for view in asked.views)
+    assert (fine.views[0].stride, asked.views[0].stride) == (4, 1)
     white = asked.reweighed(AWAY)
     assert_allclose(np.sqrt(np.mean(white.residual(AWAY) ** 2)), 1.0)
-    assert asked.noise_moves
+    assert asked.moving is not None
+
+
+def test_effects_join_the_parameters_of_the_law_in_the_same_problem():
+    """Absent they change nothing; the law's columns stay, and the noise is the records'."""
+    asked = problem().frozen_at(START)
+    known = effect("force_drift")
+    joined = asked.with_causes([Cause(known, known.forms[0])])
+    parameters = joined.model.parameters(AWAY, (0.0, *known.forms[0].typical[1:]))
+    residual, jacobian = joined.residual_and_jacobian(parameters)
+    alone = asked.residual_and_jacobian(AWAY)
+    assert_allclose(residual, alone[0], rtol=1e-9, atol=1e-9)
+    assert_allclose(jacobian[:, :3], alone[1], rtol=1e-9)
+    assert joined.whitener is asked.whitener
+    assert np.linalg.norm(jacobian[:, 3]) > 0.0

@@ -18,11 +18,13 @@ from probation.errors import InputError
 from probation.identify.covariance import covariance
 from probation.identify.variable_projection import search, time_bounds
 from probation.inference.least_squares import Bounds, minimise
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
 from probation.law.direction import Direction
 from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
+from probation.law.schemes import as_scheme, make_solver
 from probation.records.record import Noise
 from probation.smoothing.excitation import excite
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.calibration.forms import Form
+    from probation.effects.record_view import RecordView
     from probation.law.companion import Companion
     from probation.law.schemes import Scheme, SchemeName
     from probation.law.settings import LawSettings
@@ -104,29 +107,30 @@ class DirectProblem:
         own_rms: Sequence[float] | None = None,
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
+        self._solvers: dict[RecordView, _core.Solver] = {}
         driven = [excite(each) for each in records] if excitations is None else excitations
-        self.records = [
-            RecordProblem.prepare(record, each, scheme) for record, each in zip(records, driven, strict=True)
-        ]
+        self.views = [measured_view(record, each, scheme) for record, each in zip(records, driven, strict=True)]
         if own_rms is None:
-            own_rms = [_own_rms(each, settings) for each in self.records]
-        self.weights = np.array([1.0 / max(each.noise, own) for each, own in zip(self.records, own_rms, strict=True)])
+            own_rms = [_own_rms(view, settings) for view in self.views]
+        self.weights = np.array(
+            [1.0 / max(view.stress_noise, own) for view, own in zip(self.views, own_rms, strict=True)]
+        )
         self.held_modulus = settings.fixed.get("unrelaxed_modulus_MPa")
         self.held_hardening = settings.fixed.get("hardening_modulus_MPa")
 
     def only(self, kept: Sequence[int]) -> DirectProblem:
         """The same problem on some of the records."""
         part = DirectProblem([], self.settings, self.scheme, self.hardening)
-        part.records = [self.records[at] for at in kept]
+        part.views, part._solvers = [self.views[at] for at in kept], self._solvers
         part.weights = self.weights[list(kept)]
         return part
 
     def thinned(self) -> DirectProblem:
         """The same on at most about `ENOUGH_SAMPLES` of each record: for searches, and where noise does not matter."""
-        if all(len(each.record) <= ENOUGH_SAMPLES for each in self.records):
+        if all(len(view) <= ENOUGH_SAMPLES for view in self.views):
             return self
-        part = self.only(range(len(self.records)))
-        part.records = [thinned(each, ENOUGH_SAMPLES) for each in self.records]
+        part = self.only(range(len(self.views)))
+        part.views = [thinned(view, ENOUGH_SAMPLES) for view in self.views]
         return part
 
     @property
@@ -134,12 +138,12 @@ class DirectProblem:
         """How many hardening moduli are identified."""
         if self.held_hardening is not None:
             return 0
-        return 1 if self.hardening == "shared" else len(self.records)
+        return 1 if self.hardening == "shared" else len(self.views)
 
     def time_bounds(self) -> tuple[float, float]:
         """Relaxation times worth searching [s]: below, E_u of a constant tau_max grows without end."""
-        steps = min(float(np.min(np.diff(each.record.time))) for each in self.records)
-        longest = max(float(np.ptp(each.record.time)) for each in self.records)
+        steps = min(float(np.min(np.diff(view.time))) for view in self.views)
+        longest = max(float(np.ptp(view.time)) for view in self.views)
         return 0.1 * steps, 1e3 * longest
 
     def law(self, relation: Companion, modulus: float, hardening: float) -> Law:
@@ -155,8 +159,15 @@ class DirectProblem:
 
     def seen(self, at: int, floor: float) -> FloatArray:
         """Rates that the relation is asked for along one record, shape (n_times,) [1/s]."""
-        each = self.records[at]
-        return seen_rates(each.solver.history, each.scheme.name, floor, each.excitation.direction)
+        view = self.views[at]
+        return seen_rates(view.history, as_scheme(view.scheme).name, floor, view.direction)
+
+    def solver(self, at: int) -> _core.Solver:
+        """Of one record, made once: it keeps its arrays between calls."""
+        view = self.views[at]
+        if view not in self._solvers:
+            self._solvers[view] = make_solver(view.history, view.scheme)
+        return self._solvers[view]
 
     def linear(self, at: int, form: Form, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Unit solves of one record, u (of E_u) and v (of G), and its derivatives of ln tau_max for each.
@@ -169,8 +180,7 @@ class DirectProblem:
             Of u and v along the parameters of the form.
         rates : ndarray, shape (n_times,)
         """
-        each = self.records[at]
-        rates = self.seen(at, relation.rate_floor)
+        rates, solver = self.seen(at, relation.rate_floor), self.solver(at)
         gradient = form.log_gradient(relation, rates)
         count = len(rates)
         directions = [Direction(log_relaxation_time=column)._engine() for column in gradient.T]
@@ -178,7 +188,7 @@ class DirectProblem:
         for which, (modulus, hardening) in enumerate(((1.0, 0.0), (0.0, 1.0))):
             stress, derivative = np.empty(count), np.empty((count, gradient.shape[1]))
             law = self.law(relation, modulus, hardening)
-            each.solver.tangent(law.engine, _core.LawChange(), directions, stress, derivative)
+            solver.tangent(law.engine, _core.LawChange(), directions, stress, derivative)
             unit[:, which], slopes[:, which] = stress, derivative
         return unit, slopes, rates
 
@@ -234,7 +244,7 @@ class _Search:
 
     def relation_at(self, values: FloatArray) -> Companion:
         relation = self.form.relation(values, np.empty(0), self.calibrated)
-        for at in range(len(self.problem.records)):
+        for at in range(len(self.problem.views)):
             relation.relaxation_time(self.problem.seen(at, relation.rate_floor))
         return relation
 
@@ -269,7 +279,7 @@ class _Search:
 
     def _solved(self, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
         problem = self.problem
-        parts = [problem.linear(at, self.form, relation) for at in range(len(problem.records))]
+        parts = [problem.linear(at, self.form, relation) for at in range(len(problem.views))]
         shared = problem.hardening == "shared" or problem.held_hardening is not None
         columns = 1 + (1 if shared else len(parts))
         rows, data, places = [], [], []
@@ -280,7 +290,7 @@ class _Search:
             block[:, place] = weight * unit[:, 1]
             rows.append(block)
             places.append(place)
-            data.append(weight * problem.records[at].record.true_stress)
+            data.append(weight * problem.views[at].data)
         design, target = np.concatenate(rows), np.concatenate(data)
         linear, held = np.zeros(columns), np.zeros(columns, dtype=bool)
         if problem.held_modulus is not None:
@@ -301,7 +311,7 @@ class _Search:
     def _free(self) -> FloatArray:
         """Which columns of the Jacobian are identified."""
         shared = self.problem.hardening == "shared" or self.problem.held_hardening is not None
-        columns = 1 + (1 if shared else len(self.problem.records))
+        columns = 1 + (1 if shared else len(self.problem.views))
         free = np.ones(columns + len(self.anchors), dtype=bool)
         free[0] = self.problem.held_modulus is None
         if self.problem.held_hardening is not None:
@@ -324,7 +334,7 @@ class _Search:
     def rms(self, values: FloatArray) -> FloatArray:
         """Of the fit residual of each record, shape (n_records,) [MPa]."""
         residual = self._state(values)[0]
-        lengths = np.cumsum([len(each.record) for each in self.problem.records])[:-1]
+        lengths = np.cumsum([len(view) for view in self.problem.views])[:-1]
         parts = np.split(residual, lengths)
         return np.array([np.sqrt(np.mean(part**2)) / w for part, w in zip(parts, self.problem.weights, strict=True)])
 
@@ -333,7 +343,7 @@ class _Search:
         residual, linear, jacobian = self._state(values)
         relation = self.relation_at(values)
         free, everything = self._free(), np.concatenate([linear, values])
-        lengths = [len(each.record) for each in problem.records]
+        lengths = [len(view) for view in problem.views]
         with np.errstate(over="ignore", invalid="ignore"):  # forms that do not fit may determine nothing
             known = covariance(jacobian[:, free], residual, lengths, everything[free])
         # In the order of the form's parameters, then E_u.
@@ -344,7 +354,7 @@ class _Search:
             for b, other in enumerate(order):
                 if free[one] and free[other]:
                     matrix[a, b] = known.matrix[place[one], place[other]]
-        hardening = np.broadcast_to(linear[1:], (len(problem.records),)).copy()
+        hardening = np.broadcast_to(linear[1:], (len(problem.views),)).copy()
         return DirectFit(
             CalibratedCompanion(relation, matrix, 0.0, float(linear[0]), self.form),
             hardening,
@@ -355,7 +365,7 @@ class _Search:
         )
 
 
-def _own_rms(each: RecordProblem, settings: LawSettings) -> float:
+def _own_rms(view: RecordView, settings: LawSettings) -> float:
     """Rms of one record's own fit, constant tau_max, E_u and G free [MPa]."""
     law = Law(
         unrelaxed_modulus=1.0,
@@ -364,28 +374,27 @@ def _own_rms(each: RecordProblem, settings: LawSettings) -> float:
         decades=settings.decades,
         spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
     )
-    few = thinned(each, ENOUGH_SAMPLES)
-    alone = Problem.of(law, [few], (False, False, False))
+    alone = Problem.white(DnlrLaw(law), [thinned(view, ENOUGH_SAMPLES)])
     best = search(alone, time_bounds(alone))
-    return float(np.sqrt(np.mean(few.residual(best) ** 2)))
+    return float(np.sqrt(np.mean(alone.model.residual(best) ** 2)))
 
 
-def thinned(each: RecordProblem, count: int) -> RecordProblem:
+def thinned(view: RecordView, count: int) -> RecordView:
     """A record and its excitation at every n-th sample, its jumps and its end kept."""
-    stride = -(-len(each.record) // count)
+    whole, drive = view.record, view.excitation
+    stride = -(-len(whole) // count)
     if stride == 1:
-        return each
-    drive = each.excitation
-    kept = np.unique([*range(0, len(each.record), stride), *drive.jumps, len(each.record) - 1])
+        return view
+    kept = np.unique([*range(0, len(whole), stride), *drive.jumps, len(whole) - 1])
     record = replace(
-        each.record,
-        time=each.record.time[kept],
-        true_strain=each.record.true_strain[kept],
-        true_stress=each.record.true_stress[kept],
-        strain_rate=None if each.record.strain_rate is None else each.record.strain_rate[kept],
+        whole,
+        time=whole.time[kept],
+        true_strain=whole.true_strain[kept],
+        true_stress=whole.true_stress[kept],
+        strain_rate=None if whole.strain_rate is None else whole.strain_rate[kept],
         transverse_strain=None,
         temperature=None,
-        noise=Noise(each.noise, each.record.noise.strain),
+        noise=Noise(view.stress_noise, whole.noise.strain),
     )
     excitation = replace(
         drive,
@@ -395,4 +404,4 @@ def thinned(each: RecordProblem, count: int) -> RecordProblem:
         jumps=tuple(np.searchsorted(kept, drive.jumps).tolist()),
         direction=drive.direction[kept[:-1]],
     )
-    return RecordProblem.prepare(record, excitation, each.scheme)
+    return measured_view(record, excitation, view.scheme)

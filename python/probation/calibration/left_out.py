@@ -11,6 +11,7 @@ from probation.calibration.cross_validation import Score
 from probation.errors import InputError
 from probation.identify.covariance import covariance
 from probation.identify.variable_projection import search
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
 
 if TYPE_CHECKING:
@@ -73,16 +74,14 @@ class Predicted:
 
 def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: float) -> RecordAlpha:
     """Fit alpha and G of one record to a relation, E_u held."""
-    each = problem.records[at]
     hardening = problem.held_hardening
     law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
-    alone = Problem.of(law, [each], (True, False, hardening is not None))
+    held = ("unrelaxed_modulus",) if hardening is None else ("unrelaxed_modulus", "hardening_modulus")
+    alone = Problem.white(DnlrLaw(law, held), [problem.views[at]])
     best = search(alone, _ALPHAS)
     residual, jacobian = alone.residual_and_jacobian(best)
-    known = covariance(jacobian[:, alone.free], residual, [len(each.record)], best.parameters[alone.free])
-    rms = _rms(each.residual(best))
-    assert best.alpha is not None
-    return RecordAlpha(float(np.log(best.alpha)), float(known.relative_error[0]), rms)
+    known = covariance(jacobian, residual, alone.lengths, best)
+    return RecordAlpha(float(np.log(best[0])), float(known.relative_error[0]), _rms(alone.model.residual(best)))
 
 
 def leave_one_rate_out(
@@ -108,13 +107,13 @@ def leave_one_rate_out(
     progress : callable
         Called with what is being done.
     """
-    count = len(problem.records)
+    count = len(problem.views)
     scores, predicted = {}, []
     for name, form in forms.items():
         error, weights = np.full(count, np.nan), np.ones(count)
         for group in groups:
             kept = [at for at in range(count) if at not in group]
-            progress(f"{name} without {', '.join(problem.records[at].record.id for at in group)}")
+            progress(f"{name} without {', '.join(problem.views[at].id for at in group)}")
             try:
                 fitted = problem.only(kept).fit(form, start(form), calibrated(kept))
                 for at in group:
@@ -128,17 +127,17 @@ def leave_one_rate_out(
 
 
 def _predict(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> tuple[Predicted, RecordAlpha]:
-    each = problem.records[at]
+    view = problem.views[at]
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
-    error = each.residual(problem.law(relation, modulus, hardening))
+    law = DnlrLaw(problem.law(relation, modulus, hardening))
+    base, unit, whole = (law.stress(view, np.array([modulus, 1.0, each])) for each in (0.0, 1.0, hardening))
     own = record_alpha(problem, at, relation, modulus)
-    largest = float(np.max(np.abs(each.record.true_stress)))
-    base = each.stress(problem.law(relation, modulus, 0.0))
-    slope = each.stress(problem.law(relation, modulus, 1.0)) - base  # the stress is linear in G
-    left = base - each.record.true_stress
+    largest = float(np.max(np.abs(view.data)))
+    slope = unit - base  # the stress is linear in G
+    left = base - view.data
     left = left - slope * float(slope @ left) / float(slope @ slope)
-    return Predicted(each.record.id, form, _rms(error), _rms(left), own.rms, largest), own
+    return Predicted(view.id, form, _rms(whole - view.data), _rms(left), own.rms, largest), own
 
 
 def _rms(error: FloatArray) -> float:

@@ -9,7 +9,8 @@ import numpy as np
 
 from probation.certificate.trial import companion_factor, free_parameters
 from probation.identify.modelled_record import ModelledRecord
-from probation.inference.record_problem import RecordProblem
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.law.schemes import scheme_of
 from probation.results.data import CURVE, from_curves
 from probation.smoothing.excitation import excite
@@ -109,20 +110,20 @@ def predict(
     relation : CalibratedCompanion, optional
         What is known of the law's companion relation.
     """
-    problem = RecordProblem.prepare(record, excite(record, method), scheme_of(base.scheme, base.start), base.substeps)
-    stress, sensitivity = problem.sensitivity(base.law)
+    view = measured_view(record, excite(record, method), scheme_of(base.scheme, base.start), base.substeps)
+    stress, sensitivity = (view.sampled(each) for each in DnlrLaw(base.law).sensitivity(view, base.law.parameters))
     slopes = sensitivity[:, free_parameters(base)]
     variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)
-    variance += np.sum(companion_factor(base, problem.excitation, relation) ** 2, axis=1)
+    variance += np.sum(companion_factor(base, view.excitation, relation) ** 2, axis=1)
     return Prediction(
         id=record.id,
         time=record.time,
         true_strain=record.true_strain,
         true_stress=record.true_stress,
-        excitation=problem.excitation,
+        excitation=view.excitation,
         model_stress=stress,
         standard_error=np.sqrt(np.maximum(variance, 0.0)),
-        noise_MPa=problem.noise,
+        noise_MPa=view.stress_noise,
         tolerance_MPa=tolerance * float(np.max(np.abs(record.true_stress))),
         identified_on=tuple(base.records),
     )

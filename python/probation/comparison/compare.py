@@ -132,7 +132,6 @@ def _prepared(
             noise,
             law,
             [reference.noises[other] for other in together[view.id]],
-            excitations[view.id],
             missed_by_smoother(record, excitations[view.id]),
         )
         for view, noise, record in zip(model.views, own, campaign.records, strict=True)

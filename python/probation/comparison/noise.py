@@ -62,7 +62,6 @@ def change_noise(
     own: NoiseModel,
     law: MeasuredLaw,
     references: Sequence[NoiseModel],
-    excitation: Excitation,
     missed: NDArray[np.bool_],
 ) -> NoiseModel:
     """The noise of a record minus what its references predict.
@@ -89,7 +88,7 @@ def change_noise(
         for frame, noise in zip(followed, references, strict=True)
     ]
     columns.append(_undecided(view, law, missed))
-    strain = propagated_noise(law, view, excitation, law.start)
+    strain = propagated_noise(law, view, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
     return replace(own, carried=np.hstack([own.carried, *columns]), outliers=())

@@ -14,6 +14,7 @@ from probation.effects.cause import Cause
 from probation.errors import ConvergenceError, InputError
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.model import CampaignModel
+from probation.inference.problem import Problem
 from probation.inference.refit import Refit, refit
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
@@ -167,9 +168,8 @@ class ChangeSearch:
         start = np.append(before.parameters if before else self.model.law.start, candidate.values)
         noises = self._noises_of(model)
         try:
-            done = refit(
-                model, start, Whitener(noises), most_steps=15 if candidate.gain > COMPARISON.worth_refitting else 2
-            )
+            steps = 15 if candidate.gain > COMPARISON.worth_refitting else 2
+            done = refit(Problem(model, Whitener(noises)), start, most_steps=steps)
         except (ConvergenceError, InputError):
             return None
         return Found(causes, tuple(view.id for view in views), (done,), self._log_evidence(done))

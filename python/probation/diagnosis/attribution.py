@@ -166,7 +166,7 @@ def _squares(
         law, values = best.refit.model.split(best.refit.parameters)
         start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
         try:
-            return refit(model, start if there is None else there.parameters, base.whitener)
+            return refit(base.problem.with_model(model), start if there is None else there.parameters)
         except UNSOLVABLE:
             return there
 

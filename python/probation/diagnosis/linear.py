@@ -60,7 +60,7 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
             start = chosen[0].parameters.copy()
             start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
             try:
-                chosen = [refit(chosen[0].model, start, base.whitener, most_steps=SHARP_STEPS)]
+                chosen = [refit(chosen[0].problem, start, most_steps=SHARP_STEPS)]
             except UNSOLVABLE as error:
                 skipping.hypothesis([column.cause], error)
                 continue
@@ -73,12 +73,13 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
 def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
     """The model with a cause of amplitude 0, from which the integral over the amplitude starts."""
     column = columns.columns[index]
-    model = base.model.with_causes([column.cause])
+    problem = base.problem.with_causes([column.cause])
+    model = problem.model
     parameters = model.parameters(base.parameters, (0.0, *column.values[1:]))
     jacobian = np.zeros((len(base.whitened), len(parameters)))
     jacobian[:, : model.base_count] = base.refit.jacobian
     jacobian[:, model.base_count] = columns.matrix[:, index]
-    return Refit(model, parameters, base.refit.residual, jacobian, Coordinates.of_model(model), 0)
+    return Refit(problem, parameters, base.refit.residual, jacobian, Coordinates.of_model(model), 0)
 
 
 def _sharp(found: Refit) -> bool:

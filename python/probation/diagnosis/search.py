@@ -259,7 +259,7 @@ class Search:
                 self.skipping.hypothesis(model.causes, self.budget.why)
                 return None
             try:
-                return refit(model, start, self.base.whitener, most_steps=steps)
+                return refit(self.base.problem.with_model(model), start, most_steps=steps)
             except UNSOLVABLE as error:
                 self.skipping.hypothesis(model.causes, error)
                 return None

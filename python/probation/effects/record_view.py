@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
+from probation.records.noise import stress_noise
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -25,6 +26,20 @@ if TYPE_CHECKING:
     from probation.smoothing.excitation import Excitation
 
 _MOVING = 10.0 * RATE_FLOOR
+
+
+class Measured(NamedTuple):
+    """Where a view comes from.
+
+    Attributes
+    ----------
+    record : Record
+    excitation : Excitation
+        What drives the law, at the samples.
+    """
+
+    record: Record
+    excitation: Excitation
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +79,8 @@ class RecordView:
         Records of one specimen share its deviations.
     reference_rate : float
         Rate at which a law without rate dependence and one with it agree [1/s]; one number for all records.
+    measured : Measured or None
+        None for a test that is only planned.
     """
 
     id: str
@@ -84,6 +101,7 @@ class RecordView:
     reference_rate: float
     quiet_stress: FloatArray | None = None
     specimen_id: str | None = None
+    measured: Measured | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -170,6 +188,50 @@ class RecordView:
         """Values at the samples, of values at the instants."""
         return values[:: self.stride]
 
+    @property
+    def record(self) -> Record:
+        """The record that this is a view of."""
+        assert self.measured is not None, "a planned test has no record"
+        return self.measured.record
+
+    @property
+    def excitation(self) -> Excitation:
+        """What drives the law along the record, at the samples."""
+        assert self.measured is not None, "a planned test has no excitation"
+        return self.measured.excitation
+
+    @property
+    def stress_noise(self) -> float:
+        """Standard deviation of the record's stress noise [MPa]: as stated, else as it scatters."""
+        return stress_noise(self.record)
+
+    def with_substeps(self, substeps: int) -> RecordView:
+        """The same with so many instants from sample to sample."""
+        return self._solved_on(self.excitation, substeps)
+
+    def with_scheme(self, scheme: Scheme | SchemeName) -> RecordView:
+        """The same solved by another scheme, on the same instants."""
+        return replace(self, scheme=scheme)
+
+    def smoothed_as(self, excitation: Excitation) -> RecordView:
+        """The same record, its strain smoothed otherwise."""
+        return self._solved_on(excitation, self.stride)
+
+    def _solved_on(self, excitation: Excitation, substeps: int) -> RecordView:
+        fine = excitation.refined(substeps)
+        return replace(
+            self,
+            time=fine.time,
+            true_strain=fine.true_strain,
+            recorded_strain=fine.true_strain,
+            strain_rate=fine.strain_rate,
+            jumps=fine.jumps,
+            direction=fine.direction,
+            stride=substeps,
+            quiet_stress=None,
+            measured=Measured(self.record, excitation),
+        )
+
     def with_data(self, data: FloatArray) -> RecordView:
         """The same test with other stresses recorded, shape (n_samples,) [MPa]: a bootstrap's, or a planned test's.
 
@@ -197,7 +259,7 @@ def view_of(
     *,
     index: int = 0,
     count: int = 1,
-    reference_rate: float,
+    reference_rate: float | None = None,
     scheme: Scheme | SchemeName = "be2",
     substeps: int = 1,
 ) -> RecordView:
@@ -208,8 +270,10 @@ def view_of(
     record : Record
     excitation : Excitation
         From `probation.excite`, at the samples.
-    index, count, reference_rate, scheme
+    index, count, scheme
         As in `RecordView`.
+    reference_rate : float, optional
+        As in `RecordView`; the record's own by default.
     substeps : int
         Instants from sample to sample.
     """
@@ -230,8 +294,9 @@ def view_of(
         temperature=record.temperature,
         index=index,
         count=count,
-        reference_rate=reference_rate,
+        reference_rate=reference_rate_of([excitation]) if reference_rate is None else reference_rate,
         specimen_id=record.specimen_id,
+        measured=Measured(record, excitation),
     )
 
 
@@ -256,7 +321,7 @@ def views_of(
     for record in campaign.records:
         if record.id not in known:
             known[record.id] = excite(record)
-    reference = reference_rate([known[record.id] for record in campaign.identify])
+    reference = reference_rate_of([known[record.id] for record in campaign.identify])
     count = len(campaign.records)
     return tuple(
         view_of(
@@ -272,7 +337,7 @@ def views_of(
     )
 
 
-def reference_rate(excitations: Sequence[Excitation]) -> float:
+def reference_rate_of(excitations: Sequence[Excitation]) -> float:
     """Geometric mean of the records' median rates while moving, to one digit [1/s]; 1e-3 if none moves."""
     if not excitations:
         raise InputError("found no records, expected at least one")

@@ -48,7 +48,7 @@ def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
     views = views_of(campaign, excitations=samples, scheme=scheme_of(found.scheme, found.start), substeps=steps)
     held = [name for name in found.law.parameter_names if name not in found.names]
     law = DnlrLaw(found.law, held=held, times=time_range(campaign.identify, found.law))
-    base = fit_views(law, views, campaign, samples)
+    base = fit_views(law, views, campaign.specimens)
     return replace(base, other_starts=_other_starts(base))
 
 

@@ -18,8 +18,8 @@ START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_m
 """Placeholders: variable projection needs no start."""
 
 
-def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[bool, bool, bool]]:
-    """The campaign's law, with placeholders for what is not held, and which parameters are."""
+def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
+    """The campaign's law, with placeholders for what is not held, and the names of what is."""
     settings = campaign.law
     companion = from_settings(settings.companion)
     names = ("unrelaxed_modulus", "tau_max" if companion is None else "alpha", "hardening_modulus")
@@ -35,5 +35,4 @@ def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[
         companion=companion,
         spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
     )
-    held = tuple(outside_name(name) in fixed for name in names)
-    return law, (held[0], held[1], held[2])
+    return law, tuple(name for name in names if outside_name(name) in fixed)

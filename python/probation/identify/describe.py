@@ -11,12 +11,13 @@ from scipy.special import stdtrit
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance
 from probation.identify.ends import ends_of
-from probation.identify.likelihood import log_likelihood
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
 from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.weighting import known_of
 from probation.inference.information import correlation, estimated
+from probation.inference.likelihood import log_likelihood, noise_parameters
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_name
 from probation.noise.whiteness import correlation_lags
 from probation.records.noise import scatter
@@ -25,11 +26,11 @@ from probation.results.labelled import LabelledMatrix
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
+    from probation.effects.record_view import RecordView
     from probation.identify.profile import Intervals
     from probation.identify.result import Method
     from probation.identify.weighting import Weighted, Weighting
     from probation.inference.problem import Problem
-    from probation.inference.record_problem import RecordProblem
     from probation.law.modal import Law
     from probation.law.schemes import Scheme
     from probation.noise.model import NoiseModel
@@ -63,10 +64,10 @@ def describe(
     """
     problem, law = weighted.problem, weighted.law
     known, jacobian = known_of(weighted)
-    noises = problem.noises_at(law)
-    free, names, values = problem.free, law.parameter_names, law.parameters
+    noises = problem.noises_at(weighted.parameters)
+    free, names, values = problem.engine_law().free, law.parameter_names, law.parameters
     degrees = max(sum(problem.lengths) - len(free), 1)
-    ends = ends_of(problem, law, limits)
+    ends = ends_of(problem, weighted.parameters, limits)
     profiles = {}
     if intervals == "profile":
         from probation.identify.profile import profile  # noqa: PLC0415 - interpolation is slow to load
@@ -78,7 +79,7 @@ def describe(
     warnings = list(campaign.warnings)
     for index, name in enumerate(names):
         value = float(values[index])
-        if problem.held[index]:
+        if index not in free:
             parameters[name] = Parameter(name, value, None, None, "held", UNITS[name])
             continue
         position = int(np.flatnonzero(free == index)[0])
@@ -90,19 +91,18 @@ def describe(
         parameters[name] = found
     warnings += ends.warnings
     if law.companion is not None:
-        warned = ((each.record.id, law.companion.extrapolation(each.excitation.rate)) for each in problem.records)
+        warned = ((view.id, law.companion.extrapolation(view.excitation.rate)) for view in problem.views)
         warnings += [f"{record}: {text}" for record, text in warned if text]
     warnings += _modulus_warnings(problem, law)
     if weighting == "plain":
-        warnings += strain_noise_warnings(problem.records, law)
-    largest_error, shift = scheme_error(problem, problem.records, law, jacobian, known)
-    likelihood, noise_parameters = log_likelihood(problem, law)
+        warnings += strain_noise_warnings(problem.views, law)
+    largest_error, shift = scheme_error(problem, problem.views, weighted.parameters, jacobian, known)
     return Fit(
         campaign=campaign.name,
         law=law,
         scheme=scheme.name,
         start=scheme.start,
-        substeps=problem.records[0].substeps,
+        substeps=problem.views[0].stride,
         method=method,
         weighting=_used(weighted),
         parameters=parameters,
@@ -110,17 +110,15 @@ def describe(
         names=tuple(names[i] for i in free),
         correlation=correlation(known.matrix),
         condition_number=known.condition_number,
-        records={
-            each.record.id: _record_fit(each, law, noise) for each, noise in zip(problem.records, noises, strict=True)
-        },
+        records={view.id: _record_fit(view, law, noise) for view, noise in zip(problem.views, noises, strict=True)},
         autocorrelated=known.correlated or any(noise.correlation != 0.0 for noise in noises),
         newey_west=known.correlated,
         scheme_error_MPa=largest_error,
         scheme_shift={names[index]: float(moved) for index, moved in zip(free, shift, strict=True)},
         profiles=profiles,
         covariance=_labelled(known, [names[i] for i in free], ends.withdrawn),
-        log_likelihood=likelihood,
-        noise_parameters=noise_parameters,
+        log_likelihood=log_likelihood(problem, weighted.parameters),
+        noise_parameters=noise_parameters(problem),
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,
     )
@@ -137,17 +135,18 @@ def _labelled(known: Covariance, names: Sequence[str], withdrawn: Collection[str
 def _used(weighted: Weighted) -> str:
     problem = weighted.problem
     if problem.carries_strain_noise:
-        return "strain-noise" if problem.noise_moves else "strain-noise-frozen"
+        return "strain-noise-frozen" if problem.moving is None else "strain-noise"
     if weighted.resampled is not None:
         return "plain, strain noise resampled"
-    if all(noise.stress.plain for noise in problem.noises):
+    noises = problem.whitener.noises
+    if all(noise.plain for noise in noises):
         return "plain"
-    return "autocorrelated" if any(noise.stress.correlation != 0.0 for noise in problem.noises) else "varying"
+    return "autocorrelated" if any(noise.correlation != 0.0 for noise in noises) else "varying"
 
 
-def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
-    stress, sensitivity = each.sensitivity(law)
-    record = each.record
+def _record_fit(view: RecordView, law: Law, noise: NoiseModel) -> RecordFit:
+    stress, sensitivity = (view.sampled(each) for each in DnlrLaw(law).sensitivity(view, law.parameters))
+    record = view.record
     residual = stress - record.true_stress
     deviation = scatter(record.time, residual)
     if not noise.plain and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
@@ -159,7 +158,7 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
         record.time,
         record.true_strain,
         record.true_stress,
-        each.excitation,
+        view.excitation,
         stress,
         deviation,
         sensitivity,
@@ -172,11 +171,12 @@ def _record_fit(each: RecordProblem, law: Law, noise: NoiseModel) -> RecordFit:
 def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, withdrawn: bool) -> Parameter:
     """E_u tau_max (or E_u alpha) and its standard error, to first order."""
     values = law.parameters
-    gradient = np.array([values[1], values[0], 0.0])[problem.free]
+    free = problem.engine_law().free
+    gradient = np.array([values[1], values[0], 0.0])[free]
     value = float(values[0] * values[1])
     variance = float(gradient @ known.matrix @ gradient)
     unit = "MPa·s" if law.companion is None else "MPa"
-    moved = [p for p, index in enumerate(problem.free) if index < 2]
+    moved = [p for p, index in enumerate(free) if index < 2]
     if not moved:
         return Parameter("product", value, None, None, "held", unit)
     if withdrawn or not np.all(np.isfinite(known.relative_error[moved])):
@@ -188,7 +188,7 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, wit
 def _modulus_warnings(problem: Problem, law: Law) -> list[str]:
     """No solid is softer or stiffer: a slip of the units is likelier."""
     low, high = LIKELY_MODULI
-    if problem.held[0] or low <= law.unrelaxed_modulus <= high:
+    if 0 not in problem.engine_law().free or low <= law.unrelaxed_modulus <= high:
         return []
     return [
         f"{SYMBOLS['unrelaxed_modulus']} = {law.unrelaxed_modulus:.3g} MPa lies outside 1 kPa to 1 TPa: "

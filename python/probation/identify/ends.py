@@ -15,8 +15,8 @@ from probation.settings.certificate import CERTIFICATE
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from probation._arrays import FloatArray
     from probation.inference.problem import Problem
-    from probation.law.modal import Law
 
 BEYOND = 100.0
 """How far beyond an edge of the search tau_max (or alpha) is moved to see which parameters follow it."""
@@ -41,42 +41,44 @@ class Ends:
     warnings: tuple[str, ...] = ()
 
 
-def ends_of(problem: Problem, law: Law, limits: Mapping[str, tuple[float, float]]) -> Ends:
+def ends_of(problem: Problem, parameters: FloatArray, limits: Mapping[str, tuple[float, float]]) -> Ends:
     """Where the search of a fit ended, and what that leaves unknown.
 
     Parameters
     ----------
     problem : Problem
-    law : Law
-        With the best parameters.
+    parameters : ndarray, shape (free,)
+        The best ones.
     limits : mapping of str to (float, float)
         Bounds that were asked for; (0, inf) otherwise.
     """
+    law, free = problem.law_at(parameters), problem.engine_law().free
     names, values = law.parameter_names, law.parameters
     withdrawn: set[str] = set()
     warnings = []
-    for index in problem.free:
+    for index in free:
         name, value = names[index], float(values[index])
         low, high = limits[name]
         if value <= low * (1.0 + 1e-6) or value >= high * (1.0 - 1e-6):
             withdrawn.add(name)
             warnings.append(f"{SYMBOLS[name]} ended at its bound, {_with_unit(value, name, 6)}")
     ended = not withdrawn.isdisjoint(names[:2])
-    if problem.held[1] or names[1] in withdrawn:
+    if 1 not in free or names[1] in withdrawn:
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
     low, high = search_range(problem, limits)
     value = float(values[1])
     end = "lower" if value <= low * EDGE else "upper" if value >= high / EDGE else ""
     if not end:
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
-    beyond = project(problem.frozen_at(law), value / BEYOND if end == "lower" else value * BEYOND)[0].parameters
+    moved_to = value / BEYOND if end == "lower" else value * BEYOND
+    beyond = problem.law_at(project(problem.frozen_at(parameters), moved_to)[0]).parameters
     moved = np.abs(beyond - values) > CERTIFICATE.identifiable * np.abs(values)
     product = abs(beyond[0] * beyond[1] - values[0] * value) > CERTIFICATE.identifiable * abs(values[0] * value)
     warnings.append(
         f"{SYMBOLS[names[1]]}: the search ended at the {end} edge of its range, {value:.3g} of {low:.3g} to "
         f"{_with_unit(high, names[1], 3)}; these records do not bound it"
     )
-    withdrawn.update(names[index] for index in problem.free if moved[index])
+    withdrawn.update(names[index] for index in free if moved[index])
     return Ends(frozenset(withdrawn), ended or bool(product), tuple(warnings))
 
 

@@ -21,9 +21,10 @@ from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range
 from probation.identify.weighting import WEIGHTINGS, Weighted, Weighting, weigh
 from probation.inference.gap import Gap, find_gap
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
 from probation.inference.thinning import thin
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
@@ -106,14 +107,14 @@ def fit(
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
     law, held = base_law(campaign, hold or {})
     limits = _limits(law, bounds or {})
-    prepared = []
+    views = []
     for index, record in enumerate(campaign.identify):
         steps = 1 if substeps == "auto" else substeps
-        prepared.append(RecordProblem.prepare(record, excite(record, excitation), chosen, steps))
+        views.append(measured_view(record, excite(record, excitation), chosen, steps))
         if progress:
             progress(0.3 * (index + 1) / len(campaign.identify))
-    problem = Problem.of(law, prepared, held)
-    if all(problem.held):
+    problem = Problem.white(DnlrLaw(law, held), views)
+    if not problem.law.parameter_names:
         raise InputError(
             f"campaign {campaign.name!r}: found every parameter held (law.fixed, --hold), expected one left to "
             "identify; probation certify predicts with a law that is given"
@@ -124,14 +125,14 @@ def fit(
     plain = _least_squares(problem, method, searched, adapting, advance)
     weighted = plain
     if weighting != "plain":
-        weighted = weigh(plain.problem, plain.law, weighting, searched, excitation)
+        weighted = weigh(plain.problem, plain.parameters, weighting, searched, excitation)
         if adapting and weighted.problem.carries_strain_noise:
             # The scheme's error weighs otherwise once the residual is whitened, and may need more substeps.
-            taken = weighted.problem.records[0].substeps
-            needed = needed_substeps(weighted, weighted.problem.records, taken)
+            taken = weighted.problem.views[0].stride
+            needed = needed_substeps(weighted, weighted.problem.views, taken)
             if needed > taken:
-                finer = plain.problem.with_records(each.with_substeps(needed) for each in plain.problem.records)
-                weighted = weigh(finer, weighted.law, weighting, searched, excitation)
+                finer = plain.problem.with_views(view.with_substeps(needed) for view in plain.problem.views)
+                weighted = weigh(finer, weighted.parameters, weighting, searched, excitation)
     if progress:
         progress(0.9)
     found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
@@ -201,16 +202,16 @@ def _least_squares(
     progress: Callable[[float], None] | None,
 ) -> Weighted:
     """The best law with white noise; `adapting` takes as many substeps as it needs."""
-    prepared = problem.records
+    views = problem.views
     if adapting:  # a coarse record's best fit by the scheme may be far off, where its error says nothing
-        problem = problem.with_records(each.reference() for each in prepared)
+        problem = problem.with_views(view.with_scheme("sa3") for view in views)
     best = first_guess(problem, limits, progress)
-    if len(prepared) > 1:
+    if len(views) > 1:
         problem = problem.reweighed(best)
         best = first_guess(problem, limits)
     if adapting:
-        needed = needed_substeps(Weighted(problem, best), prepared)
-        problem = problem.with_records(each.with_substeps(needed) for each in prepared)
+        needed = needed_substeps(Weighted(problem, best), views)
+        problem = problem.with_views(view.with_substeps(needed) for view in views)
         best = first_guess(problem, limits, near=best)
     if method == "least-squares":
         best = by_least_squares(problem, best, limits)

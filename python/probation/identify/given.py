@@ -8,8 +8,9 @@ from probation.errors import InputError
 from probation.identify.base_law import base_law
 from probation.identify.describe import describe
 from probation.identify.weighting import Weighted
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
 from probation.law.schemes import identifying
 from probation.smoothing.excitation import excite
 
@@ -41,13 +42,12 @@ def given(
         If a parameter is not held.
     """
     law, held = base_law(campaign, {})
-    if not all(held):
+    if len(held) < len(law.parameter_names):
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
     chosen, substeps = identifying(scheme)
     steps = 1 if substeps == "auto" else substeps
-    prepared = [
-        RecordProblem.prepare(record, excite(record, excitation), chosen, steps) for record in campaign.identify
-    ]
-    weighted = Weighted(Problem.of(law, prepared, held), law)
+    views = [measured_view(record, excite(record, excitation), chosen, steps) for record in campaign.identify]
+    problem = Problem.white(DnlrLaw(law, held), views)
+    weighted = Weighted(problem, problem.law.start)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))
     return describe(campaign, weighted, chosen, "least-squares", "plain", limits, "standard-error")

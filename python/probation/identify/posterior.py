@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.errors import InputError
-from probation.inference.record_problem import RecordProblem
+from probation.inference.likelihood import log_likelihood
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.problem import Problem
+from probation.inference.residual_noise import with_residual_noise
 from probation.law.schemes import scheme_of
-from probation.noise.arma import Arma
-from probation.noise.model import NoiseModel
 from probation.records.record import Noise, Record
 from probation.results.extras import needed
 
@@ -25,20 +27,17 @@ WALKERS, BURN_IN, THIN = 16, 300, 10
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    r"""Log-posterior of a fit's identified parameters, flat where they are positive.
+    """Log-posterior of a fit's identified parameters, flat where they are positive.
 
-    The size of each record's noise is integrated out with the prior 1 / size:
-    :math:`\ln p = -\tfrac12 \sum_i n_i \ln(r_i^T R_i^{-1} r_i)`, R that of AR(1) noise with the
-    correlation of neighbours that the fit has.
+    The size of each record's noise is integrated out with the prior 1 / size; its shape (correlation, growth along the
+    record) is what the fit found it to be.
 
     Attributes
     ----------
-    fit : Fit
-    records : tuple of (RecordProblem, NoiseModel)
+    problem : Problem
     """
 
-    fit: Fit
-    records: tuple[tuple[RecordProblem, NoiseModel], ...]
+    problem: Problem
 
     @classmethod
     def of(cls, fit: Fit) -> Posterior:
@@ -50,7 +49,7 @@ class Posterior:
             Where the noise of the strain weighs the residual, or the fit was read from JSON without curves.
         """
         scheme = scheme_of(fit.scheme, fit.start)
-        records = []
+        views = []
         for each in fit.records.values():
             if each.strain_noise_weighed:
                 raise InputError(
@@ -58,24 +57,16 @@ class Posterior:
                     "use method = 'laplace'"
                 )
             record = Record(each.id, each.time, each.true_strain, each.true_stress, noise=Noise(each.noise_MPa))
-            problem = RecordProblem.prepare(record, each.excitation, scheme, fit.substeps)
-            noise = NoiseModel.stationary(each.id, Arma(phi=each.noise_correlation), len(each.time))
-            records.append((problem, noise))
-        return cls(fit, tuple(records))
+            views.append(measured_view(record, each.excitation, scheme, fit.substeps))
+        law = DnlrLaw(fit.law, [name for name in fit.law.parameter_names if name not in fit.names])
+        problem = Problem.white(law, views)
+        if fit.weighting in ("autocorrelated", "varying"):
+            problem = with_residual_noise(problem, law.start, [None] * len(views))
+        return cls(problem)
 
     def __call__(self, values: FloatArray) -> float:
         """Ln p at values of the identified parameters, shape (free,); -inf where one is not positive."""
-        if not np.all(values > 0.0):
-            return -np.inf
-        law = self.fit.law
-        parameters = law.parameters
-        parameters[[law.parameter_names.index(name) for name in self.fit.names]] = values
-        there = law.with_parameters(parameters)
-        total = 0.0
-        for problem, noise in self.records:
-            whitened = noise.whiten(problem.residual(there))
-            total -= 0.5 * len(whitened) * float(np.log(max(float(whitened @ whitened), 1e-300)))
-        return total
+        return log_likelihood(self.problem, values) if np.all(values > 0.0) else -np.inf
 
 
 def walk(fit: Fit, count: int, seed: int, around: FloatArray) -> FloatArray:

@@ -91,16 +91,16 @@ def profile(
     """
     problem, law = weighted.problem, weighted.law
     name, value = law.parameter_names[index], float(law.parameters[index])
-    position = int(np.flatnonzero(problem.free == index)[0])
-    residual, jacobian = problem.residual_and_jacobian(law)
+    free = problem.engine_law().free
+    position = int(np.flatnonzero(free == index)[0])
+    residual, jacobian = problem.residual_and_jacobian(weighted.parameters)
     least = float(residual @ residual)
-    scatter = least / max(len(residual) - len(problem.free), 1)
+    scatter = least / max(len(residual) - len(free), 1)
     error = known.standard_error(position)
     widened = 1.0
     if error is not None:
-        free = jacobian[:, problem.free]
-        size = np.linalg.norm(free, axis=0)
-        plain = np.linalg.pinv((free / size).T @ (free / size))[position, position] / size[position] ** 2
+        size = np.linalg.norm(jacobian, axis=0)
+        plain = np.linalg.pinv((jacobian / size).T @ (jacobian / size))[position, position] / size[position] ** 2
         widened = max(error / float(np.sqrt(scatter * plain)), 1.0)
         sides = []
     for sign in (-1.0, 1.0):
@@ -131,16 +131,19 @@ def _best_jointly(
     problem: Problem, index: int, value: float, near: Law, limits: Mapping[str, tuple[float, float]]
 ) -> tuple[Law, float]:
     """The law with one parameter at a value and the others at their best, from a law close by; and its cost."""
-    parameters = near.parameters
-    parameters[index] = value
-    held = problem.with_held(index, near.with_parameters(parameters))
-    if problem.noise_moves:
-        law = by_least_squares(held, held.law, limits, tolerance=SMALL_STEP)
+    values = near.parameters
+    values[index] = value
+    held = problem.with_law(problem.engine_law().holding(near.parameter_names[index], near.with_parameters(values)))
+    if problem.moving is not None:
+        parameters = by_least_squares(held, held.law.start, limits, tolerance=SMALL_STEP)
+        cost = float(np.sum(held.residual(parameters) ** 2))
     elif index == 1:
-        return project(held, value)
+        parameters, cost = project(held, value)
     else:
-        law = search(held, search_range(held, limits), near=float(near.parameters[1]), tolerance=FINE_ENOUGH)
-    return law, float(np.sum(held.residual(law) ** 2))
+        ends = search_range(held, limits)
+        parameters = search(held, ends, near=float(near.parameters[1]), tolerance=FINE_ENOUGH)
+        cost = float(np.sum(held.residual(parameters) ** 2))
+    return held.law_at(parameters), cost
 
 
 def _end(values: FloatArray, root: FloatArray, level: float, beyond: float) -> float:

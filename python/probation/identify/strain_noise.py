@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.parameter import SYMBOLS
 from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excite
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.inference.record_problem import RecordProblem
+    from probation.effects.record_view import RecordView
     from probation.inference.strain_noise import StrainNoise
     from probation.law.modal import Law
     from probation.smoothing.methods import Method as ExcitationMethod
@@ -43,40 +44,44 @@ def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatA
     return share
 
 
-def resampled(problem: RecordProblem, law: Law, gain: FloatArray, method: ExcitationMethod) -> FloatArray:
+def resampled(view: RecordView, law: Law, gain: FloatArray, method: ExcitationMethod) -> FloatArray:
     """Covariance of the parameters by strain noise alone: it is drawn again, the strain smoothed again, and solved.
 
     Around the strain that drove the law. For records too long for a matrix. Shape (free, free).
     """
     random = np.random.default_rng(0)
-    base = problem.stress(law)
+    base = _stress(view, law)
     moved = []
-    record = problem.record
+    record, drive = view.record, view.excitation
     for _ in range(DRAWS):
-        noisy = problem.excitation.true_strain + problem.excitation.strain_noise * random.standard_normal(len(record))
+        noisy = drive.true_strain + drive.strain_noise * random.standard_normal(len(record))
         again = excite(replace(record, true_strain=noisy, sha256=""), method)
-        moved.append(gain @ (problem.driven_by(again).stress(law) - base))
+        moved.append(gain @ (_stress(view.smoothed_as(again), law) - base))
     shifts = np.array(moved)
     return np.asarray(shifts.T @ shifts / DRAWS, dtype=np.float64)
 
 
-def strain_noise_warnings(problems: Sequence[RecordProblem], law: Law) -> list[str]:
+def strain_noise_warnings(views: Sequence[RecordView], law: Law) -> list[str]:
     """Where strain noise, propagated to the stress by the hardening, is not small beside the rest of the residual."""
     return [
         f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at the "
         f"largest strain; the standard errors, that of {SYMBOLS['hardening_modulus']} above all, do not include it"
-        for each in problems
+        for each in views
         if (carried := carried_at_end(each, law)) > CERTIFICATE.strain_noise_matters * left_over(each, law)
     ]
 
 
-def carried_at_end(problem: RecordProblem, law: Law) -> float:
+def carried_at_end(view: RecordView, law: Law) -> float:
     """Stress that the noise of one strain sample makes through the hardening at the largest strain [MPa]."""
-    end = float(np.max(np.abs(problem.record.true_strain)))
+    end = float(np.max(np.abs(view.record.true_strain)))
     slope = law.hardening_modulus * (2.0 * np.exp(2.0 * end) + np.exp(-end))  # G d e_HT / d e, eq. (3)
-    return float(problem.excitation.strain_noise * slope)
+    return float(view.excitation.strain_noise * slope)
 
 
-def left_over(problem: RecordProblem, law: Law) -> float:
+def left_over(view: RecordView, law: Law) -> float:
     """What scatters a record around the law [MPa]: its noise, or its bias."""
-    return max(problem.noise, float(np.sqrt(np.mean(problem.residual(law) ** 2))))
+    return max(view.stress_noise, float(np.sqrt(np.mean((_stress(view, law) - view.data) ** 2))))
+
+
+def _stress(view: RecordView, law: Law) -> FloatArray:
+    return view.sampled(DnlrLaw(law).stress(view, law.parameters))

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.inference.record_problem import LEAST_NOISE
 from probation.law.schemes import scheme_of
-from probation.records.noise import scatter
+from probation.records.noise import LEAST_NOISE, scatter
 from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:

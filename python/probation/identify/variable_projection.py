@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.inference.problem import Problem
-    from probation.law.modal import Law
 
 POINTS = 41
 """Points of the coarse search, evenly spaced in the logarithm."""
@@ -26,36 +25,36 @@ EDGE = 1.05
 """A minimum within this factor of an end of the range is at its edge."""
 
 
-def project(problem: Problem, nonlinear: float) -> tuple[Law, float]:
-    """The best law at one tau_max (or alpha), and its cost.
+def time_of(problem: Problem, parameters: FloatArray) -> float:
+    """tau_max (or alpha) of the law with these parameters, identified or held."""
+    return float(problem.law_at(parameters).parameters[1])
+
+
+def project(problem: Problem, nonlinear: float) -> tuple[FloatArray, float]:
+    """The best parameters at one tau_max (or alpha), and their cost; that time is the held one where it is held.
 
     The stress is E_u u + G v with unit solves u and v, where the noise does not move with the law. Where either best
     fit would be negative it is zero.
 
     Returns
     -------
-    law : Law
+    parameters : ndarray, shape (free,)
     cost : float
         Weighted sum of squares [-].
     """
-    base = problem.law.parameters
-    base[1] = nonlinear
-    law = problem.law.with_parameters(base)
-    _, jacobian = problem.residual_and_jacobian(law)
-    data = problem.data(law)
-    columns = jacobian[:, [0, 2]]
-    held = np.array([problem.held[0], problem.held[2]])
-    values = base[[0, 2]]
-    target = data - columns[:, held] @ values[held]
-    if not held.all():
+    law = problem.engine_law()
+    is_time = law.free == 1
+    values = np.where(is_time, nonlinear, law.start)
+    residual, jacobian = problem.residual_and_jacobian(values)
+    columns = jacobian[:, ~is_time]
+    target = columns @ values[~is_time] - residual
+    if columns.shape[1]:
         # Over the normal equations: two columns, thousands of rows. Scaled, so that nnls sees numbers near one.
-        free = columns[:, ~held]
-        size = np.linalg.norm(free, axis=0)
+        size = np.linalg.norm(columns, axis=0)
         size[size == 0.0] = 1.0
-        factor: FloatArray = np.linalg.qr(np.column_stack([free / size, target]))[1]
-        values[~held] = nnls(factor[:, :-1], factor[:, -1])[0] / size
-    base[[0, 2]] = values
-    return problem.law.with_parameters(base), float(np.sum((columns @ values - data) ** 2))
+        factor: FloatArray = np.linalg.qr(np.column_stack([columns / size, target]))[1]
+        values[~is_time] = nnls(factor[:, :-1], factor[:, -1])[0] / size
+    return values, float(np.sum((columns @ values[~is_time] - target) ** 2))
 
 
 def search(
@@ -64,8 +63,8 @@ def search(
     progress: Callable[[float], None] | None = None,
     near: float | None = None,
     tolerance: float = 1e-12,
-) -> Law:
-    """The best law over a range of tau_max (or alpha): a coarse search, then Brent's method around its minimum.
+) -> FloatArray:
+    """The best parameters over a range of tau_max (or alpha), shape (free,): a coarse search, then Brent's method.
 
     Parameters
     ----------
@@ -78,8 +77,9 @@ def search(
     tolerance : float
         Of the logarithm.
     """
-    if problem.held[1]:
-        return project(problem, float(problem.law.parameters[1]))[0]
+    law = problem.engine_law()
+    if 1 not in law.free:
+        return project(problem, float(law.law.parameters[1]))[0]
     if near is not None:
         ends = (np.log(max(near / NEARBY, bounds[0])), np.log(min(near * NEARBY, bounds[1])))
         if ends[0] < ends[1]:
@@ -114,4 +114,4 @@ def _between(problem: Problem, bounds: tuple[float, float], tolerance: float) ->
 
 def time_bounds(problem: Problem) -> tuple[float, float]:
     """Range of tau_max [s] (or alpha [-]) worth searching: from far below a sample to far beyond the record."""
-    return time_range([each.record for each in problem.records], problem.law)
+    return time_range([view.record for view in problem.views], problem.engine_law().law)

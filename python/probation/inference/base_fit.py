@@ -14,6 +14,7 @@ from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
+from probation.inference.problem import Problem
 from probation.inference.propagated import propagated_noise
 from probation.inference.refit import Refit, refit
 from probation.inference.scatter import scatter_of, with_scatter
@@ -27,10 +28,9 @@ from probation.noise.own_deviations import own_deviations, specimens_of
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
-from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
@@ -44,7 +44,6 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
     from probation.records.campaign import Campaign
     from probation.records.specimens import Specimens
-    from probation.smoothing.excitation import Excitation
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
@@ -204,25 +203,26 @@ class BaseFit:
         return found
 
     @property
+    def problem(self) -> Problem:
+        """The base law on the identify records, without causes."""
+        return self.refit.problem
+
+    @property
     def whitener(self) -> Whitener:
         """Of the identify records."""
-        return Whitener(self.whitened.noises)
+        return self.problem.whitener
 
 
 def fit_law(law: GapLaw, campaign: Campaign, scheme: Scheme | SchemeName = "sa3") -> BaseFit:
     """Fit any law to the identify records of a campaign; `scheme` says whose difference of the strain is its rate."""
     chosen, steps = identifying(scheme)
-    excitations = {record.id: excite(record) for record in campaign.records}
-    views = views_of(campaign, excitations=excitations, scheme=chosen, substeps=1 if steps == "auto" else steps)
+    views = views_of(campaign, scheme=chosen, substeps=1 if steps == "auto" else steps)
     known = law if isinstance(law, DnlrLaw) else UsersLaw(law)
-    return fit_views(known, views, campaign, excitations)
+    return fit_views(known, views, campaign.specimens)
 
 
-def fit_views(
-    law: GapLaw, views: Sequence[RecordView], campaign: Campaign, excitations: Mapping[str, Excitation]
-) -> BaseFit:
+def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) -> BaseFit:
     """Fit any law to the views whose role is "identify": parameters, noise and the specimens' scatter in turns."""
-    known = {record.id: record for record in campaign.records}
     model = CampaignModel(law, [view for view in views if view.role == "identify"])
     parameters = law.start
     raw, jacobian = model.residual_and_jacobian(parameters)
@@ -233,8 +233,8 @@ def fit_views(
                 view,
                 raw[part],
                 jacobian[part],
-                given_noise=known[view.id].noise.stress_MPa,
-                carried=propagated_noise(law, view, excitations[view.id], parameters),
+                given_noise=view.record.noise.stress_MPa,
+                carried=propagated_noise(law, view, parameters),
             )
             for view, part in model.parts
         ]
@@ -242,14 +242,14 @@ def fit_views(
     residuals = residuals_of(model, raw, jacobian)
     found, noises, residuals = _settled(model, parameters, residuals)
     alike = Whitened.of(residuals, noises)
-    columns = [] if campaign.specimens.alike else deviation_columns(model, found.parameters)
-    scatter = scatter_of(campaign.specimens, law, residuals, noises, columns)
+    columns = [] if specimens.alike else deviation_columns(model, found.parameters)
+    scatter = scatter_of(specimens, law, residuals, noises, columns)
     if scatter.any:
         plain, scattered = found, with_scatter(residuals, columns, scatter)
         found, noises, residuals = _settled(model, plain.parameters, scattered)
         if _ran_away(plain.parameters, found.parameters, scatter):
             noises = _noises(scattered)
-            found = refit(model, plain.parameters, Whitener(noises), most_steps=0)
+            found = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
             residuals = _at(scattered, found)
     parameters = found.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
@@ -265,9 +265,9 @@ def fit_views(
     return BaseFit(
         law=law,
         views=quiet,
-        refit=replace(found, model=fitted),
+        refit=replace(found, problem=replace(found.problem, model=fitted)),
         whitened=Whitened.of(residuals, noises),
-        specimens=campaign.specimens,
+        specimens=specimens,
         scatter=scatter,
         alike=alike,
         held_out=tuple(held_out),
@@ -290,7 +290,7 @@ def _settled(
     """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
     for _ in range(ROUNDS):
         noises = _noises(residuals)
-        found = refit(model, parameters, Whitener(noises), most_steps=12)
+        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
         residuals = _at(residuals, found)
@@ -317,7 +317,7 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     noises = _noises(records)
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
     steps = 0 if base.scatter.any else 12
-    found = refit(base.model, base.parameters, Whitener(noises), most_steps=steps)
+    found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
     return replace(base, refit=found, whitened=Whitened.of(_at(records, found), noises))
 
 

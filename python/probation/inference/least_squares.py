@@ -53,6 +53,11 @@ class NormalPrior:
     centre: FloatArray
     precision: FloatArray
 
+    @classmethod
+    def flat(cls, count: int) -> NormalPrior:
+        """None on so many coordinates."""
+        return cls(np.zeros(count), np.zeros(count))
+
     def penalty(self, x: FloatArray) -> float:
         """-2 log density, without constants."""
         return float(self.precision @ (x - self.centre) ** 2)
@@ -156,7 +161,7 @@ def minimise(
         If the objective is not finite at the start. What it raises there itself passes through.
     """
     bounds = Bounds.none(len(start)) if bounds is None else bounds
-    prior = NormalPrior(np.zeros(len(start)), np.zeros(len(start))) if prior is None else prior
+    prior = NormalPrior.flat(len(start)) if prior is None else prior
     movable = np.ones(len(start), dtype=bool) if held is None else ~held
     x = bounds.clip(np.asarray(start, dtype=np.float64))
     residual, jacobian = objective.tangent(x)

@@ -20,6 +20,8 @@ from probation.law.schemes import make_solver
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
     from probation.law.modification import Modification
@@ -86,6 +88,25 @@ class DnlrLaw:
         """All that a modification can change."""
         return CAPABILITIES
 
+    @property
+    def free(self) -> NDArray[np.intp]:
+        """Which of `law.parameters` are identified, by number."""
+        return np.flatnonzero(self._free)
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """Which are not, by name."""
+        return tuple(name for name in self.law.parameter_names if name not in self._names)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names, as in `law.parameter_names`, of the parameters that are not held."""
+        return self._names
+
+    def holding(self, name: str, law: Law) -> DnlrLaw:
+        """The same with one more parameter held, at its value in `law`; the others start at theirs."""
+        return DnlrLaw(law, (*self.held, name))
+
     def law_at(self, parameters: FloatArray) -> Law:
         """The base law with these values of its identified parameters."""
         return self.law.with_parameters(self._all(parameters))
@@ -94,7 +115,10 @@ class DnlrLaw:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
         law, change = self._modified(view, parameters, modification)
         stress = np.empty(len(view))
-        self._solver(view).stress(law, change, stress)
+        try:
+            self._solver(view).stress(law, change, stress)
+        except InputError as error:
+            raise _named(error, view) from None
         return stress
 
     def sensitivity(
@@ -106,7 +130,10 @@ class DnlrLaw:
         if not self._free.all():
             directions = [each for each, free in zip(directions, self._free, strict=True) if free]
         stress, tangent = np.empty(len(view)), np.empty((len(view), len(directions)))
-        self._solver(view).tangent(made.law, made.change, directions, stress, tangent)
+        try:
+            self._solver(view).tangent(made.law, made.change, directions, stress, tangent)
+        except InputError as error:
+            raise _named(error, view) from None
         return stress, tangent
 
     def _all(self, parameters: FloatArray) -> FloatArray:
@@ -129,3 +156,8 @@ class DnlrLaw:
             return ModifiedLaw(engine_law_of(values, self._companion, self._spectrum), UNCHANGED)
         initial = view.haward_thackray_strain[0]
         return modified(values, self._companion, self._spectrum, modification, initial)
+
+
+def _named(error: InputError, view: RecordView) -> InputError:
+    """What the engine refuses, with the record: a companion relation that has no time at its rates."""
+    return InputError(f"record {view.id!r}: {error}")

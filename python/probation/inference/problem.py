@@ -1,4 +1,8 @@
-"""The identification problem: a law, its records, their noise, and which parameters are sought. Nothing moves in it."""
+"""A law, the records that it is compared with, effects, and the noise: residuals in coordinates in which it is white.
+
+Every question is asked of this object: `fit`, `certify` and `companion` of one without effects, `diagnose` of many that
+differ in their effects.
+"""
 
 from __future__ import annotations
 
@@ -7,142 +11,152 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.inference.record_noise import RecordNoise
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.moving_noise import MovingNoise
 from probation.noise.arma import Arma
 from probation.noise.model import NoiseModel
 from probation.noise.outliers import without_outliers
+from probation.noise.whitener import Whitener
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
-
     from probation._arrays import FloatArray
-    from probation.inference.record_problem import RecordProblem
+    from probation.effects.cause import Cause
+    from probation.effects.record_view import RecordView
+    from probation.inference.protocol import GapLaw
+    from probation.inference.strain_noise import StrainNoise
     from probation.law.modal import Law
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Fit residuals (model - data) of all records, each whitened by its noise, stacked.
+    """Fit residuals (model - data) of all records, stacked, in coordinates in which their noise is white.
 
-    It is never changed: what differs is another problem, from `with_records`, `with_noises` and the like. Every
-    method is a function of the problem and the law that it is given.
+    It is never changed: what differs is another problem, from `with_causes`, `with_noises` and the like. Every answer
+    is a function of the problem and of parameters, shape (n_parameters,): those of the law that are not held, then
+    those of the effects.
 
     Attributes
     ----------
-    law : Law
-        Its parameters are where a search may start, and the values of those that are held.
-    records : tuple of RecordProblem
-    held : tuple of bool, shape (3,)
-        Which of `law.parameters` are not identified.
-    noises : tuple of RecordNoise
-        Per record; what the residuals are whitened with.
+    model : CampaignModel
+        Law, records and effects.
+    whitener : Whitener
+        Of the noise, as far as no parameter moves it.
+    moving : MovingNoise or None
+        The noise of the strain, where it follows the parameters.
     """
 
-    law: Law
-    records: tuple[RecordProblem, ...]
-    held: tuple[bool, ...]
-    noises: tuple[RecordNoise, ...]
+    model: CampaignModel
+    whitener: Whitener
+    moving: MovingNoise | None = None
 
     @classmethod
-    def of(cls, law: Law, records: Iterable[RecordProblem], held: Sequence[bool]) -> Problem:
-        """With white noise of every record's own size."""
-        records = tuple(records)
-        noises = tuple(_white(each, each.noise) for each in records)
-        return cls(law, records, tuple(held), noises)
+    def white(cls, law: GapLaw, views: Sequence[RecordView]) -> Problem:
+        """A law on its records with white noise, of the size that every record has by itself."""
+        model = CampaignModel(law, views)
+        return cls(model, Whitener(tuple(_white(view, view.stress_noise) for view in views)))
 
-    def with_records(self, records: Iterable[RecordProblem]) -> Problem:
+    def with_causes(self, causes: Iterable[Cause]) -> Problem:
+        """The same with other effects."""
+        return replace(self, model=self.model.with_causes(causes))
+
+    def with_model(self, model: CampaignModel) -> Problem:
+        """The same records and noise with a model of other effects."""
+        return replace(self, model=model)
+
+    def with_views(self, views: Iterable[RecordView]) -> Problem:
         """The same records solved otherwise: by another scheme, in other steps, driven by another strain."""
-        return replace(self, records=tuple(records))
+        return replace(self, model=self.model.on(views))
 
-    def with_noises(self, noises: Iterable[RecordNoise]) -> Problem:
-        """The same with other noise, one for each record."""
-        return replace(self, noises=tuple(noises))
+    def with_law(self, law: GapLaw) -> Problem:
+        """The same records, effects and noise with another law, or with other parameters held."""
+        return replace(self, model=CampaignModel(law, self.model.views, self.model.causes))
 
-    def with_held(self, index: int, law: Law) -> Problem:
-        """The same with one more parameter held, at its value in `law`."""
-        held = tuple(was or at == index for at, was in enumerate(self.held))
-        return replace(self, law=law, held=held)
+    def with_noises(self, noises: Iterable[NoiseModel], strain: Sequence[StrainNoise | None] = ()) -> Problem:
+        """The same with other noise of every record's stress; and of its strain, where that matters."""
+        whitener = Whitener(tuple(noises))
+        moving = MovingNoise(whitener, tuple(strain)) if any(each is not None for each in strain) else None
+        return replace(self, whitener=whitener, moving=moving)
 
-    def frozen_at(self, law: Law) -> Problem:
-        """The same with the noise as it is at one law."""
-        return self.with_noises(noise.frozen_at(law) for noise in self.noises)
-
-    def reweighed(self, law: Law) -> Problem:
+    def reweighed(self, parameters: FloatArray) -> Problem:
         """The same, each record weighed by what really scatters it around the law: noise and bias together."""
-        noises = []
-        for each in self.records:
-            scale = max(each.noise, float(np.sqrt(np.mean(each.residual(law) ** 2))))
-            noises.append(_white(each, scale))
+        residual, noises = self.model.residual(parameters), []
+        for view, rows in self.model.parts:
+            noises.append(_white(view, max(view.stress_noise, float(np.sqrt(np.mean(residual[rows] ** 2))))))
         return self.with_noises(noises)
 
+    def frozen_at(self, parameters: FloatArray) -> Problem:
+        """The same with the noise as it is at some parameters."""
+        return replace(self, whitener=self.whitener_at(parameters), moving=None)
+
     @property
-    def free(self) -> NDArray[np.intp]:
-        """Indices of the identified parameters."""
-        return np.flatnonzero(~np.array(self.held))
+    def law(self) -> GapLaw:
+        """The law, with where a search may begin and what is held."""
+        return self.model.law
+
+    @property
+    def views(self) -> tuple[RecordView, ...]:
+        """The records."""
+        return self.model.views
 
     @property
     def lengths(self) -> list[int]:
         """Samples of each record."""
-        return [len(each.record) for each in self.records]
+        return [len(view.data) for view in self.views]
 
     @property
     def carries_strain_noise(self) -> bool:
         """Whether the residual of any record is weighed for the noise of its strain."""
-        return any(noise.carries_strain_noise for noise in self.noises)
+        return self.moving is not None or any(noise.carries_strain for noise in self.whitener.noises)
 
-    @property
-    def noise_moves(self) -> bool:
-        """Whether the noise of any record depends on the law."""
-        return any(noise.strain is not None for noise in self.noises)
+    def engine_law(self) -> DnlrLaw:
+        """The law where it is the engine's, as it is in a fit."""
+        assert isinstance(self.law, DnlrLaw), "only a diagnosis takes other laws"
+        return self.law
 
-    def law_at(self, free_values: FloatArray) -> Law:
-        """The law with other values of the identified parameters."""
-        values = self.law.parameters
-        values[self.free] = free_values
-        return self.law.with_parameters(values)
+    def law_at(self, parameters: FloatArray) -> Law:
+        """The engine's law with these values."""
+        return self.engine_law().law_at(parameters)
 
-    def noises_at(self, law: Law) -> tuple[NoiseModel, ...]:
-        """Every record's noise at a law."""
-        return tuple(noise.at(law) for noise in self.noises)
+    def whitener_at(self, parameters: FloatArray) -> Whitener:
+        """Of the noise at some parameters."""
+        return self.whitener if self.moving is None else self.moving.at(self.law_at(parameters))
 
-    def whitened(self, parts: Iterable[FloatArray], law: Law) -> FloatArray:
-        """One array per record, its outliers set aside, whitened by the noise at a law, and stacked."""
-        return np.concatenate(
-            [
-                noise.whiten(without_outliers(part, noise.outliers))
-                for noise, part in zip(self.noises_at(law), parts, strict=True)
-            ]
-        )
+    def noises_at(self, parameters: FloatArray) -> tuple[NoiseModel, ...]:
+        """Every record's noise at some parameters."""
+        return self.whitener_at(parameters).noises
 
-    def data(self, law: Law) -> FloatArray:
-        """Measured stress, whitened by the noise at a law, shape (n_samples,) [-]."""
-        return self.whitened((each.record.true_stress for each in self.records), law)
+    def data(self, parameters: FloatArray) -> FloatArray:
+        """Measured stress in white coordinates, shape (n_samples,) [-]."""
+        return self.whitener_at(parameters).residual(self.model.data)
 
-    def residual(self, law: Law) -> FloatArray:
-        """Whitened fit residual, shape (n_samples,) [-]."""
-        return self.whitened((each.residual(law) for each in self.records), law)
+    def residual(self, parameters: FloatArray) -> FloatArray:
+        """Fit residual in white coordinates, shape (n_samples,) [-]."""
+        return self.whitener_at(parameters).residual(self.model.residual(parameters))
 
-    def residual_and_jacobian(self, law: Law) -> tuple[FloatArray, FloatArray]:
-        """Whitened fit residual (n_samples,), and the sensitivities (n_samples, 3) that make its exact gradient.
+    def residual_and_jacobian(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Fit residual (n_samples,), and the derivatives (n_samples, n_parameters) that make its exact gradient.
 
         Where strain noise moves with the law, J - (d C / d theta) delta stands in for J, delta the strain errors that
         reconcile record and law: Gauss-Newton then descends along the gradient of r^T Sigma(theta)^-1 r.
         """
-        residuals, jacobians = [], []
-        for each, noise in zip(self.records, self.noises, strict=True):
-            stress, sensitivity = each.sensitivity(law)
-            residual = stress - each.record.true_stress
-            if noise.strain is not None:
-                errors = noise.at(law).strain_errors(residual)
-                sensitivity = sensitivity.copy()
-                sensitivity[:, self.free] -= noise.strain.slopes(law, errors, self.free.tolist())
-            residuals.append(residual)
-            jacobians.append(sensitivity)
-        return self.whitened(residuals, law), self.whitened(jacobians, law)
+        residual, jacobian = self.model.residual_and_jacobian(parameters)
+        whitener = self.whitener_at(parameters)
+        if self.moving is not None:
+            free = self.engine_law().free.tolist()
+            jacobian[:, : len(free)] -= self.moving.slopes(self.law_at(parameters), residual, free)
+        return whitener.residual(residual), whitener.columns(jacobian)
+
+    def by_record(self, stacked: FloatArray) -> list[FloatArray]:
+        """The rows of each record, outliers set apart."""
+        return [
+            without_outliers(stacked[rows], noise.outliers)
+            for (_, rows), noise in zip(self.model.parts, self.whitener.noises, strict=True)
+        ]
 
 
-def _white(each: RecordProblem, level: float) -> RecordNoise:
+def _white(view: RecordView, level: float) -> NoiseModel:
     """White stress noise of one size along a record."""
-    return RecordNoise(NoiseModel.stationary(each.record.id, Arma(innovation=level), len(each.record)))
+    return NoiseModel.stationary(view.id, Arma(innovation=level), len(view.data))

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
-    from probation.smoothing.excitation import Excitation
 
 STRAIN_STEP = 1e-6
 """Largest strain by which a law without tangents is probed [-]."""
@@ -24,9 +23,7 @@ NEGLIGIBLE = 0.1
 """Propagated noise along one direction, over the scatter of the stress from sample to sample, that is left out."""
 
 
-def propagated_noise(
-    law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray
-) -> FloatArray | None:
+def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray | None:
     """Factor A of the stress covariance A A^T that the strain's noise makes, shape (n_samples, n_directions) [MPa].
 
     Of a smoothed strain all that the smoother lets through; of a strain as measured the error of its first sample,
@@ -36,8 +33,6 @@ def propagated_noise(
     ----------
     law : GapLaw
     view : RecordView
-    excitation : Excitation
-        The record's, at its samples.
     parameters : ndarray, shape (n_base,)
 
     Returns
@@ -45,24 +40,25 @@ def propagated_noise(
     ndarray or None
         None where the strain has no noise.
     """
+    excitation = view.excitation
     if excitation.strain_noise < CLEAN:
         return None
     if isinstance(law, DnlrLaw):
         noise = StrainNoise.of(excitation, view.scheme, view.stride)
         columns = noise.leading(law.law_at(parameters))
     else:
-        columns = _by_differences(law, view, excitation, parameters)
+        columns = _by_differences(law, view, parameters)
     left, size, _ = np.linalg.svd(columns, full_matrices=False)
     level = scatter(view.sampled(view.time), view.data)
     kept = size > NEGLIGIBLE * level
     return np.asarray(left[:, kept] * size[kept])
 
 
-def _by_differences(law: GapLaw, view: RecordView, excitation: Excitation, parameters: FloatArray) -> FloatArray:
+def _by_differences(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray:
     """The same for a law without tangents along the strain, shape (n_samples, n_directions) [MPa]."""
     still = law.stress(view, parameters)
     instants, samples = view.time, view.sampled(view.time)
-    columns = leading_directions(excitation)[0]
+    columns = leading_directions(view.excitation)[0]
     found = np.empty_like(columns)
     for index, column in enumerate(columns.T):
         size = max(float(np.max(np.abs(column))), 1e-300)

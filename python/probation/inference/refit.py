@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.inference.model import CampaignModel
-    from probation.noise.whitener import Whitener
+    from probation.inference.problem import Problem
 
 MOST_STEPS = 15
 SETTLED = 0.02
@@ -24,11 +24,11 @@ SETTLED = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Refit:
-    """A model at the optimum of chi^2 + prior.
+    """A problem at the optimum of chi^2 + prior.
 
     Attributes
     ----------
-    model : CampaignModel
+    problem : Problem
     parameters : ndarray, shape (p,)
     residual : ndarray, shape (N,)
         Whitened fit residual, model - data.
@@ -39,12 +39,17 @@ class Refit:
         Gauss-Newton steps that were taken.
     """
 
-    model: CampaignModel
+    problem: Problem
     parameters: FloatArray
     residual: FloatArray
     jacobian: FloatArray
     coordinates: Coordinates
     steps: int
+
+    @property
+    def model(self) -> CampaignModel:
+        """Law, records and effects."""
+        return self.problem.model
 
     @property
     def chi_square(self) -> float:
@@ -96,7 +101,8 @@ class Coordinates:
     def of(self, parameters: FloatArray) -> FloatArray:
         """Coordinates of parameters."""
         values = parameters / self.size
-        values[self.log] = np.log(values[self.log])
+        with np.errstate(divide="ignore"):  # a bound at 0
+            values[self.log] = np.log(values[self.log])
         return np.asarray(values)
 
     def parameters(self, coordinates: FloatArray) -> FloatArray:
@@ -111,9 +117,8 @@ class Coordinates:
 
 
 def refit(
-    model: CampaignModel,
+    problem: Problem,
     start: FloatArray,
-    whitener: Whitener,
     *,
     most_steps: int = MOST_STEPS,
     settled: float = SETTLED,
@@ -123,10 +128,8 @@ def refit(
 
     Parameters
     ----------
-    model : CampaignModel
+    problem : Problem
     start : ndarray, shape (p,)
-    whitener : Whitener
-        Of the model's records.
     most_steps : int
         The search ends there, wherever it is: a race's early rounds.
     settled : float
@@ -139,9 +142,9 @@ def refit(
     ConvergenceError
         If the law cannot be solved at the start.
     """
-    coordinates = Coordinates.of_model(model)
+    coordinates = Coordinates.of_model(problem.model)
     found = minimise(
-        _Objective(model, coordinates, whitener),
+        Objective(problem, coordinates),
         coordinates.of(np.asarray(start, dtype=np.float64)),
         bounds=coordinates.bounds,
         prior=coordinates.prior,
@@ -151,21 +154,22 @@ def refit(
         most_steps=most_steps,
     )
     parameters = coordinates.parameters(found.x)
-    return Refit(model, parameters, found.residual, found.jacobian, coordinates, found.steps)
+    return Refit(problem, parameters, found.residual, found.jacobian, coordinates, found.steps)
 
 
 @dataclass(frozen=True, eq=False)
-class _Objective:
-    """Whitened residual of a model along its search coordinates."""
+class Objective:
+    """The residual of a problem along search coordinates, as `least_squares.minimise` takes it."""
 
-    model: CampaignModel
+    problem: Problem
     coordinates: Coordinates
-    whitener: Whitener
 
     def residual(self, x: FloatArray) -> FloatArray:
-        return self.whitener.residual(self.model.residual(self.coordinates.parameters(x)))
+        """Shape (N,)."""
+        return self.problem.residual(self.coordinates.parameters(x))
 
     def tangent(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Residual (N,) and its derivatives along the coordinates (N, p)."""
         parameters = self.coordinates.parameters(x)
-        raw, slopes = self.model.residual_and_jacobian(parameters)
-        return self.whitener.residual(raw), self.whitener.columns(slopes * self.coordinates.slopes(parameters))
+        residual, slopes = self.problem.residual_and_jacobian(parameters)
+        return residual, slopes * self.coordinates.slopes(parameters)

@@ -45,8 +45,9 @@ class Whitener:
         return self._apart(np.concatenate(own))
 
     def columns(self, matrix: FloatArray) -> FloatArray:
-        """L times stacked columns (N, m)."""
-        own = [noise.whiten(matrix[part]) for noise, part in zip(self.noises, self.slices, strict=True)]
+        """L times stacked columns (N, m), the outliers of the residual set aside in them, too."""
+        parts = zip(self.noises, self.slices, strict=True)
+        own = [noise.whiten(without_outliers(matrix[part], noise.outliers)) for noise, part in parts]
         return self._apart(np.vstack(own))
 
     def _apart(self, values: FloatArray) -> FloatArray:

@@ -1,9 +1,17 @@
 """How much a record scatters from sample to sample, without a model of what it measures."""
 
-import numpy as np
-from numpy.typing import NDArray
+from __future__ import annotations
 
-FloatArray = NDArray[np.float64]
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+    from probation.records.record import Record
+
+LEAST_NOISE = 1e-6
+"""Least noise of a record, as a fraction of its stress range: a synthetic record has much weight, not all of it."""
 
 _NORMAL_CONSISTENCY = 1.482602218505602  # standard deviation over median absolute deviation
 
@@ -31,3 +39,10 @@ def scatter(time: FloatArray, values: FloatArray) -> float:
     distance = values[1:-1] - weight * values[:-2] - (1.0 - weight) * values[2:]
     distance /= np.sqrt(1.0 + weight**2 + (1.0 - weight) ** 2)
     return float(_NORMAL_CONSISTENCY * np.median(np.abs(distance - np.median(distance))))
+
+
+def stress_noise(record: Record) -> float:
+    """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `scatter`; never 0."""
+    stated = record.noise.stress_MPa
+    noise = scatter(record.time, record.true_stress) if stated is None else stated
+    return max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)

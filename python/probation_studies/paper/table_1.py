@@ -10,8 +10,9 @@ import numpy as np
 from probation._arrays import FloatArray
 from probation.identify.bias import low_frequency
 from probation.identify.search import by_least_squares, by_simplex
+from probation.inference.measured_view import measured_view
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
-from probation.inference.record_problem import RecordProblem
 from probation.law.modal import Law
 from probation.law.ramp import ramp_stress
 from probation.law.schemes import BE2, SA3, Start
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from probation.effects.record_view import RecordView
+    from probation.law.modification import Modification
     from probation.records.record import Record
 
 RATE = 0.005
@@ -270,7 +273,7 @@ def table_1(
     rows = []
     for at, condition in enumerate(CONDITIONS):
         values: dict[str, list[FloatArray]] = {option.name: [] for option in OPTIONS}
-        start = dict.fromkeys(values, START)
+        start = dict.fromkeys(values, START.parameters)
         for draw in range(draws):
             if progress:
                 progress(at * draws + draw, len(CONDITIONS) * draws, condition.name)
@@ -278,7 +281,7 @@ def table_1(
             for option in OPTIONS:
                 found = by_least_squares(problem_of(record, option), start[option.name], LIMITS)
                 start[option.name] = found  # the next minimum is close
-                values[option.name].append(found.parameters)
+                values[option.name].append(found)
         rows += [Row(condition.name, option.name, option.key, np.array(values[option.name])) for option in OPTIONS]
     apart = max(_algorithms_apart(CONDITIONS[0].record(seed), option) for option in OPTIONS) if simplex else None
     return Table1(tuple(rows), draws, seed, apart, *_late_start())
@@ -295,7 +298,7 @@ def _algorithms_apart(record: Record, option: Option) -> float:
         sha256="",
     )
     problem = problem_of(record, option)
-    one, other = (search(problem, START, LIMITS).parameters for search in (by_least_squares, by_simplex))
+    one, other = (search(problem, START.parameters, LIMITS) for search in (by_least_squares, by_simplex))
     return float(np.max(np.abs(other / one - 1.0)))
 
 
@@ -305,10 +308,8 @@ def problem_of(record: Record, option: Option) -> Problem:
         record = replace(record, true_strain=straight_line(record), sha256="")
     excitation = excite(record, "raw")
     scheme = SA3() if option.scheme == "sa3" else BE2(start=option.start)
-    prepared = RecordProblem.prepare(record, excitation, scheme)
-    if option.scheme == "closed form":
-        prepared = ClosedForm(**vars(prepared))
-    return Problem.of(START, [prepared], (False, False, False))
+    law = ClosedForm(START) if option.scheme == "closed form" else DnlrLaw(START)
+    return Problem.white(law, [measured_view(record, excitation, scheme)])
 
 
 def straight_line(record: Record) -> FloatArray:
@@ -317,19 +318,26 @@ def straight_line(record: Record) -> FloatArray:
     return np.asarray(offset + slope * record.time, dtype=np.float64)
 
 
-class ClosedForm(RecordProblem):
+class ClosedForm(DnlrLaw):
     """Identification 1: eq. (7) for the ramp as commanded stands in for a scheme."""
 
-    def stress(self, law: Law) -> FloatArray:
+    def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """Model stress, shape (n_times,) [MPa]."""
-        return ramp_stress(law, RATE, self.record.time)
+        assert modification is None, "an identification has no effects"
+        return ramp_stress(self.law_at(parameters), RATE, view.time)
 
-    def sensitivity(self, law: Law) -> tuple[FloatArray, FloatArray]:
+    def sensitivity(
+        self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
+    ) -> tuple[FloatArray, FloatArray]:
         """Model stress and its derivatives: E_u and G by unit solves, tau_max by central difference."""
-        unrelaxed, longest, hardening = law.parameters
-        with_E, with_G = (self.stress(law.with_parameters([e, longest, g])) for e, g in ((1.0, 0.0), (0.0, 1.0)))
+
+        def at(*values: float) -> FloatArray:
+            return self.stress(view, np.array(values), modification)
+
+        unrelaxed, longest, hardening = (float(value) for value in parameters)
+        with_E, with_G = at(1.0, longest, 0.0), at(0.0, longest, 1.0)
         step = 1e-4 * longest
-        up, down = (self.stress(law.with_parameters([unrelaxed, longest + side, hardening])) for side in (step, -step))
+        up, down = (at(unrelaxed, longest + side, hardening) for side in (step, -step))
         stress = unrelaxed * with_E + hardening * with_G
         return stress, np.column_stack([with_E, (up - down) / (2.0 * step), with_G])
 
@@ -342,7 +350,7 @@ def _late_start() -> tuple[float, float, float]:
         late = ramp_stress(RAMP_LAW, RATE, np.maximum(record.time - delay, 0.0))
         problem = problem_of(replace(record, true_stress=late, sha256=""), OPTIONS[0])
         return np.asarray(
-            100.0 * (by_least_squares(problem, START, LIMITS).parameters / RAMP_LAW.parameters - 1.0), dtype=np.float64
+            100.0 * (by_least_squares(problem, START.parameters, LIMITS) / RAMP_LAW.parameters - 1.0), dtype=np.float64
         )
 
     at_a_tenth = float(delayed(0.1)[0])
@@ -403,12 +411,12 @@ def figure_2(seed: int = 0, *, wave: float = WAVE) -> Figure2:
     line = straight_line(record)
     error = record.true_strain - line
     problem = problem_of(record, OPTIONS[-1])
-    law = by_least_squares(problem, START, LIMITS)
-    model = problem.records[0].stress(law)
+    found = by_least_squares(problem, START.parameters, LIMITS)
+    law, model = problem.law_at(found), problem.model.predict(found)[record.id]
     high = _high(record.true_stress - model)
     response = _high(law.stress(record.time, record.true_strain, "sa3") - model)
     followed = problem_of(record, Option("2", "", "sa3", filtered=False))
-    left = _high(record.true_stress - followed.records[0].stress(by_least_squares(followed, START, LIMITS)))
+    left = _high(-followed.model.residual(by_least_squares(followed, START.parameters, LIMITS)))
     return Figure2(
         record,
         law,

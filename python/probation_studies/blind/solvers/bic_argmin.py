@@ -30,9 +30,9 @@ def bic_argmin(folder: Path) -> dict[str, object]:
     price = 0.5 * float(np.log(len(base.whitened)))
     scored: list[Scored] = [("", -0.5 * base.refit.chi_square, None)]
     for candidate in _candidates(found):
-        model = base.model.with_causes([candidate.cause])
+        problem = base.problem.with_causes([candidate.cause])
         try:
-            fitted = refit(model, np.concatenate([base.parameters, candidate.values]), base.whitener, most_steps=STEPS)
+            fitted = refit(problem, np.concatenate([base.parameters, candidate.values]), most_steps=STEPS)
         except (ConvergenceError, InputError):
             continue
         log_weight = -0.5 * fitted.chi_square - price * len(candidate.values)
