@@ -14,7 +14,9 @@ from scipy.optimize import least_squares
 import probation
 from probation.detection.gap_test import gap_test
 from probation.detection.where import locate
+from probation.diagnosis.attribution import EffectShare
 from probation.diagnosis.closure import Closure
+from probation.diagnosis.remainder import Dependence, Remainder, RemainderCurve
 from probation.diagnosis.result import (
     BaseParameter,
     CauseParameter,
@@ -26,6 +28,8 @@ from probation.diagnosis.result import (
     Shrink,
     Signature,
 )
+from probation.diagnosis.skipped import Skipped
+from probation.inference.gap import HeldOutGap
 from probation.noise.record_residual import RecordResidual
 from probation.noise.whitening import Whitened
 
@@ -270,4 +274,41 @@ def unexplained() -> Diagnosis:
         acts=(),
         next_test=None,
         shrink=replace(found.shrink, identify=fitted, held_out=None, records=still, regions=()),
+    )
+
+
+@cache
+def with_everything() -> Diagnosis:
+    """All that a page may hold: a record that is not predicted, twenty regions, a remainder, what was left out."""
+    found = unexplained()
+    place = found.located[0]
+    x = np.linspace(0.0, 1.2, 50)
+    left = Remainder(
+        0.4,
+        NOISE,
+        (
+            Dependence("largest_strain", "the largest strain so far", "unloading", "added", 0.94, "records"),
+            Dependence("strain_rate", "the strain rate", None, "factor", 0.31, "parts"),
+        ),
+        "What is left is a function of the largest strain so far, on unloading only: it closes 94 % of it.",
+        RemainderCurve("largest strain so far [–]", "MPa", x, np.sin(5 * x), x > 0.2, x > 0.8, x, np.sin(5 * x)),
+    )
+    why = "no solution at t = 0.1 s of load-unload at 23 C, specimen 14 of batch HD-2020-B, left grip renewed"
+    cheap = NextTest("Repeat ramp-0.006 at 40 °C: it warms less there.", (), 0.5, 0.8, "one specimen, 20 minutes")
+    return replace(
+        found,
+        verdict="not_predicted",
+        headline="The law describes the 5 records that it was fitted to, not jump (held out), which it misses by "
+        "12.6 MPa, 95 times what the noise and the uncertainty of its parameters make; nothing in the catalogue "
+        "explains it.",
+        located=(place,) * 20,
+        effects=(
+            EffectShare("self_heating", 0.6, 0.93, 0.9, 0.5, (), named=True),
+            EffectShare("grip_slip", 0.3, 0.02, 0.05, 0.01, (LONG,), named=False),
+        ),
+        held_out={"jump (held out)": HeldOutGap(12.6, 0.13, 0.0)},
+        remainder=left,
+        skipped=(Skipped(("stress_activated_flow",), why, 3), Skipped((), "the next tests: the time was over")),
+        next_test=cheap,
+        next_tests=(cheap, replace(cheap, what="Pull a ramp-0.02 to a strain of 1.2: no cooling.", cost="")),
     )

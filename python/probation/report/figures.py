@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import io
+import json
 import re
 from contextlib import contextmanager
 from html import escape
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from textwrap import fill
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.legend import Legend
 from matplotlib.text import Text
-from matplotlib.ticker import LogFormatter
+from matplotlib.ticker import FixedFormatter, FuncFormatter, LogFormatter, NullFormatter
 
 from probation._files import write_whole
 from probation._text import printable, printable_lines
@@ -25,11 +29,20 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from os import PathLike
 
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.backend_bases import RendererBase
+    from matplotlib.lines import Line2D
 
     from probation._arrays import FloatArray
 
 FORMATS = (".png", ".svg", ".pdf")
+
+NARROW = 4.3
+"""Width [inch] of a figure on a telephone: 10 pixels to a letter's height where 350 pixels are wide enough."""
+
+_TITLES: tuple[Literal["left", "center", "right"], ...] = ("left", "center", "right")
+_LINE = 48  # letters of a title across a narrow figure
 
 _DRAWN = 2000  # more points than that cannot be distinguished in a figure
 
@@ -45,13 +58,16 @@ def house_style() -> Iterator[None]:
         yield
 
 
-def new_figure(width: float = 7.2, height: float = 4.2) -> Figure:
+def new_figure(width: float = 7.2, height: float = 4.2) -> SafeFigure:
     """A figure of that size [inch], bound to no window; use within `house_style`."""
     return SafeFigure(figsize=(width, height), layout="constrained")
 
 
 class SafeFigure(Figure):
     """A figure in which text is data: nothing in it is taken for mathematics, and what does not print is escaped."""
+
+    narrows = True
+    """Whether a telephone may get it narrower, its panels one below the other."""
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw, in a window as into a file."""
@@ -93,7 +109,8 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     """A figure as an ``<svg>`` element to stand in a page.
 
     Text stays text, the background is clear, and the colours follow the page from light to dark through the custom
-    properties of `style.css_variables`.
+    properties of `style.css_variables`. The attribute `data-axes` and the groups with `data-curve` tell the script of
+    a page which values a pointer stands on.
 
     Parameters
     ----------
@@ -102,12 +119,18 @@ def figure_to_svg(figure: Figure, label: str) -> str:
         What it shows, for those who cannot see it; unique within a page.
     """
     stream = io.StringIO()
+    curves = {(at, of): line for at, axes in enumerate(figure.axes) for of, line in enumerate(_curves(axes))}
+    for (at, of), line in curves.items():
+        line.set_gid(f"curve-{at}-{of}")
     with house_style():
         mpl.rcParams["svg.hashsalt"] = printable(label)
         figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+    for line in curves.values():
+        line.set_gid(None)
     svg = stream.getvalue()
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r'<g id="curve-(\d+-\d+)">', r'<g data-curve="\1">', svg)
     svg = re.sub(r'<g id="[^"]*">', "<g>", svg)
     svg = re.sub(r"<!--.*?-->", "", svg)
     svg = re.sub(r"(font(?:-family)?: [^;\"']*)'[^;\"]*", r"\1var(--sans, sans-serif)", svg)
@@ -118,12 +141,104 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     return re.sub(
         r"<svg[^>]*?(viewBox=\"[^\"]*\")[^>]*>",
         lambda match: (
-            f'<svg {match[1]} role="img" aria-label="{escape(printable(label))}" xmlns="http://www.w3.org/2000/svg" '
-            f'xmlns:xlink="http://www.w3.org/1999/xlink">'
+            f'<svg {match[1]} role="img" aria-label="{escape(printable(label))}" data-axes="{_axes(figure)}" '
+            f'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">'
         ),
         svg,
         count=1,
     )
+
+
+def narrow(figure: Figure) -> bool:
+    """Make a figure that is wider than `NARROW` as narrow as that, panels side by side one below the other.
+
+    A figure that is narrow already, or that says that it cannot be (`SafeFigure.narrows`), is left as it is.
+
+    Returns
+    -------
+    bool
+        Whether the figure was changed.
+    """
+    if figure.get_figwidth() <= NARROW or not getattr(figure, "narrows", True):
+        return False
+    width, height = figure.get_size_inches()
+    panels = [(axes, spec) for axes in figure.axes if (spec := axes.get_subplotspec()) is not None]
+    rows = max((spec.get_gridspec().nrows for _, spec in panels), default=1)
+    if any(spec.get_gridspec().ncols > 1 for _, spec in panels):
+        grid = GridSpec(len(panels), 1, figure=figure)
+        for at, (axes, _) in enumerate(panels):
+            names = {f"{direction}label": _label_of(axes, direction) for direction in "xy"}
+            axes.set_subplotspec(grid[at])
+            axes.tick_params(labelbottom=True, labelleft=True)
+            axes.set(**names)
+        height *= 0.8 * len(panels) / rows
+    elif not any(_bears_names(axes.yaxis) for axes in figure.axes):
+        height *= max(NARROW / width, 0.75)  # rows with names keep their height
+    for axes in figure.axes:
+        for title in axes.findobj(Text, include_self=False):
+            if isinstance(title, Text) and title.get_text() in {axes.get_title(loc) for loc in _TITLES}:
+                title.set_text(fill(title.get_text(), _LINE))
+        low, high = axes.get_xlim()
+        if axes.get_xscale() == "log" and high > 5.0 * low:
+            axes.xaxis.set_minor_formatter(NullFormatter())
+    for legend in list(figure.legends):
+        handles, labels = (
+            [each for each in legend.legend_handles if each is not None],
+            [text.get_text() for text in legend.get_texts()],
+        )
+        columns = max(1, _LINE // (max(map(len, labels), default=0) + 6))
+        place = next(name for name, code in Legend.codes.items() if code == getattr(legend, "_loc", None))
+        legend.remove()
+        with house_style():
+            figure.legend(handles, labels, loc=cast("Any", f"outside {place}"), ncols=columns)
+        height += 0.17 * (len(labels) / columns - 1.0)
+    figure.set_size_inches(NARROW, height)
+    return True
+
+
+def _curves(axes: Axes) -> list[Line2D]:
+    """Lines and dots that stand for data: not the line at zero, which runs from edge to edge."""
+    return [line for line in axes.lines if line.get_transform() == axes.transData and np.size(line.get_xdata()) > 1]
+
+
+def _axes(figure: Figure) -> str:
+    """Where the axes of a figure lie in its SVG, their values, labels and curves, as JSON for an attribute."""
+    width, height = 72.0 * figure.get_size_inches()
+    known = []
+    for axes in figure.axes:
+        place = axes.get_position()
+        known.append(
+            {
+                "x": _scale(axes.xaxis, place.x0 * width, place.x1 * width, _label_of(axes, "x")),
+                "y": _scale(axes.yaxis, (1.0 - place.y0) * height, (1.0 - place.y1) * height, _label_of(axes, "y")),
+                "curves": [
+                    "" if (label := str(line.get_label())).startswith("_") else printable(label)
+                    for line in _curves(axes)
+                ],
+            }
+        )
+    return escape(json.dumps(known, ensure_ascii=False, separators=(",", ":")))
+
+
+def _scale(axis: Axis, first: float, last: float, label: str) -> dict[str, object] | None:
+    """Ends of an axis in the drawing and in its values; None where it bears names instead of numbers."""
+    if axis.get_scale() not in ("linear", "log") or _bears_names(axis):
+        return None
+    low, high = (float(f"{end:.7g}") for end in axis.get_view_interval())
+    ends = [round(first, 2), round(last, 2), low, high]
+    return {"ends": ends, "log": axis.get_scale() == "log", "label": printable(label)}
+
+
+def _bears_names(axis: Axis) -> bool:
+    return isinstance(axis.get_major_formatter(), (FixedFormatter, FuncFormatter))
+
+
+def _label_of(axes: Axes, direction: str) -> str:
+    """The label of an axis, or of one that it is shared with."""
+    shared = axes.get_shared_x_axes() if direction == "x" else axes.get_shared_y_axes()
+    own = getattr(axes, f"get_{direction}label")()
+    others = (getattr(each, f"get_{direction}label")() for each in shared.get_siblings(axes))
+    return str(own or next((label for label in others if label), ""))
 
 
 def _shortened(number: re.Match[str]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Rectangle
 
 from probation.report.diagnosis_words import count_text
@@ -26,8 +27,8 @@ LEVELS = (0.95, 0.8, 0.6)
 
 _ALPHAS = (0.15, 0.35, 0.6)  # no darker: numbers stand in the cells, on a dark page too
 _ROOM = 25
+_NARROWS = 8  # so many columns of numbers fit on a telephone
 _LINE = 38
-_LETTER = 1.25  # width of one in the legend, whose whole width is 100
 
 
 def isolability_figure(found: Isolability) -> Figure:
@@ -51,7 +52,8 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
     with house_style():
         size = 0.19 if count > _ROOM else 0.215
         figure = new_figure(7.2, 1.6 + size * count + 0.9)
-        legend, axes = figure.subplots(2, 1, height_ratios=(0.25, size * count + 1.6))
+        figure.narrows = count <= _NARROWS
+        axes = figure.subplots()
         for row in range(count):
             seen = detectability[row] >= DESIGN.detected
             if not seen:
@@ -73,7 +75,7 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
         axes.set(xlabel="… might it be taken for this one?", ylabel="if this effect is there …")
         axes.tick_params(length=0)
         axes.spines[["left", "bottom"]].set_visible(False)
-        _legend(legend)
+        figure.legend(handles=_legend(), loc="outside upper left", ncols=3)
     return figure
 
 
@@ -89,7 +91,7 @@ def _cell(axes: Axes, column: float, row: float, alpha: float, chance: float) ->
     axes.text(column, row, f"{100.0 * chance:.0f}", ha="center", va="center", fontsize=6.5, zorder=3)
 
 
-def _legend(axes: Axes) -> None:
+def _legend() -> list[Rectangle]:
     entries = [
         ("discriminated", "second", 0.0),
         ("80 to 95 % right", "second", _ALPHAS[0]),
@@ -97,15 +99,11 @@ def _legend(axes: Axes) -> None:
         ("little better than a coin", "second", _ALPHAS[2]),
         ("not seen at all", "data", 0.3),
     ]
-    axes.set(xlim=(0.0, 100.0), ylim=(0.0, 1.0))
-    place = 0.0
-    for label, shade, alpha in entries:
-        box = Rectangle((place, 0.2), 2.0, 0.6, facecolor=colour(shade), alpha=alpha or None, lw=0, fill=alpha > 0.0)
-        axes.add_patch(box)
-        axes.add_patch(Rectangle((place, 0.2), 2.0, 0.6, fill=False, edgecolor=colour("muted"), lw=0.5))
-        axes.text(place + 2.6, 0.5, label, va="center", fontsize=8)
-        place += 5.0 + _LETTER * len(label)
-    axes.set_axis_off()
+    edge = to_rgba(colour("muted"))
+    return [
+        Rectangle((0, 0), 1, 1, facecolor=to_rgba(colour(shade), alpha), edgecolor=edge, lw=0.5, label=label)
+        for label, shade, alpha in entries
+    ]
 
 
 def campaign_isolability_figure(answer: CampaignIsolability) -> Figure:

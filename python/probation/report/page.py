@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -13,7 +14,7 @@ from markupsafe import Markup
 from probation._files import write_whole
 from probation._text import printable_lines
 from probation.provenance import Provenance, provenance
-from probation.report.figures import figure_to_svg
+from probation.report.figures import figure_to_svg, narrow
 from probation.report.style import css_variables
 from probation.report.table import Table
 
@@ -34,6 +35,8 @@ class Picture:
     caption: str
     width: float = 7.2
     """Inches it was drawn in; text is shown in one size whatever the width."""
+    narrow: str = ""
+    """The same for a telephone; empty where the one above serves."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ class Page:
     ----------
     title : str
     verdict : str
-        One sentence, read first.
+        Read first: its first 25 words at most, up to the end of a clause; the rest stands below.
     mood : {"good", "bad", "neutral"}
         How the verdict is coloured.
     sections : tuple of Section
@@ -84,8 +87,18 @@ class Page:
     provenance: Provenance = field(default_factory=provenance)
 
     def html(self) -> str:
-        """The page: no script, nothing fetched, light and dark by the reader's own setting."""
-        return _template().render(page=self, light=css_variables(dark=False), dark=css_variables(dark=True))
+        """The page: nothing fetched, light and dark by the reader's own setting; a script shows values of plots."""
+        verdict, rest = _headed(" ".join(self.verdict.split()))
+        return _template().render(
+            page=self,
+            verdict=verdict,
+            rest=rest,
+            folded=_FOLDED,
+            unfolded=_UNFOLDED,
+            long=_LONG,
+            light=css_variables(dark=False),
+            dark=css_variables(dark=True),
+        )
 
     def write(self, path: str | PathLike[str]) -> None:
         """Write the page, whole or not at all.
@@ -99,8 +112,59 @@ class Page:
 
 
 def picture(figure: Figure, caption: str) -> Picture:
-    """Put a figure into a page; the caption, unique within the page, also tells what it shows."""
-    return Picture(figure_to_svg(figure, caption), caption, figure.get_figwidth())
+    """Put a figure into a page; the caption, unique within the page, also tells what it shows.
+
+    The figure is made narrow for the second drawing: it is of no other use afterwards.
+    """
+    wide, width = figure_to_svg(figure, caption), figure.get_figwidth()
+    return Picture(wide, caption, width, figure_to_svg(figure, f"{caption} (narrow)") if narrow(figure) else "")
+
+
+_FOLDED = 12
+"""Rows of a table beyond which it is folded ..."""
+
+_UNFOLDED = 8
+"""... to so many."""
+
+_LONG = 28
+"""Letters of a cell beyond which it is broken into lines."""
+
+_TELEPHONE = 42
+"""Letters side by side on a telephone; each column costs two more."""
+
+
+def _headed(verdict: str, most: int = 25, fewest: int = 6) -> tuple[str, str]:
+    """A verdict as one sentence of at most so many words, and the rest of what it says.
+
+    A longer one is parted at the first sentence's end, else where the first clause of at least `fewest` words ends,
+    outside of parentheses. If none ends early enough, words are left out and the whole of it follows.
+    """
+    words = verdict.split()
+    ends = [
+        match.end()
+        for match in re.finditer(r"[.;:](?= )", verdict)
+        if verdict[: match.end()].count("(") == verdict[: match.end()].count(")")
+        and len(verdict[: match.end()].split()) <= most
+    ]
+    stops = [end for end in ends if verdict[end - 1] == "."]
+    if not stops and len(words) <= most:
+        return verdict, ""
+    clauses = stops or [end for end in ends if len(verdict[:end].split()) >= fewest]
+    if not clauses:
+        return f"{' '.join(words[: most - 1])} …", verdict
+    rest = verdict[clauses[0] :].strip()
+    begins = re.match(r"[a-z]+ ", rest)
+    return f"{verdict[: clauses[0] - 1]}.", rest[0].upper() + rest[1:] if begins else rest
+
+
+def _stacks(table: Table) -> bool:
+    """Whether a telephone is too narrow for the columns of a table side by side."""
+    columns = zip(table.headings, *table.rows, strict=True)
+    letters = [
+        max(max((len(word) for word in heading.split()), default=0), *(min(len(cell), _LONG) for cell in cells), 0)
+        for heading, *cells in columns
+    ]
+    return len(letters) > 1 and sum(letters) + 2 * len(letters) > _TELEPHONE
 
 
 def _escaped(value: object) -> object:
@@ -120,4 +184,5 @@ def _template() -> Template:
     )
     environment.filters["kind"] = lambda part: type(part).__name__
     environment.filters["trusted"] = Markup
+    environment.filters["stacks"] = _stacks
     return environment.get_template("page.html.j2")

@@ -83,7 +83,7 @@ def _residual(axes: Axes, curve: Curve, shade: str) -> None:
     if curve.noise_MPa:
         axes.axhspan(-2 * curve.noise_MPa, 2 * curve.noise_MPa, color=colour("data"), alpha=0.18, lw=0)
         dashed = "" if curve.band95 is None else "; dashed: 95 % prediction"
-        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa{dashed}", left=False)
+        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa{dashed}", above=False)
     if curve.band95 is not None:
         for side in (-1.0, 1.0):
             axes.plot(*thinned(curve.true_strain, side * curve.band95), "--", color=colour("muted"), lw=0.8)
@@ -160,9 +160,9 @@ def simulation_plot(simulation: Simulation) -> Figure:
     return figure
 
 
-def _note(axes: Axes, text: str, *, left: bool = True) -> None:
-    at, side = (0.012, "left") if left else (0.988, "right")
-    axes.text(at, 0.96, text, transform=axes.transAxes, ha=side, va="top", fontsize=8, color=colour("muted"))
+def _note(axes: Axes, text: str, *, above: bool = True) -> None:
+    y, side = (0.96, "top") if above else (0.04, "bottom")
+    axes.text(0.012, y, text, transform=axes.transAxes, ha="left", va=side, fontsize=8, color=colour("muted"))
 
 
 def _magnification(above: Axes, below: Axes) -> float:

@@ -104,13 +104,12 @@ def _scale(axes: Axes) -> None:
     for level in range(-count, count + 1):
         shade, alpha = _shade(level) if level else (colour("data"), 0.12)
         axes.add_patch(Rectangle((level - 0.5, 0.0), 1.0, 1.0, facecolor=shade, alpha=alpha, lw=0))
-    edges = [-each for each in reversed(LEVELS)] + list(LEVELS)
     places = [at + 0.5 for at in range(-count, count)]
-    axes.set_xticks(places, [f"{each:g}".replace("-", "−") for each in edges])
+    axes.set_xticks(places, [f"{each:g}" for each in (*reversed(LEVELS), *LEVELS)])
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
-    axes.set_xlabel("(model − measured) / noise [–]")
+    axes.set_xlabel("|model − measured| / noise [–]")
     axes.grid(visible=False)
     axes.spines[["left", "bottom"]].set_visible(False)
 

@@ -1,0 +1,64 @@
+"""Pages in headless Chromium: what lies where at a given width of the window, and what a pointer shows."""
+
+import base64
+import html
+import json
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+_PROBE = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a page lies in a window.
+
+    Attributes
+    ----------
+    scroll_width : int
+        Pixels that the page is wide; more than the window's where it must be scrolled sideways.
+    outside : list of str
+        Elements that reach beyond the window, and how far.
+    cut : list of str
+        Tables and drawings of which a part is seen only by scrolling.
+    empty : list of str
+        Drawings without width or height.
+    hovered : list of str
+        What the pointer shows on each drawing, in the middle of its first curve.
+    """
+
+    scroll_width: int
+    outside: list[str]
+    cut: list[str]
+    empty: list[str]
+    hovered: list[str]
+
+
+def browser() -> str | None:
+    """Where the browser is; None if there is none."""
+    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+def layouts(pages: dict[str, str], widths: tuple[int, ...], folder: Path) -> dict[tuple[str, int], Layout]:
+    """Open every page at every width, in frames of one window: a window itself is never narrower than 500 pixels."""
+    frames = [
+        f'<iframe data-name="{html.escape(name)}" style="border: 0; width: {width}px; height: 900px" '
+        f'srcdoc="{html.escape(page)}"></iframe>'
+        for name, page in pages.items()
+        for width in widths
+    ]
+    probe = folder / "probe.html"
+    probe.write_text(f"<!DOCTYPE html><body>{''.join(frames)}<script>{_PROBE}</script></body>", encoding="utf-8")
+    command = [str(browser()), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--dump-dom"]
+    done = subprocess.run(
+        [*command, f"--user-data-dir={folder / 'profile'}", probe.as_uri()],
+        check=True,
+        capture_output=True,
+        timeout=300,
+    )
+    told = re.search(rb"@@([A-Za-z0-9+/=]+)@@", done.stdout)
+    assert told is not None, done.stderr.decode()[-500:]
+    return {(each.pop("name"), each.pop("width")): Layout(**each) for each in json.loads(base64.b64decode(told[1]))}

@@ -1,0 +1,99 @@
+"""Every page that the program writes, on a desk and on a telephone: nothing is cut, a pointer shows values."""
+
+import re
+
+import pytest
+
+from browser import browser, layouts
+from campaigns.few_records import few_records
+from campaigns.typical_results import NAMES, result
+from lab_files import bluehill, zwick
+from probation import init_campaign
+from probation.cli import main
+from probation.smoothing.answer import describe_excitation
+
+DESK, TELEPHONE = 1280, 390
+WITHOUT_PAGES = ("comparison", "plan")
+RESULTS = [name for name in NAMES if name not in (*WITHOUT_PAGES, "fit with a companion relation")]
+OTHERS = ["files of a laboratory", "strain histories", "score of a sealed split"]
+
+
+def written(name, folder):
+    path = folder / "page.html"
+    if name == "files of a laboratory":
+        bluehill(folder / "a specimen with a long name, batch 2020-B.csv")
+        zwick(folder / "zwick.csv")
+        init_campaign(sorted(folder.glob("*.csv")), folder / "made").report(path)
+    elif name == "strain histories":
+        describe_excitation(few_records(names=("slow", "unloading")).records).report(path)
+    elif name == "score of a sealed split":
+        split = str(folder / "split")
+        assert main(["blind", "make", "--seed", "1", "--count", "2", "--out", split, "--processes", "1"]) == 0
+        solver = "probation_studies.blind.example:no_gap"
+        assert main(["blind", "solve", split, "--solver", solver, "--processes", "1"]) == 0
+        assert main(["blind", "score", split, "--report", str(path)]) == 0
+    else:
+        result(name).report(path)
+    return path.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    return {name: written(name, tmp_path_factory.mktemp("page")) for name in (*RESULTS, *OTHERS)}
+
+
+@pytest.fixture(scope="module")
+def layout(pages, tmp_path_factory):
+    if browser() is None:
+        pytest.skip("no browser here: chromium was looked for")
+    return layouts(pages, (DESK, TELEPHONE), tmp_path_factory.mktemp("browser"))
+
+
+@pytest.mark.parametrize("width", [DESK, TELEPHONE])
+@pytest.mark.parametrize("name", [*RESULTS, *OTHERS])
+def test_nothing_on_a_page_is_cut_or_sticks_out(name, width, layout):
+    found = layout[name, width]
+    assert found.outside == []
+    assert found.scroll_width <= width
+    assert found.cut == []
+    assert found.empty == []
+
+
+@pytest.mark.parametrize("name", ["fit", "certificate", "diagnosis", "cross-check", "files of a laboratory"])
+def test_a_pointer_on_a_curve_shows_its_values_with_their_units(name, layout):
+    """A value is a name, a number and, unless it is a pure number, its unit."""
+    told = [text for width in (DESK, TELEPHONE) for text in layout[name, width].hovered if text]
+    assert told
+    for text in told:
+        assert re.search(r"[a-z]\S* −?\d", text)
+    if name == "fit":
+        strain, stress = re.search(r"true strain (\S+)\ntrue stress (\S+) MPa", told[0]).groups()
+        record = next(iter(result("fit").records.values()))
+        assert 0.0 <= float(strain) <= 1.2
+        assert float(stress) <= max(each.true_stress.max() for each in result("fit").records.values())
+        assert record.true_stress.min() - 1.0 <= float(stress)
+
+
+@pytest.mark.parametrize("name", [*RESULTS, *OTHERS])
+def test_the_verdict_is_one_sentence_of_at_most_25_words(name, pages):
+    verdict = re.search(r'<p class="verdict [a-z]+">(.*?)</p>', pages[name], re.DOTALL)[1]
+    assert 0 < len(verdict.split()) <= 25
+    assert not re.search(r"[.!?] ", verdict)
+
+
+def test_a_long_table_is_folded_and_opens_without_a_script(pages):
+    """Twenty regions: eight of them shown, the others once the summary is clicked."""
+    page = pages["diagnosis with everything"]
+    folded = page[page.index("<summary>all 20 rows</summary>") :]
+    table = folded[: folded.index("</table>")]
+    assert table.count("<tr>") == 1 + 8  # the headings' row, too
+    assert table.count('<tr class="more">') == 12
+    assert ".fold:not([open]) + table tr.more { display: none; }" in page
+
+
+def test_what_a_verdict_does_not_hold_follows_it(pages):
+    page = pages["certificate"]
+    headline = result("certificate").headline
+    verdict = re.search(r'<p class="verdict [a-z]+">(.*?)\.</p>', page)[1]
+    assert headline.startswith(verdict)
+    assert headline[len(verdict) + 1 :].strip() in page
