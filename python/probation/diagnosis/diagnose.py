@@ -13,6 +13,7 @@ from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import FOR_THE_DESIGN, Budget
+from probation.diagnosis.calibration import calibration_of
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline
@@ -153,7 +154,8 @@ def diagnose(
     told(0.85)
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
-    chosen = answer_set(weighed)
+    calibration = calibration_of(campaign, base, own_law=law is None)
+    chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
         weighed = with_unseen(weighed, [effect.name for effect in considered])
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
@@ -211,7 +213,7 @@ def diagnose(
         next_test=following[0] if following else None,
         next_tests=following,
         curves=curves,
-        warnings=(*thinned, *_warnings(base, gap.test.robust)),
+        warnings=(*thinned, *_warnings(base, gap.test.robust), *(calibration.warnings if gap.exists else ())),
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
@@ -219,6 +221,7 @@ def diagnose(
         skipped=skipping.entries(found),
         scatter=base.scatter,
         hangs_on_scatter=gap.hangs_on_scatter,
+        calibration=calibration,
     )
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
+from probation.diagnosis.calibration import Calibration
 from probation.inference.gap import TOLERANCE
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, rows_frame
@@ -280,6 +281,8 @@ class Diagnosis(Result, Stored):
         The best test of every kind that helps, the most worth first.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
+    calibration : Calibration
+        Whether the probabilities were calibrated on campaigns such as this one.
     """
 
     SCHEMA: ClassVar[str] = "probation.diagnosis/1"
@@ -317,6 +320,7 @@ class Diagnosis(Result, Stored):
     hangs_on_scatter: bool = False
     tolerance: float = TOLERANCE
     matters: bool = True
+    calibration: Calibration = field(default_factory=lambda: Calibration(inside=True))
 
     def to_dataframe(self, what: Literal["causes", "where", "curves"] = "causes") -> Any:
         """As a pandas DataFrame.
@@ -424,6 +428,7 @@ class Diagnosis(Result, Stored):
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
             "remainder": None if self.remainder is None else self.remainder.to_dict(),
             "skipped": [each.to_dict() for each in self.skipped],
+            "calibration": self.calibration.to_dict(),
             "warnings": list(self.warnings),
         }
 

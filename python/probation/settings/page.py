@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
+from probation.settings.calibrated import CALIBRATED
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.comparison import COMPARISON
 from probation.settings.design import DESIGN
@@ -17,6 +18,7 @@ GROUPS: dict[str, Any] = {
     "detection": DETECTION,
     "noise": NOISE,
     "evidence": EVIDENCE,
+    "calibrated": CALIBRATED,
     "search": SEARCH,
     "design": DESIGN,
     "comparison": COMPARISON,

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 OWN = "own"
 LABORATORIES = {
     OWN: "probation_studies.blind.laboratory",
+    "wider": "probation_studies.blind.laboratory.wider",
 }
 """The package of every laboratory; see `probation_studies.blind.laboratories`."""
 

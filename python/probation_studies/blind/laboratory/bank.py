@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import solve_triangular
 
+from probation_studies.blind.laboratory.material import integrate
+from probation_studies.blind.laboratory.specimens import Own
 from probation_studies.blind.laboratory.trial import Acting, Setting, Trial, recorded_stress
 
 if TYPE_CHECKING:
@@ -35,6 +37,8 @@ class Bench:
     ids, held_out : tuple
         Of the records.
     reference_rate : float [1/s]
+    specimens : tuple of Own
+        Of the records; empty where they are alike.
     """
 
     law: BaseLaw
@@ -42,6 +46,11 @@ class Bench:
     ids: tuple[str, ...]
     held_out: tuple[bool, ...]
     reference_rate: float
+    specimens: tuple[Own, ...] = ()
+
+    def specimen(self, k: int) -> Own:
+        """What the specimen of a record has of its own."""
+        return self.specimens[k] if self.specimens else Own()
 
     @property
     def identified(self) -> list[int]:
@@ -64,6 +73,17 @@ class Bench:
         laws = [self.law, *(self.law.shifted(which, _PARAMETER_STEP) for which in range(3))]
         base, *moved = recorded_stress([(self.trial(k, law=law), ()) for law in laws])
         return base, np.stack([each - base for each in moved], axis=1) / _PARAMETER_STEP
+
+    def scattered(self, k: int, sizes: Sequence[float]) -> FloatArray:
+        """What one standard deviation of each of a specimen's deviations adds to a record, (n, 5) [MPa]."""
+        if not sizes:
+            return np.zeros((len(self.tests[k].time), 0))
+        base, tangent = self.base_and_tangent(k)
+        late = self.trial(k)
+        late.strain = late.strain - _PARAMETER_STEP
+        late.measure()
+        start = (integrate([late.specimen()])[0] - base) / _PARAMETER_STEP
+        return np.asarray(np.column_stack([tangent, base, start]) * np.asarray(sizes))
 
 
 @dataclass(frozen=True)

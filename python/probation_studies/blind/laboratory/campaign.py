@@ -41,12 +41,15 @@ class SealedCampaign:
     companion : tuple of float, or None
         Slope and intercept of a Weissenberg relation.
     truth : Truth
+    specimens_differ : bool
+        Whether every record has a specimen of its own; else the campaign states that they are alike.
     """
 
     name: str
     records: tuple[WrittenRecord, ...]
     companion: tuple[float, float] | None
     truth: Truth
+    specimens_differ: bool = False
 
     def write(self, folder: str | Path) -> Path:
         """Write campaign.toml and one CSV file per record; nothing of the truth.
@@ -67,8 +70,8 @@ class SealedCampaign:
         if self.companion is not None:
             slope, intercept = self.companion
             lines += ["[law.companion]", 'form = "weissenberg"', f"slope = {slope!r}", f"intercept = {intercept!r}"]
-        # Specimens of the laboratory are alike but for noise.
-        lines += ["", "[specimens]", 'scatter = "none"']
+        if not self.specimens_differ:
+            lines += ["", "[specimens]", 'scatter = "none"']
         for record in self.records:
             role = "held-out" if record.held_out else "identify"
             lines += ["", "[[record]]", f'id = "{record.id}"', f'file = "{record.id}.csv"']

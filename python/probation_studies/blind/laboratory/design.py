@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,26 +12,43 @@ from probation_studies.blind.laboratory.histories import draw_schedules
 from probation_studies.blind.laboratory.material import BaseLaw
 from probation_studies.blind.laboratory.noise import Noise, draw_noise
 from probation_studies.blind.laboratory.rig import draw_controller, drive
+from probation_studies.blind.laboratory.specimens import draw_own, draw_sizes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.random import Generator
+
+    from probation_studies.blind.laboratory.histories import Schedule
 
 _PLATEAU = 0.382
 """Steady stress over E_u We: sum of p_j tau_j / tau_max."""
 _LARGEST_STRESS = 110.0  # MPa, of the network at the end
 _COMPANION_PART = 1.0 / 3.0
 _HELD_OUT_PART = 1.0 / 3.0
+_SPECIMENS_DIFFER = 0.5
+_REPLICATED = 0.5
+_WIDER_STRAIN_NOISE = (-5.3, -3.0)  # decimal logarithm
 
 
 @dataclass(frozen=True)
 class Design:
-    """A bench and the noise of its channels."""
+    """A bench, the noise of its channels, and how far its specimens differ.
+
+    Attributes
+    ----------
+    bench : Bench
+    noise : Noise
+    scatter : tuple of float
+        As `specimens.USUAL`; empty where they are alike.
+    """
 
     bench: Bench
     noise: Noise
+    scatter: tuple[float, ...] = ()
 
 
-def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) -> Design:
+def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool, wider: bool = False) -> Design:
     """Draw a campaign as a laboratory might run it.
 
     Parameters
@@ -41,6 +58,8 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) 
         One of its histories is unloaded.
     needs_reach : bool
         It goes to large strains.
+    wider : bool
+        With the errors of `laboratory.wider`.
     """
     modulus = float(np.exp(random.uniform(np.log(500.0), np.log(4000.0))))
     end = random.uniform(1.2, 2.0) if needs_reach else random.uniform(0.6, 2.0)
@@ -66,6 +85,12 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) 
 
     count = int(random.integers(3, 9))
     schedules = draw_schedules(random, count, slowest, fastest, end, elastic_strain, needs_unloading, with_companion)
+    scatter: tuple[float, ...] = ()
+    if wider and random.uniform() < _SPECIMENS_DIFFER:
+        scatter = draw_sizes(random)
+        if random.uniform() < _REPLICATED:
+            schedules = _replicated(random, schedules)
+            count = len(schedules)
     controller = draw_controller(random)
     samples = int(random.integers(280, 560))
     tests = tuple(drive(random, each, int(samples * random.uniform(0.85, 1.2)), controller) for each in schedules)
@@ -75,4 +100,17 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool) 
     bench = Bench(
         law, tests, tuple(f"test-{k + 1}" for k in range(count)), tuple(held_out), float(np.sqrt(slowest * fastest))
     )
-    return Design(bench, draw_noise(random, flow_stress, with_companion))
+    noise = draw_noise(random, flow_stress, with_companion)
+    if wider:
+        strain = float(10.0 ** random.uniform(*_WIDER_STRAIN_NOISE))
+        noise = replace(noise, strain=strain, first_strain=True)
+    if scatter:
+        bench = replace(bench, specimens=tuple(draw_own(random, scatter) for _ in range(count)))
+    return Design(bench, noise, scatter)
+
+
+def _replicated(random: Generator, schedules: Sequence[Schedule]) -> list[Schedule]:
+    """Fewer histories, each in two or three tests; those that unload stay."""
+    repeats = int(random.integers(2, 4))
+    kept = sorted(schedules, key=lambda each: not each.unloads)[: max(2, len(schedules) // repeats)]
+    return [each for each in kept for _ in range(repeats)]

@@ -49,7 +49,9 @@ _OUTSIDE_LEFT = 3.0
 _ATTEMPTS = 60
 
 
-def make(seed: int, index: int, split: str = "develop", stratum: str | None = None) -> SealedCampaign:
+def make(
+    seed: int, index: int, split: str = "develop", stratum: str | None = None, *, wider: bool = False
+) -> SealedCampaign:
     """Make one campaign; the same for the same arguments.
 
     Parameters
@@ -60,6 +62,8 @@ def make(seed: int, index: int, split: str = "develop", stratum: str | None = No
         May be tuned on, probabilities tempered on, scored once per release.
     stratum : {"none", "single", "pair", "outside", "mimic"}, optional
         Drawn if left out.
+    wider : bool
+        With the errors of `laboratory.wider`.
 
     Raises
     ------
@@ -76,7 +80,7 @@ def make(seed: int, index: int, split: str = "develop", stratum: str | None = No
     if stratum not in STRATA:
         raise InputError(f"stratum: found {stratum!r}, expected one of {', '.join(STRATA)}")
     for _ in range(_ATTEMPTS):
-        found = _attempt(random, stratum)
+        found = _attempt(random, stratum, wider)
         if found is not None:
             return _sealed(split, seed, index, stratum, found)
     raise RuntimeError(f"{campaign_name(split, index)}: no campaign of stratum {stratum} after {_ATTEMPTS} designs")
@@ -89,7 +93,15 @@ class _Run:
         self.random, self.design = random, design
         self.bench = design.bench
         self.noises = [
-            draw_record_noise(random, design.noise, self.bench.law, test.time, test.strain) for test in self.bench.tests
+            draw_record_noise(
+                random,
+                design.noise,
+                self.bench.law,
+                test.time,
+                test.strain,
+                self.bench.scattered(k, design.scatter),
+            )
+            for k, test in enumerate(self.bench.tests)
         ]
         self.bank = Bank(self.bench, self.noises)
 
@@ -106,12 +118,13 @@ class _Outcome:
     recorded: Recorded
 
 
-def _attempt(random: Generator, stratum: str) -> _Outcome | None:
+def _attempt(random: Generator, stratum: str, wider: bool) -> _Outcome | None:
     wishes = _wishes(random, stratum)
     design = draw_design(
         random,
         needs_unloading=any(wish.cause.needs_unloading for wish in wishes) or random.uniform() < 0.3,
         needs_reach=any(wish.cause.name == "finite_extensibility" for wish in wishes),
+        wider=wider,
     )
     run = _Run(random, design)
     undisturbed = run_undisturbed(run.bench, design.noise, run.bank)
@@ -198,7 +211,8 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
             "hardening_modulus_MPa": bench.law.hardening_modulus,
         },
         noise_level={name: noise.level for name, noise in zip(bench.ids, run.noises, strict=True)},
-        noise={name: float(value) for name, value in asdict(run.design.noise).items()},
+        noise={name: float(value) for name, value in asdict(run.design.noise).items()}
+        | {f"scatter_{k}": size for k, size in enumerate(run.design.scatter)},
         records={
             name: {
                 "history": test.schedule.kind,
@@ -236,7 +250,7 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
             bench.ids, bench.tests, bench.held_out, recorded.strain, recorded.stress, strict=True
         )
     )
-    return SealedCampaign(truth.name, records, bench.law.companion, truth)
+    return SealedCampaign(truth.name, records, bench.law.companion, truth, specimens_differ=bool(bench.specimens))
 
 
 def _by_record(bench: Bench, samples: Sequence[FloatArray]) -> dict[str, float]:

@@ -44,6 +44,8 @@ class Noise:
     strain_quantum : float [-]
     filter_samples : float
         Time constant of the low pass that both channels go through; 0 for none.
+    first_strain : bool
+        Whether the first sample of the strain is as noisy as the others; else it is exact.
     """
 
     stress: float
@@ -56,6 +58,7 @@ class Noise:
     strain: float
     strain_quantum: float
     filter_samples: float
+    first_strain: bool = False
 
 
 def draw_noise(random: Generator, largest_stress: float, gentle: bool) -> Noise:
@@ -100,9 +103,17 @@ class RecordNoise:
 
 
 def draw_record_noise(
-    random: Generator, noise: Noise, law: BaseLaw, time: FloatArray, strain: FloatArray
+    random: Generator,
+    noise: Noise,
+    law: BaseLaw,
+    time: FloatArray,
+    strain: FloatArray,
+    scattered: FloatArray | None = None,
 ) -> RecordNoise:
-    """Draw the noise of one record, sampled at `time` along `strain`."""
+    """Draw the noise of one record, sampled at `time` along `strain`.
+
+    `scattered` is what its specimen may add, one standard deviation a column, shape (n, k) [MPa].
+    """
     n = len(time)
     profile = np.exp(strain) if noise.on_force else np.ones(n)
     bursts = np.ones(n)
@@ -132,9 +143,12 @@ def draw_record_noise(
     wrong = float(np.hypot(noise.strain, noise.strain_quantum / np.sqrt(12.0)))
     if wrong > 0.0:
         seen = noise.strain * random.standard_normal(n)
-        seen[0] = 0.0
+        if not noise.first_strain:
+            seen[0] = 0.0
         carried = strain_response(law, time, strain) * wrong
         covariance += carried @ carried.T
+    if scattered is not None:
+        covariance += scattered @ scattered.T
     return RecordNoise(rough, drift, seen, cholesky(covariance, lower=True))
 
 

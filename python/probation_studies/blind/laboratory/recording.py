@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -66,17 +66,16 @@ def record_all(
     clean, residual = {}, {}
     for k, each in enumerate(noises):
         causes = [one.acting for one in planted if one.record is None or one.record == k]
-        plain, seen = undisturbed.stress[k], undisturbed.strain[k]
+        plain, seen, specimen = undisturbed.stress[k], undisturbed.strain[k], bench.specimen(k)
         truth = _channels(bench, k, causes, noise)[0] if causes else plain
         added_rms.append(float(np.sqrt(np.mean((truth - plain) ** 2))))
-        strain = _converted(seen + each.strain, noise.strain_quantum)
+        strain = _converted(seen + specimen.start + each.strain, noise.strain_quantum)
         stress = _converted(truth + each.rough + drifts[k], noise.quantum)
         strains.append(_as_written(strain))
         stresses.append(_as_written(stress))
-        beside_base = stresses[k] - _base_stress(bench, k, strains[k])
-        left.append(beside_base - (truth - plain))
+        left.append(stresses[k] - _own_stress(bench, k, strains[k]) - (truth - plain))
         if k in bench.identified:
-            clean[k], residual[k] = truth - plain, beside_base
+            clean[k], residual[k] = truth - plain, stresses[k] - _base_stress(bench, k, strains[k])
     return Recorded(
         strain=strains,
         stress=stresses,
@@ -103,7 +102,7 @@ class Undisturbed:
 def run_undisturbed(bench: Bench, noise: Noise, bank: Bank) -> Undisturbed:
     """Run every test on the fine grid with nothing acting."""
     stress, strain = zip(*(_channels(bench, k, (), noise) for k in range(len(bench.tests))), strict=True)
-    added = {k: stress[k] - _base_stress(bench, k, strain[k]) for k in bench.identified}
+    added = {k: stress[k] - _own_stress(bench, k, strain[k] + bench.specimen(k).start) for k in bench.identified}
     return Undisturbed(list(stress), list(strain), float(np.linalg.norm(bank.column(added))))
 
 
@@ -132,9 +131,10 @@ def _nuisance_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[Fl
 
 
 def _channels(bench: Bench, k: int, causes: Sequence[Acting], noise: Noise) -> tuple[FloatArray, FloatArray]:
-    """Recorded stress and strain on the samples, before noise."""
-    test = bench.tests[k]
-    stress = recorded_stress([(bench.trial(k, fine=True), causes)])[0]
+    """Recorded stress of a record's own specimen, and its strain, on the samples, before noise."""
+    test, specimen = bench.tests[k], bench.specimen(k)
+    stress = recorded_stress([(bench.trial(k, fine=True, law=specimen.law(bench.law)), causes)])[0]
+    stress = stress * (1.0 + specimen.section)
     time_constant = noise.filter_samples * float(np.min(np.diff(test.time)))
     stress, strain = (
         low_pass(test.fine_time, each, time_constant)[::REFINEMENT] for each in (stress, test.fine_strain)
@@ -146,6 +146,13 @@ def _base_stress(bench: Bench, k: int, strain: FloatArray) -> FloatArray:
     """The base law along a recorded strain that is straight between its samples."""
     trial = Trial(bench.law, bench.tests[k].time, strain, 0.0, bench.reference_rate)
     return recorded_stress([(trial, ())])[0]
+
+
+def _own_stress(bench: Bench, k: int, strain: FloatArray) -> FloatArray:
+    """The same of the record's own specimen, whose strain starts late."""
+    specimen = bench.specimen(k)
+    own = replace(bench, law=specimen.law(bench.law))
+    return _base_stress(own, k, strain - specimen.start) * (1.0 + specimen.section)
 
 
 def _converted(samples: FloatArray, quantum: float) -> FloatArray:

@@ -1,0 +1,129 @@
+"""Whether the probabilities of a diagnosis were calibrated on campaigns such as this one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from probation.records.noise import scatter
+from probation.settings.calibrated import CALIBRATED
+from probation.settings.evidence import EVIDENCE
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation.inference.base_fit import BaseFit
+    from probation.records.campaign import Campaign
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Whether a campaign lies within the ranges of those on which the probabilities were calibrated.
+
+    Attributes
+    ----------
+    inside : bool
+    why : tuple of str
+        What lies outside, with what was found and what is covered; empty if nothing does.
+    """
+
+    inside: bool
+    why: tuple[str, ...] = ()
+
+    @property
+    def covered(self) -> float:
+        """Probability that the answer set holds: more where the probabilities are less sure."""
+        return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence where the campaign lies outside, else none."""
+        if self.inside:
+            return ()
+        return (
+            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): they may be too sure, and "
+            f"the answer set holds {100.0 * self.covered:g} % instead of {100.0 * EVIDENCE.credible_set:g} %",
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `calibration` of docs/formats.md."""
+        return {"inside": self.inside, "why": list(self.why)}
+
+
+@dataclass(frozen=True)
+class Extent:
+    """What is looked at, least and most over the fitted records.
+
+    Attributes
+    ----------
+    records : int
+    samples : tuple of float
+    noise : tuple of float
+        Of the stress, over the record's largest stress.
+    strain_noise : tuple of float
+    gap : float
+        Misfit of the base law over the noise.
+    """
+
+    records: int
+    samples: tuple[float, float]
+    noise: tuple[float, float]
+    strain_noise: tuple[float, float]
+    gap: float
+
+
+def extent_of(campaign: Campaign, base: BaseFit) -> Extent:
+    """What a campaign has, as far as probabilities may depend on it."""
+    fitted = [record for record in campaign.records if record.id in {view.id for view in base.model.views}]
+    noises = base.whitened.noises
+    relative = [
+        noise.sigma / float(np.max(np.abs(record.true_stress))) for noise, record in zip(noises, fitted, strict=True)
+    ]
+    strain = [
+        scatter(record.time, record.true_strain) if record.noise.strain is None else record.noise.strain
+        for record in fitted
+    ]
+    misfit, noise = base.misfit
+    return Extent(
+        len(fitted),
+        _ends([len(record) for record in fitted]),
+        _ends(relative),
+        _ends(strain),
+        misfit / max(noise, 1e-300),
+    )
+
+
+def calibration_of(campaign: Campaign, base: BaseFit, *, own_law: bool) -> Calibration:
+    """Hold a campaign against the ranges of `CALIBRATED`.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    base : BaseFit
+        On the records that causes are fitted to.
+    own_law : bool
+        Whether the base law is the modal law.
+    """
+    found, why = extent_of(campaign, base), []
+    compared = (
+        ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}"),
+        ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}"),
+        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.1g}"),
+        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.1g}"),
+        ("a misfit over the noise", (found.gap, found.gap), CALIBRATED.gap, "{:.2g}"),
+    )
+    for name, (low, high), (least, most), form in compared:
+        if low < least or high > most:
+            text = form.format(high if high > most else low)
+            why.append(f"{name} of {text}, where {form.format(least)} to {form.format(most)} are covered")
+    if base.scatter.any:
+        why.append("specimens that differ, where they are alike in those covered")
+    if not own_law:
+        why.append("another law than the modal one")
+    return Calibration(not why, tuple(why))
+
+
+def _ends(values: Sequence[float]) -> tuple[float, float]:
+    return float(min(values)), float(max(values))

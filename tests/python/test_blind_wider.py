@@ -1,0 +1,72 @@
+"""The laboratory with errors as large as laboratories have them."""
+
+import numpy as np
+import pytest
+
+import probation
+from probation_studies.blind.laboratory import wider
+
+
+def _nulls():
+    return [wider.make(5, index, stratum="none") for index in range(6)]
+
+
+@pytest.fixture(scope="module")
+def nulls():
+    return _nulls()
+
+
+def _residuals(sealed):
+    """Root mean squares of what the engine's law of the mean specimen leaves of the records."""
+    modulus, third, hardening = sealed.truth.base.values()
+    companion = None if sealed.companion is None else probation.Weissenberg(*sealed.companion)
+    time = {"tau_max": third} if companion is None else {"alpha": third}
+    law = probation.Law(unrelaxed_modulus=modulus, hardening_modulus=hardening, companion=companion, **time)
+    return {
+        record.id: float(
+            np.sqrt(np.mean((record.true_stress - law.stress(record.time, record.true_strain, scheme="exact")) ** 2))
+        )
+        for record in sealed.records
+    }
+
+
+def test_residuals_of_nulls_are_as_large_as_the_covariance_says(nulls):
+    """Mean squares over the levels: 1 on the average of 37 records, of which specimens make a few directions each."""
+    ratios = [
+        (left / sealed.truth.noise_level[name]) ** 2 for sealed in nulls for name, left in _residuals(sealed).items()
+    ]
+    assert 0.5 < np.mean(ratios) < 1.6
+    assert np.quantile(ratios, 0.9) < 4.0
+
+
+def test_what_a_specimen_has_of_its_own_is_not_counted_as_noise(nulls):
+    """The noise that was drawn is what the specimen's own law leaves, not what that of the mean specimen leaves."""
+    differing = [sealed for sealed in nulls if sealed.specimens_differ]
+    assert differing
+    for sealed in differing:
+        drawn, left = sealed.truth.noise_drawn, _residuals(sealed)
+        assert np.mean(list(drawn.values())) < np.mean(list(left.values()))
+
+
+def test_campaigns_state_whether_specimens_are_alike(nulls, tmp_path):
+    for index, sealed in enumerate(nulls):
+        campaign = probation.Campaign.load(sealed.write(tmp_path / str(index)))
+        assert campaign.specimens.alike != sealed.specimens_differ
+
+
+def test_every_strain_is_noisy_from_its_first_sample_on(nulls):
+    for sealed in nulls:
+        assert 5e-6 < sealed.truth.noise["strain"] < 1e-3
+        assert all(record.true_strain[0] != 0.0 for record in sealed.records)
+
+
+def test_replicates_follow_one_history(nulls):
+    """Some campaigns test two or three specimens alike: the same control and, to the controller's error, one strain."""
+    alike = 0
+    for sealed in nulls:
+        first, second = sealed.records[:2]
+        if sealed.specimens_differ and first.time[-1] == pytest.approx(second.time[-1], rel=1e-9):
+            other = np.interp(first.time, second.time, second.true_strain)
+            assert np.sqrt(np.mean((first.true_strain - other) ** 2)) < 0.02
+            alike += 1
+    assert alike >= 1

@@ -1,0 +1,46 @@
+"""Whether a diagnosis knows where its probabilities were calibrated."""
+
+import json
+
+import pytest
+
+import probation
+from probation.diagnosis.calibration import Calibration
+from probation.settings.calibrated import CALIBRATED
+from probation.settings.evidence import EVIDENCE
+from probation_studies.blind import laboratory
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A campaign of the split that probabilities are calibrated on."""
+    return laboratory.make(43, 1, "calibrate", "single").write(tmp_path_factory.mktemp("calibrate") / "made")
+
+
+def _diagnosed(campaign, **options):
+    return probation.diagnose(campaign, threads=1, design=False, **options)
+
+
+def test_a_campaign_of_the_calibration_lies_inside(folder):
+    found = _diagnosed(probation.Campaign.load(folder))
+    assert json.loads(found.to_json())["calibration"] == {"inside": True, "why": []}
+    assert not any("calibrated" in warning for warning in found.warnings)
+
+
+def test_an_answer_set_holds_more_where_nothing_was_calibrated():
+    assert Calibration(inside=True).covered == EVIDENCE.credible_set == 0.95
+    assert Calibration(inside=False, why=("another law",)).covered == CALIBRATED.credible_set_outside > 0.95
+
+
+def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
+    """The same records, whose specimens may now differ: the set holds 98 % of the probability."""
+    text = folder / "campaign.toml"
+    text.write_text(text.read_text().replace('scatter = "none"', 'scatter = "estimate"'))
+    found = _diagnosed(probation.Campaign.load(folder))
+    answer = json.loads(found.to_json())
+    assert not answer["calibration"]["inside"]
+    assert [why.split(",")[0] for why in answer["calibration"]["why"]] == ["specimens that differ"]
+    left_out = [each for each in found.explanations if each.effects not in found.answer_set]
+    assert all(each.probability < 0.02 or len(each.effects) > 1 for each in left_out)
+    if found.verdict != "no_gap":
+        assert any("calibrated on other campaigns" in warning for warning in found.warnings)
