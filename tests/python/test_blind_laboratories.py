@@ -52,7 +52,7 @@ def test_a_split_holds_as_many_campaigns_of_each_stratum_as_asked_in_no_telling_
     [
         (["--strata", "none=2,quiet=1"], "strata: found quiet=1, expected counts of at least 0 of none, single"),
         (["--strata", "none=2", "--count", "3"], "count, strata: found both or neither"),
-        (["--laboratory", "nowhere"], "laboratory: found 'nowhere', expected one of own"),
+        (["--laboratory", "nowhere"], "laboratory: found 'nowhere', expected one of own, "),
     ],
 )
 def test_what_a_laboratory_does_not_have_is_named(quick, capsys, tmp_path, options, message):

@@ -14,6 +14,7 @@ OWN = "own"
 LABORATORIES = {
     OWN: "probation_studies.blind.laboratory",
     "wider": "probation_studies.blind.laboratory.wider",
+    "university": "probation_studies.blind.laboratories.university",
 }
 """The package of every laboratory; see `probation_studies.blind.laboratories`."""
 
