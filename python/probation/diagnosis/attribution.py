@@ -39,7 +39,7 @@ class EffectShare:
     name : str
         "unknown" for what is outside the catalogue.
     probability : float
-        Of the effect being in the right explanation, whatever stands beside it.
+        Of the effect being in the right explanation, alone or with others.
     share : float
         Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
         in which its effects can be added (Shapley 1953). 0 for an effect that is not in it.

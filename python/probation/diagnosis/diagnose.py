@@ -120,7 +120,7 @@ def diagnose(
         require_signal(record)
     campaign, thinned = thin(campaign)
 
-    def told(part: float) -> None:
+    def done(part: float) -> None:
         if progress:
             progress(part)
 
@@ -131,12 +131,12 @@ def diagnose(
         return own.screened(considered, workers, skipping.screened)
 
     fitted = based_on(campaign)
-    told(0.1)
+    done(0.1)
     gap = find_gap(fitted, considered, threads=workers, seed=seed)
-    told(0.2)
+    done(0.2)
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
-    told(0.35)
+    done(0.35)
     causes = causes_of(
         base,
         considered,
@@ -146,12 +146,12 @@ def diagnose(
         seed=seed,
         skipping=skipping,
         budget=deadline,
-        progress=lambda part: told(0.35 + 0.45 * part),
+        progress=lambda part: done(0.35 + 0.45 * part),
     )
     base, considered, found = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
-    told(0.85)
+    done(0.85)
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
     calibration = calibration_of(campaign, base, own_law=law is None)
@@ -162,13 +162,13 @@ def diagnose(
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
-    told(0.9)
+    done(0.9)
     following, apart = (
         _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed)
         if design
         else ((), None)
     )
-    told(1.0)
+    done(1.0)
     return Diagnosis(
         campaign=campaign.name,
         verdict="not_predicted" if case.predicted_only else verdict,

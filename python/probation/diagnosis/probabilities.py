@@ -90,7 +90,7 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
 
 
 def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighed]:
-    """Beside the probable single effects each pair with another that was not tried, since it would gain nothing.
+    """The same with pairs of each probable single effect and one that was not tried, since it would gain nothing.
 
     It stands for the single effect's own hypothesis: nothing is known of the other.
 
@@ -147,10 +147,10 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
         Of the test for a gap.
     """
     none = next(each for each in weighed if not each.effects)
-    told = (
+    probability = (
         max(p_value, TINY) ** (1.0 - EVIDENCE.undeclared_gap_power) / EVIDENCE.undeclared_gap_power * none.probability
     )
-    weighed = normalised([replace(each, probability=told) if each is none else each for each in weighed])
+    weighed = normalised([replace(each, probability=probability) if each is none else each for each in weighed])
     most = max(each.probability for each in weighed)
     return normalised([each if each.effects else replace(each, probability=most) for each in weighed])
 
@@ -184,7 +184,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
 
 
 def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
-    """Where a gap is left after the best explanation, most of its probability goes to it with an unknown beside."""
+    """Where a gap is left after the best explanation, most of its probability goes to it jointly with an unknown."""
     best, beside = weighed[0], with_unknown(weighed[0].effects)
     moved = EVIDENCE.left_to_an_unknown * best.probability
     known = next((each.probability for each in weighed if each.effects == beside), 0.0)

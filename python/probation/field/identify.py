@@ -207,11 +207,11 @@ def _law_with(law: Law | None, hold: Mapping[str, float]) -> tuple[Law, tuple[st
 
 def _run(source: FieldSource, way: Way, block: tuple[int, int]) -> dict[str, Any]:
     """What must be the same for a run to go on."""
-    told = law_answer(way.law)
-    told["parameters"] = {outside_name(name): getattr(way.law, name) for name in way.held}
+    answer = law_answer(way.law)
+    answer["parameters"] = {outside_name(name): getattr(way.law, name) for name in way.held}
     content = {
         "field_sha256": fingerprint(source),
-        "law": told,
+        "law": answer,
         "scheme": way.scheme.name,
         "method": way.method,
         "smoothing": way.smoothing,
@@ -226,7 +226,7 @@ def _run(source: FieldSource, way: Way, block: tuple[int, int]) -> dict[str, Any
 def _check_same(path: Path, run: Mapping[str, Any]) -> None:
     """Raise an InputError where maps were begun otherwise."""
     before = read_run(str(path))
-    told = {
+    answer = {
         "field_sha256": "the field has changed, or is another",
         "law": "the law is another",
         "scheme": "the scheme is another",
@@ -238,7 +238,7 @@ def _check_same(path: Path, run: Mapping[str, Any]) -> None:
         "version": "the version of probation is another",
     }
     now = {**run, "version": __version__}
-    for key, what in told.items():
+    for key, what in answer.items():
         if before.get(key) != now.get(key):
             raise InputError(
                 f"{path}: {what}: found maps begun with {key} {_short(before.get(key))}, expected "

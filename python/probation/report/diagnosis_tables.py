@@ -98,7 +98,7 @@ def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
 
 
 def effects_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
-    """How probable each effect is, whatever stands beside it, and how much of the gap it closes."""
+    """How probable each effect is, alone or with others, and how much of the gap it closes."""
     names = short_ids(found.curves)
     fitted = [each.id for each in found.curves.values() if each.role == "identify"]
     rows = [
