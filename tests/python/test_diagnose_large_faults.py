@@ -4,6 +4,13 @@ import numpy as np
 import pytest
 
 import probation
+from probation.effects.cause import Cause
+from probation.effects.large_faults import with_large_faults
+from probation.effects.record_view import views_of
+from probation.effects.registry import effects
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+from probation.inference.own_force import OwnForce
 
 LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)
 NOISE, SAMPLES, ELONGATION = 0.04, 400, 0.42
@@ -63,3 +70,51 @@ def test_a_large_fault_is_found_with_its_size(faulty, fault, effect, parameter, 
     value = next(each.value for each in best.parameters if each.name == parameter)
     assert value == pytest.approx(size, rel=0.02)
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
+def compliance_taking(part, faulty):
+    """Compliance at which the frame takes such a part of the travel, in the record in which it takes most."""
+    softest = []
+    for name in faulty:
+        _, elongation, nominal = specimen(name)
+        softest.append(part / (1.0 - part) * elongation[-1] / nominal[-1])
+    return min(softest)
+
+
+@pytest.mark.parametrize(("part", "faulty"), [(0.2, {"grip1"}), (0.5, set(TESTS))], ids=["one record", "all records"])
+def test_a_frame_that_takes_much_of_the_travel_is_found_alone_with_its_compliance(part, faulty):
+    size = compliance_taking(part, faulty)
+    found = probation.diagnose(campaign(faulty, lambda t, u, f: (t, u + size * f, f)), design=False)
+    best = found.explanations[0]
+    assert found.verdict == "explained"
+    assert best.effects == ("machine_compliance",)
+    assert best.probability > 0.8
+    assert set(best.records) == faulty
+    (compliance,) = best.parameters
+    assert abs(compliance.value - size) < 1.96 * compliance.se
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
+@pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])
+def test_a_compliance_does_not_turn_noise_of_the_force_into_strain(slack):
+    size = compliance_taking(0.4, {"grip1"})
+
+    def fault(time, elongation, nominal):
+        soft = time, elongation + size * nominal, nominal
+        return late_by(slack, *soft) if slack else soft
+
+    records = campaign({"grip1"}, fault).records
+    views = views_of(probation.Campaign(name="one", records=(records[2],)), substeps=4)
+    compliance, offset = with_large_faults(effects(["machine_compliance", "strain_offset"]), views)
+    causes = [Cause(compliance, compliance.form("large_crosshead")), Cause(offset, offset.form("large_slack"))]
+    for order in (causes, causes[::-1]):
+        model = CampaignModel(DnlrLaw(LAW), views, order)
+        values = {"machine_compliance": [size], "strain_offset": [slack]}
+        left = model.residual(model.parameters(LAW.parameters, *(values[each.effect.name] for each in order)))
+        assert np.sqrt(np.mean(left**2)) < 1.1 * NOISE
+
+
+def test_a_force_that_is_not_found_is_no_prediction():
+    """Else the recorded force, from which its search begins, would be returned as what the law predicts."""
+    with pytest.raises(probation.ConvergenceError, match="was not found"):
+        OwnForce(lambda stress: 1.0 + np.abs(stress), np.ones(20))

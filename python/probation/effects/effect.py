@@ -134,6 +134,9 @@ class Form:
     converts : bool
         With `driving_strain`: the recorded true stress was made of the force and the recorded strain, so that it is
         e^(recorded - seen) times the specimen's.
+    own_force : bool
+        With `driving_strain`: the force that it takes from the view (`nominal_data`) is to be the model's own, not the
+        recorded one, whose noise would become a strain of the specimen.
     placements : tuple of {"all", "one"}
         Whether the fault may sit in all records with one amplitude, in a single one, or either. Empty: all for a
         material's effect, either for a rig's.
@@ -154,6 +157,7 @@ class Form:
     driving_strain: StrainHook | None = None
     recorded_stress: StressHook | None = None
     converts: bool = True
+    own_force: bool = False
     placements: tuple[Placement, ...] = ()
     starts: StartsHook | None = None
     threshold: bool = False

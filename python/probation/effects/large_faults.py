@@ -95,14 +95,9 @@ def _drift(effect: Effect, size: _Size) -> Form:
     return _widened(effect.form("over_record"), FORCE * size.force, -size.force, size.force)
 
 
-def _soft_frame(view: RecordView, values: Values) -> FloatArray:
-    """As in the catalogue; the noise of the force would become a strain of the specimen, which is stiffer by far."""
-    own = values[0] * view.smooth_nominal_data / view.stretch
-    return view.true_strain + np.log1p(-np.minimum(own, LARGEST_TRAVEL))
-
-
 def _compliance(effect: Effect, size: _Size) -> Form:
-    return _of_travel(replace(effect.form("crosshead"), driving_strain=_soft_frame), size.per_force)
+    # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
+    return _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
 
 
 def crosshead_slack(view: RecordView, values: Values) -> FloatArray:

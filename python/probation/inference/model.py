@@ -11,6 +11,7 @@ import numpy as np
 from probation._complaint import suggestion
 from probation.effects.cause import Cause
 from probation.errors import InputError
+from probation.inference.own_force import OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 
@@ -268,6 +269,21 @@ class CampaignModel:
         self, view: RecordView, base: FloatArray, causes: CauseValues, *, sensitivity: bool = False
     ) -> Specimen:
         """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel."""
+        if not any(each.form.own_force for each, _ in causes):
+            return self._driven(view, base, causes, sensitivity)
+
+        def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
+            return self._driven(replace(view, quiet_stress=stress), base, causes, sensitivity)
+
+        found = OwnForce(lambda stress: under(stress).stress, view.smooth_nominal_data * view.stretch)
+        if not sensitivity:
+            return Specimen(found.stress, None)
+        slopes = under(found.stress, sensitivity=True).sensitivity
+        assert slopes is not None
+        return Specimen(found.stress, np.column_stack([found.answer(slope) for slope in slopes.T]))
+
+    def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
+        """The same with the force that the view has."""
         seen, conversion, modification = view, None, None
         for each, values in causes:
             if each.form.driving_strain is None:

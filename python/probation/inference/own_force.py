@@ -1,0 +1,113 @@
+"""The force in a test whose own force hands strain back: a frame that gives way beside the specimen.
+
+The recorded force would do as well were it not for its noise: a large compliance makes of it a strain of the specimen,
+which is stiffer than the frame by far, so that the prediction has the noise many times over, and most of it at the
+onset. So the force is the model's own, y = G(y), G the stress that the law makes of what y leaves to the specimen.
+Newton's method finds it from the recorded force, each step by GMRES (Saad & Schultz 1986) with the tangent's products
+from differences: any law will do, and the cost is that of some dozens of solves.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from probation._arrays import FloatArray
+
+MOST_STEPS = 12
+"""Newton's steps; from a force that is recorded it takes two to four."""
+
+MOST_DIRECTIONS = 64
+"""Directions of one step: about the square root of 1 + compliance times modulus, times four."""
+
+PARTS = (1.0, 0.5, 0.25, 0.1, 0.03)
+"""Parts of a step that are tried; the last is taken as it is."""
+
+LOOK = 8
+"""Directions after which it is looked whether they are enough."""
+
+SETTLED = 1e-8
+"""Step at which the force is found, and what a step may leave of what it is to remove; of the largest force."""
+
+GOOD_ENOUGH = 1e-5
+"""What may be left at the end; beyond it there is no prediction: the start is a measurement."""
+
+ROUGHLY = 1e-3
+"""The same of a step that others follow."""
+
+PROBE = 1e-5
+"""Change of the force over which the tangent is differenced, of the largest force."""
+
+
+class OwnForce:
+    """The fixed point y = G(y), and how it answers to what changes G.
+
+    Parameters
+    ----------
+    stress : callable
+        G: stress (n,) [MPa] from stress (n,) [MPa].
+    start : ndarray, shape (n,) [MPa]
+        The recorded stress, or something near it.
+
+    Attributes
+    ----------
+    stress : ndarray, shape (n,) [MPa]
+        The fixed point.
+    """
+
+    def __init__(self, stress: Callable[[FloatArray], FloatArray], start: FloatArray) -> None:
+        self._of = stress
+        self.stress = start
+        self._size = max(float(np.max(np.abs(start))), 1e-300)
+        self._next = stress(start)
+        left = self._next - start
+        for _ in range(MOST_STEPS):
+            if np.max(np.abs(left)) <= SETTLED * self._size:
+                return
+            step = self.answer(left, ROUGHLY)
+            # Where the law has a kink a whole step may overshoot.
+            for part in PARTS:
+                there = self.stress + part * step
+                beyond = stress(there)
+                if np.linalg.norm(beyond - there) < np.linalg.norm(left):
+                    break
+            self.stress, self._next = there, beyond
+            left = beyond - there
+        if np.max(np.abs(left)) > GOOD_ENOUGH * self._size:
+            raise ConvergenceError("the force that the frame and the specimen share was not found")
+
+    def answer(self, change: FloatArray, left: float = SETTLED) -> FloatArray:
+        """How y changes where G changes by so much: (I - dG/dy)^-1 times it, but for a part `left`; (n,) [MPa]."""
+        size = float(np.linalg.norm(change))
+        if size == 0.0:
+            return change
+        basis = np.zeros((MOST_DIRECTIONS + 1, len(change)))
+        basis[0] = change / size
+        upper = np.zeros((MOST_DIRECTIONS + 1, MOST_DIRECTIONS))
+        wanted = np.zeros(MOST_DIRECTIONS + 1)
+        wanted[0] = size
+        for k in range(1, MOST_DIRECTIONS + 1):
+            direction = self._without_feedback(basis[k - 1])
+            for _ in range(2):  # Gram-Schmidt twice
+                along = basis[:k] @ direction
+                upper[:k, k - 1] += along
+                direction = direction - along @ basis[:k]
+            upper[k, k - 1] = np.linalg.norm(direction)
+            basis[k] = direction / max(upper[k, k - 1], 1e-300)
+            if k % LOOK:
+                continue
+            weights = np.linalg.lstsq(upper[: k + 1, :k], wanted[: k + 1], rcond=None)[0]
+            if np.linalg.norm(upper[: k + 1, :k] @ weights - wanted[: k + 1]) <= left * size:
+                break
+        return np.asarray(weights @ basis[: len(weights)])
+
+    def _without_feedback(self, direction: FloatArray) -> FloatArray:
+        """(I - dG/dy) along a direction."""
+        step = PROBE * self._size / max(float(np.max(np.abs(direction))), 1e-300)
+        return np.asarray(direction - (self._of(self.stress + step * direction) - self._next) / step)
