@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import compress, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -85,6 +86,7 @@ class Search:
                 break
             size += 1
             self._told(0.6 + 0.2 * (size - 1))
+        self._parts_of_the_leader()
         return self.found
 
     def _scatter_around_the_best(self) -> None:
@@ -106,6 +108,7 @@ class Search:
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
+        again._parts_of_the_leader()
         return again.found
 
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
@@ -212,6 +215,26 @@ class Search:
             return min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
         return [each for each in candidates if credible(each)]
+
+    def _parts_of_the_leader(self) -> None:
+        """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead."""
+        tried: set[tuple[Key, ...]] = set()
+        while leading := self.ranked()[:1]:
+            found = leading[0].refit
+            causes = found.model.causes
+            key = tuple(cause_key(each) for each in causes)
+            if len(causes) < 2 or key in tried or self.budget.spent():
+                return
+            tried.add(key)
+            base, values = found.model.split(found.parameters)
+            jobs = []
+            for kept in product((True, False), repeat=len(causes)):
+                if any(kept) and not all(kept):
+                    part = list(compress(values, kept))
+                    model = found.model.with_causes(cause for cause, _ in part)
+                    jobs.append((model, model.parameters(base, *(own for _, own in part))))
+            self.found += self._judged(self._solved(jobs, MOST_STEPS))
+            self._try_with_unknown()
 
     def _swaps(self) -> None:
         """The best pair with one of its causes given up for another: the first may have stood in for both."""
