@@ -32,6 +32,10 @@ from probation_studies.blind.laboratory.trial import Acting, recorded_stress
 from probation_studies.blind.laboratory.withheld import shortest_window
 
 SOURCE = Path(probation_studies.__file__).parent
+LABORATORY_FOLDERS = [
+    SOURCE / "blind" / "laboratory",
+    *(path.parent for path in sorted((SOURCE / "blind" / "laboratories").glob("*/__init__.py"))),
+]
 SHARED = {"probation.errors", "probation._files", "probation.limits"}  # files written whole: no mechanics in them
 CONTRACT = {
     "rate_dependent_relaxation", "rate_dependent_hardening", "finite_extensibility", "spectrum_shape",
@@ -69,17 +73,18 @@ def _imports(path: Path) -> set[str]:
     return found
 
 
-def test_making_data_shares_nothing_with_what_is_tested():
-    """Follow every import from the laboratory: of the package only the exceptions may appear."""
-    paths = (
-        path.relative_to(SOURCE.parent).with_suffix("") for path in (SOURCE / "blind" / "laboratory").rglob("*.py")
-    )
-    waiting = {".".join(path.parts) for path in paths if path.name != "__init__"}
-    waiting |= {
-        "probation_studies.blind.laboratory",
-        "probation_studies.blind.laboratory.causes",
-        "probation_studies.blind",
-    }
+def _packages(folder: Path) -> set[str]:
+    """The package of a folder and its modules."""
+    paths = (path.relative_to(SOURCE.parent).with_suffix("") for path in folder.rglob("*.py"))
+    return {".".join(path.parts).removesuffix(".__init__") for path in paths}
+
+
+@pytest.mark.parametrize("folder", LABORATORY_FOLDERS, ids=lambda folder: folder.name)
+def test_making_data_shares_nothing_with_what_is_tested(folder):
+    """Follow every import from a laboratory: beside its own files only the exceptions may appear."""
+    package = ".".join(folder.relative_to(SOURCE.parent).parts)
+    parents = {package.rsplit(".", k)[0] for k in range(1, package.count(".") + 1)} - {"probation_studies"}
+    waiting = _packages(folder) | parents
     seen: set[str] = set()
     while waiting:
         name = waiting.pop()
@@ -87,15 +92,13 @@ def test_making_data_shares_nothing_with_what_is_tested():
         path = _module_file(name)
         if path is not None and name not in SHARED and name != "probation":
             waiting |= {each for each in _imports(path) if each.split(".")[0].startswith("probation")} - seen
-    own = {name for name in seen if name.startswith("probation_studies.blind")}
-    assert seen - own <= SHARED
-    assert {name for name in own if not name.startswith("probation_studies.blind.laboratory")} == {
-        "probation_studies.blind"
-    }
+    own = {name for name in seen if name == package or name.startswith(f"{package}.")}
+    assert seen - own - parents <= SHARED
 
 
-def test_only_numpy_and_scipy_are_used_beside_the_standard_library():
-    for path in (SOURCE / "blind" / "laboratory").rglob("*.py"):
+@pytest.mark.parametrize("folder", LABORATORY_FOLDERS, ids=lambda folder: folder.name)
+def test_only_numpy_and_scipy_are_used_beside_the_standard_library(folder):
+    for path in folder.rglob("*.py"):
         roots = {name.split(".")[0] for name in _imports(path)}
         assert roots <= {"numpy", "scipy", "probation", "probation_studies", "__future__"} | set(
             sys.stdlib_module_names

@@ -15,6 +15,7 @@ LABORATORIES = {
     OWN: "probation_studies.blind.laboratory",
     "wider": "probation_studies.blind.laboratory.wider",
     "university": "probation_studies.blind.laboratories.university",
+    "industry": "probation_studies.blind.laboratories.industry",
 }
 """The package of every laboratory; see `probation_studies.blind.laboratories`."""
 
