@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench.laboratories import HEAD, row
 from scipy.stats import binom
 
 from probation.cli import main
@@ -111,6 +112,34 @@ def test_a_perfect_solver_scores_everything():
     assert scores["reliability"]["ece"] == 0.0
     assert scores["confusion"]["none"] == {"none": 40}
     assert scores["base_parameters"]["none"]["rate"] == 1.0
+
+
+def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains_are_noisy():
+    """Replicates of a null are nulls; a truth says in its own keys or in its noise's by how much specimens differ."""
+    kinds = ({"noise": {"strain": 1e-3}}, {"scatter": {"modulus": 0.02}, "stratum": "replicates"})
+    kinds += ({"noise": {"strain": 1e-4, "scatter_tau": 0.01}}, {"scatter": None, "noise": {"scatter_tau": 0.0}})
+    alarm = _diagnosis({("damage",): 0.9, ("unknown",): 0.1})
+    found = board(_cases([_truth() | kind for kind in kinds], lambda _: alarm))
+    assert found["by_stratum"]["none"]["n"] == 4
+    assert {name: each["n"] for name, each in found["false_alarms_by_kind"].items()} == {
+        "alike": 2,
+        "differing": 2,
+        "strain_noise_to_5e-4": 3,
+    }
+    assert all(each["rate"] == 1.0 for each in found["false_alarms_by_kind"].values())
+
+
+def test_a_row_of_the_laboratories_page_is_made_of_a_score():
+    content = {
+        "laboratory": "university",
+        "campaigns": len(MIXED),
+        "seeds": [3],
+        "scores": {"answers": board(_cases(MIXED))},
+    }
+    cells = row(content)
+    assert len(cells) == len(HEAD)
+    assert cells[:3] == ["university", str(len(MIXED)), "3"]
+    assert cells[HEAD.index("single, resolvable: named")].startswith("100 % of ")
 
 
 def test_shuffled_answers_score_chance():

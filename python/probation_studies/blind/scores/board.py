@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 _STRATA = ("none", "single", "pair", "outside", "mimic")
 _FALSE_ALARMS = 0.05
 _GOOD_OVERLAP = 0.6
+_USUAL_STRAIN = 5e-4
 
 
 def board(cases: Sequence[Case]) -> dict[str, object]:
     """Every score, by stratum and by detectability; rates carry exact intervals."""
+    resolvable, nulls = [case for case in cases if case.resolvable], [case for case in cases if case.stratum == "none"]
     return {
         "by_stratum": _grouped(cases, lambda case: case.stratum, _STRATA),
         "by_detectability": _grouped(
@@ -33,8 +35,12 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
             [name for name, _, _ in DETECTABILITIES],
         ),
         "gaps": _group([case for case in cases if case.causes]),
-        "resolvable": _group([case for case in cases if case.resolvable and case.stratum not in ("none", "mimic")]),
-        "false_alarms": Rate.of(case.answer.gap for case in cases if case.stratum == "none").plain(),
+        "resolvable": _group([case for case in resolvable if case.stratum not in ("none", "mimic")]),
+        "resolvable_by_stratum": _grouped(
+            [case for case in cases if case.resolvable], lambda case: case.stratum, _STRATA
+        ),
+        "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
+        "false_alarms_by_kind": _false_alarms(nulls),
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
             for name, _, _ in DETECTABILITIES
@@ -48,6 +54,16 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
         "base_parameters": base_parameters(cases),
         "amplitudes": amplitudes(cases),
         "closure": closure(cases),
+    }
+
+
+def _false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
+    """Of alike and of differing specimens, and of strains as extensometers measure them."""
+    quiet = [case for case in nulls if case.strain_noise <= _USUAL_STRAIN]
+    return {
+        "alike": Rate.of(case.answer.gap for case in nulls if not case.specimens_differ).plain(),
+        "differing": Rate.of(case.answer.gap for case in nulls if case.specimens_differ).plain(),
+        "strain_noise_to_5e-4": Rate.of(case.answer.gap for case in quiet).plain(),
     }
 
 

@@ -42,8 +42,20 @@ class Case:
 
     @property
     def stratum(self) -> str:
-        """One of none, single, pair, outside, mimic."""
-        return str(self.truth["stratum"])
+        """One of none, single, pair, outside, mimic; replicates of a null are nulls."""
+        stratum = str(self.truth["stratum"])
+        return "none" if stratum == "replicates" else stratum
+
+    @property
+    def specimens_differ(self) -> bool:
+        """Whether the truth says by how much, in keys that begin with "scatter", its own or its noise's."""
+        said = {**self.truth, **cast("Mapping[str, object]", self.truth.get("noise") or {})}
+        return any(name.startswith("scatter") and bool(value) for name, value in said.items())
+
+    @property
+    def strain_noise(self) -> float:
+        """Standard deviation of the recorded strain; 0 where the truth says nothing."""
+        return float(cast("Mapping[str, float]", self.truth.get("noise") or {}).get("strain", 0.0))
 
     @property
     def explanation(self) -> Names:
