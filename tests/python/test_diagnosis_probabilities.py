@@ -11,6 +11,7 @@ from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
     Weighed,
     answer_set,
+    effect_count,
     given_a_gap,
     given_no_gap,
     log_prior,
@@ -109,7 +110,9 @@ def test_no_explanation_leads_no_effect_where_no_gap_is_declared():
 def test_a_second_effect_that_was_not_tried_keeps_what_was_probable_of_it_beforehand():
     """Six effects, prior 0.33 of one, 0.12 of two: 0.12/15 over 0.33/6 for each pair, times what its freedom costs."""
     single = alone(NAMES[0])
-    found = with_unseen([Weighed((NAMES[0],), 0.9, single), Weighed(("unknown",), 0.1, hypothesis())], NAMES)
+    found = with_unseen(
+        [Weighed((NAMES[0],), 0.9, single), Weighed(("unknown",), 0.1, hypothesis())], [made(name) for name in NAMES]
+    )
     chances = {each.effects: each.probability for each in found}
     assert sum(chances.values()) == pytest.approx(1.0)
     for name in NAMES[1:]:
@@ -127,7 +130,7 @@ def test_pairs_that_were_tried_and_singles_of_little_probability_gain_none_unsee
         Weighed((NAMES[0], NAMES[1]), 0.39, base),
         Weighed((NAMES[2],), 0.01, base),
     ]
-    found = with_unseen(tried, NAMES[:3])
+    found = with_unseen(tried, [made(name) for name in NAMES[:3]])
     assert {each.effects for each in found} == {each.effects for each in tried} | {(NAMES[0], NAMES[2])}
 
 
@@ -229,3 +232,14 @@ def test_answer_sets_hold_the_truth_as_often_as_they_promise():
         truth = "abcdef"[rng.choice(6, p=chances)]
         held += (truth,) in answer_set(named(*chances.tolist()), 0.95)
     assert held / 2000 >= 0.95 - 3.0 * np.sqrt(0.05 * 0.95 / 2000)
+
+
+def test_a_rare_effect_needs_more_evidence_alone_and_unseen():
+    usual, rare = made("usual"), replace(made("rare"), odds=0.2)
+    found = [hypothesis(), *(hypothesis(Cause(each, each.forms[0])) for each in (usual, rare))]
+    chances = {each.effects: each.probability for each in weigh(found, 6)}
+    assert chances[("rare",)] == pytest.approx(0.2 * chances[("usual",)])
+    assert effect_count([usual, *[rare] * 5]) == 2
+    beside = with_unseen([Weighed((NAMES[0],), 1.0, hypothesis())], [made(NAMES[0]), usual, rare])
+    chances = {each.effects: each.probability for each in beside}
+    assert chances[(NAMES[0], "rare")] == pytest.approx(0.2 * chances[(NAMES[0], "usual")])

@@ -56,6 +56,14 @@ NAMES_IN_THE_CONTRACT = [
     "periodic_disturbance",
     "temperature_drift",
     "force_saturation",
+    "temperature_dependence",
+    "mullins_softening",
+    "back_stress",
+    "strain_induced_crystallisation",
+    "change_between_tests",
+    "cell_hysteresis",
+    "slack_strip",
+    "neck_triaxiality",
 ]
 
 ALL_FORMS = [(effect.name, form.name) for effect in effects() for form in effect.forms]
@@ -74,13 +82,20 @@ def record(name, pieces, samples=150, law=LAW, seed=1, rated=False):
 
 @cache
 def campaign():
-    """A slow ramp, a fast one up and down, a rate jump with a dwell whose rates are given."""
+    """A slow ramp, a fast one up and down, a rate jump with a dwell whose rates are given; each has a temperature.
+
+    The fast one warms, and its strip buckles on the way back.
+    """
+    slow = record("slow", [(300.0, 0.9)])
+    fast = record("fast", [(100.0, 1.4), (20.0, 1.2)], seed=2)
+    jump = record("jump", [(60.0, 0.3), (30.0, 0.3), (30.0, 0.9)], seed=3, rated=True)
+    warming = 23.0 + 12.0 * fast.true_strain / 1.4
     return probation.Campaign(
         name="three",
         records=(
-            record("slow", [(300.0, 0.9)]),
-            record("fast", [(100.0, 1.4), (20.0, 1.2)], seed=2),
-            record("jump", [(60.0, 0.3), (30.0, 0.3), (30.0, 0.9)], seed=3, rated=True),
+            replace(slow, temperature=np.full(len(slow), 18.0)),
+            replace(fast, true_stress=np.maximum(fast.true_stress, -0.1), temperature=warming),
+            replace(jump, temperature=np.full(len(jump), 28.0)),
         ),
     )
 
@@ -103,7 +118,7 @@ def with_cause(name, form, law="constant"):
 
 def test_the_catalogue_has_the_names_of_the_contract_in_its_order():
     assert [effect.name for effect in effects()] == NAMES_IN_THE_CONTRACT
-    assert [effect.kind for effect in effects()] == ["material"] * 10 + ["rig"] * 12
+    assert [effect.kind for effect in effects()] == ["material"] * 10 + ["rig"] * 12 + ["material"] * 5 + ["rig"] * 3
 
 
 def test_every_file_of_the_effects_is_registered():
@@ -137,7 +152,15 @@ def test_a_present_effect_shows_where_it_sits(name, form):
 
 
 # The derivative jumps where a sample crosses a kink of these; the difference quotients then see it at other samples.
-KINKED = {"force_saturation", "grip_slip", "strain_offset", "force_strain_lag"}
+KINKED = {
+    "force_saturation",
+    "grip_slip",
+    "strain_offset",
+    "force_strain_lag",
+    "cell_hysteresis",
+    "back_stress",
+    "slack_strip",
+}
 
 
 def seven_point(function, point, index, step):
@@ -214,7 +237,7 @@ def test_several_effects_act_at_once_and_in_their_records():
         cause("force_gain", None, "fast"),
     ]
     warm, full = model().with_causes(causes[:1]), model().with_causes(causes)
-    heating = (0.2, 5e-3, 0.004)
+    heating = (0.2, 5e-3, 0.1, 0.004)
     expected = warm.predict(warm.parameters(model().start, heating))
     found = full.predict(full.parameters(model().start, heating, (0.5,), (0.03,)))
     np.testing.assert_allclose(found["slow"], expected["slow"], rtol=1e-13)
@@ -246,7 +269,7 @@ def test_two_effects_that_shorten_the_times_are_followed_together():
 
 def test_threads_share_a_model():
     extended = model().with_causes([cause("self_heating"), cause("machine_compliance")])
-    parameters = extended.parameters(model().start, (0.2, 5e-3, 0.004), (1e-4,))
+    parameters = extended.parameters(model().start, (0.2, 5e-3, 0.1, 0.004), (1e-4,))
     expected = extended.residual(parameters)
     with ThreadPoolExecutor(4) as pool:
         for found in pool.map(extended.residual, [parameters] * 12):

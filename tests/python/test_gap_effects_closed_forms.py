@@ -217,7 +217,7 @@ def warm(_, heat):
     [
         ("stress_activated_flow", "eyring", (0.3,), eyring),
         ("stress_activated_flow", "power", (0.3, 3.0), norton),
-        ("self_heating", "adiabatic_to_cooled", (HEATING, COOLING, LOSS), warm),
+        ("self_heating", "adiabatic_to_cooled", (HEATING, COOLING, 0.1, LOSS), warm),
     ],
 )
 def test_feedbacks_are_those_of_an_independent_integration(name, form, values, shift):

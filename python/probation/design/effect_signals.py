@@ -97,7 +97,7 @@ def effect_signals(
             wanted += [
                 (Cause(effect, form, records), values, usual)
                 for form in _placed_forms(effect)
-                if not model.missing_capabilities(Cause(effect, form))
+                if form.visible_in(model.views) and not model.missing_capabilities(Cause(effect, form))
                 for records, views in _places(model, effect, form)
                 for values, usual in _sizes_and_shapes(form, views)
             ]
@@ -119,9 +119,11 @@ def effect_signals(
     for effect in effects:
         if effect.name not in shown:
             failed = (each for item, each in zip(wanted, worked, strict=True) if item[0].effect == effect)
-            known = (
-                "it is in the model already" if effect.name in present else "the law does not know what it would change"
-            )
+            known = "the law does not know what it would change"
+            if effect.name in present:
+                known = "it is in the model already"
+            elif not any(form.visible_in(model.views) for form in effect.forms):
+                known = "these records could not show it"
             reasons = (each for each in failed if isinstance(each, str))
             left_out[effect.name] = unsolvable.get(effect.name) or next(reasons, known)
     return [each for each in signals if each.cause.effect.name in shown], left_out

@@ -14,6 +14,7 @@ from probation.design.planned_record import as_predicted, white_noise
 from probation.design.planned_strain import imposed, planned_excitation, planned_record, propagated
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects as known_effects
+from probation.effects.visible import visible
 from probation.errors import InputError
 from probation.inference.information import correlation, estimated
 from probation.inference.modal_law import DnlrLaw
@@ -227,10 +228,13 @@ def plan(
         for view, white in zip(views, white_noise(views, list(stress_noise.values())), strict=True)
     ]
     # How well its parameters will be known.
-    design = Design.of(as_predicted(model, model.start), model.start, noises)
+    predicted = as_predicted(model, model.start)
+    design = Design.of(predicted, model.start, noises)
     covariance, lost = design.covariance()
     advance(0.5)
-    # Which effects can be detected and discriminated.
+    # Which effects can be detected and discriminated: those that were named, or all that such records could show.
+    if effects is None:
+        chosen = visible(chosen, predicted.views)
     found = isolability(model, model.start, noises, chosen, threads=threads or 2)
     advance(1.0)
     return Plan(

@@ -14,6 +14,7 @@ from probation.diagnosis.held_out import HeldToAccount
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.probabilities import (
     answer_set,
+    effect_count,
     given_a_gap,
     given_no_gap,
     weigh,
@@ -127,11 +128,11 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
+        weighed = given_no_gap(weigh(found, effect_count(considered), EVIDENCE.evidence_power), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
-    weighed = given_a_gap(weigh(found, len(considered), EVIDENCE.evidence_power), p_value)
+    weighed = given_a_gap(weigh(found, effect_count(considered), EVIDENCE.evidence_power), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)
     left, judged = _judged(weighed, answer_set(weighed), base, account, seed)

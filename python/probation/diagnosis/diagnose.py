@@ -27,6 +27,7 @@ from probation.diagnosis.result import UNKNOWN, Diagnosis
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
 from probation.effects.registry import effects as catalogue
+from probation.effects.visible import visible
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
@@ -113,7 +114,7 @@ def diagnose(
     deadline = Budget(budget)
     as_tolerance(tolerance)
     scheme_name = identifying(scheme)[0].name
-    considered = catalogue(effects)
+    known = catalogue(effects)
     workers = as_threads(threads) or usual_threads()
 
     for record in campaign.records:
@@ -128,14 +129,15 @@ def diagnose(
 
     def based_on(chosen: Campaign) -> BaseFit:
         own = base_fit(chosen, plain_fit(chosen, scheme, hold)) if law is None else fit_law(law, chosen, scheme)
-        return own.screened(considered, workers, skipping.screened)
+        return own.screened(visible(known, own.model.views), workers, skipping.screened)
 
     fitted = based_on(campaign)
     done(0.1)
-    gap = find_gap(fitted, considered, threads=workers, seed=seed)
+    gap = find_gap(fitted, visible(known, fitted.model.views), threads=workers, seed=seed)
     done(0.2)
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
+    considered = _visible(known, base, skipping, asked=effects is not None)
     done(0.35)
     causes = causes_of(
         base,
@@ -157,7 +159,7 @@ def diagnose(
     calibration = calibration_of(campaign, base, own_law=law is None)
     chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
-        weighed = with_unseen(weighed, [effect.name for effect in considered])
+        weighed = with_unseen(weighed, considered)
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
@@ -223,6 +225,16 @@ def diagnose(
         hangs_on_scatter=gap.hangs_on_scatter,
         calibration=calibration,
     )
+
+
+def _visible(known: Sequence[Effect], base: BaseFit, skipping: Skipping, *, asked: bool) -> tuple[Effect, ...]:
+    """Effects that the records could show; takes note of the others where they were asked for by name."""
+    kept = visible(known, base.model.views)
+    if asked:
+        for effect in known:
+            if effect.name not in {each.name for each in kept}:
+                skipping.part(effect.name, f"no record could show it; it shows in {effect.shows_in}")
+    return kept
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.cause import Cause
+    from probation.effects.effect import Effect
 
 
 TINY = 1e-12
@@ -53,14 +54,14 @@ class Weighed:
     hypothesis: Hypothesis
 
 
-def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.0) -> list[Weighed]:
+def weigh(hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0) -> list[Weighed]:
     """Probabilities of all explanations, most probable first.
 
     Parameters
     ----------
     hypotheses : sequence of Hypothesis
         The base law's first; several forms and places of the same effects are summed.
-    effect_count : int
+    count : int
         Of the catalogue.
     power : float
         Of the evidence: below 1 it is trusted less.
@@ -78,7 +79,9 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
         ):
             together.setdefault(effects, []).append((score + inside, each))
     scores = {
-        effects: power * float(logsumexp([score for score, _ in entries])) + log_prior(effects, effect_count)
+        effects: power * float(logsumexp([score for score, _ in entries]))
+        + log_prior(effects, count)
+        + _log_odds(entries[0][1])
         for effects, entries in together.items()
     }
     total = float(logsumexp(list(scores.values())))
@@ -89,7 +92,12 @@ def weigh(hypotheses: Sequence[Hypothesis], effect_count: int, power: float = 1.
     return sorted(found, key=lambda each: -each.probability)
 
 
-def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighed]:
+def effect_count(effects: Sequence[Effect]) -> int:
+    """How many effects share their prior probability, a rare one counted by its odds: others lose nothing to it."""
+    return max(round(sum(effect.odds for effect in effects)), 1)
+
+
+def with_unseen(weighed: Sequence[Weighed], effects: Sequence[Effect]) -> list[Weighed]:
     """The same with pairs of each probable single effect and one that was not tried, since it would gain nothing.
 
     It stands for the single effect's own hypothesis: nothing is known of the other.
@@ -97,20 +105,23 @@ def with_unseen(weighed: Sequence[Weighed], names: Sequence[str]) -> list[Weighe
     Parameters
     ----------
     weighed : sequence of Weighed
-    names : sequence of str
-        Of the catalogue's effects.
+    effects : sequence of Effect
+        All that were considered.
     """
+    names, count = [effect.name for effect in effects], effect_count(effects)
     tried = {each.effects for each in weighed}
     singles = [each for each in weighed if len(each.effects) == 1 and each.effects[0] in names]
     found = list(weighed)
     for single in singles:
         if single.probability < EVIDENCE.noted_with_others:
             continue
-        for name in names:
-            pair = tuple(sorted({*single.effects, name}))
+        for effect in effects:
+            pair = tuple(sorted({*single.effects, effect.name}))
             if len(pair) == 2 and pair not in tried:
-                odds = EVIDENCE.unseen_second_effect * exp(
-                    log_prior(pair, len(names)) - log_prior(single.effects, len(names))
+                odds = (
+                    effect.odds
+                    * EVIDENCE.unseen_second_effect
+                    * exp(log_prior(pair, count) - log_prior(single.effects, count))
                 )
                 found.append(Weighed(pair, odds * single.probability, single.hypothesis))
                 tried.add(pair)
@@ -234,6 +245,12 @@ def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) 
         if total >= covered:
             break
     return tuple(chosen)
+
+
+def _log_odds(hypothesis: Hypothesis) -> float:
+    """Log odds of its effects beside those of usual ones, each effect once."""
+    odds = {cause.effect.name: cause.effect.odds for cause in hypothesis.causes}
+    return sum(log(each) for each in odds.values())
 
 
 def _form_and_place(cause: Cause, hypothesis: Hypothesis) -> float:

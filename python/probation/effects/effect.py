@@ -27,6 +27,7 @@ Sharp = Literal["line", "step"]
 ModificationHook: TypeAlias = "Callable[[RecordView, Values], Modification | None]"
 StrainHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
 StressHook: TypeAlias = "Callable[[RecordView, Values, FloatArray], FloatArray]"
+NeedsHook: TypeAlias = "Callable[[Sequence[RecordView]], bool]"
 StartsHook: TypeAlias = "Callable[[Sequence[RecordView], Sequence[FloatArray] | None], list[tuple[float, ...]]]"
 
 _SNAKE_CASE = re.compile(r"[a-z][a-z0-9]*(_[a-zA-Z0-9]+)*")
@@ -149,6 +150,9 @@ class Form:
     sharp : {"line", "step"}, optional
         The effect shows as a line of one frequency or a step at one instant, and is only sought in records that have
         one: among all frequencies or instants chance alone always finds something.
+    needs : callable, optional
+        ``needs(views)``: whether records like these could show it at all, such as an unloading; left out: any could.
+        Where none of an effect's forms could be seen, the effect is not considered, and costs no probability.
     """
 
     name: str
@@ -162,6 +166,7 @@ class Form:
     starts: StartsHook | None = None
     threshold: bool = False
     sharp: Sharp | None = None
+    needs: NeedsHook | None = None
 
     def __post_init__(self) -> None:
         if not self.parameters:
@@ -197,6 +202,10 @@ class Form:
         """Whether the law has to be solved anew when a parameter changes."""
         return self.modification is not None or self.driving_strain is not None
 
+    def visible_in(self, views: Sequence[RecordView]) -> bool:
+        """Whether records like these could show it at all."""
+        return self.needs is None or self.needs(views)
+
     def shapes_at(
         self, views: Sequence[RecordView], residuals: Sequence[FloatArray] | None = None
     ) -> list[tuple[float, ...]]:
@@ -229,6 +238,8 @@ class Effect:
         A material's effect touches every record with one amplitude; a rig's fault may sit in one.
     forms : tuple of Form
         Functional forms that count as one cause.
+    odds : float
+        Of this effect beforehand, over those of a usual one: below 1 for what is rare.
     """
 
     name: str
@@ -238,6 +249,7 @@ class Effect:
     shows_in: str
     kind: Kind
     forms: tuple[Form, ...]
+    odds: float = 1.0
 
     def __post_init__(self) -> None:
         if not _SNAKE_CASE.fullmatch(self.name):
@@ -247,6 +259,8 @@ class Effect:
         names = [form.name for form in self.forms]
         if not names or len(set(names)) < len(names):
             raise InputError(f"effect {self.name}: found the forms {names}, expected one or more, each once")
+        if not 0.0 < self.odds <= 1.0:
+            raise InputError(f"effect {self.name}: found the odds {self.odds!r}, expected a number above 0, at most 1")
 
     def form(self, name: str) -> Form:
         """The form of that name.

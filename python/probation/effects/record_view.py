@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 _MOVING = 10.0 * RATE_FLOOR
 
+BACKLASH = 1e-3
+"""Part of a record's range of strain within which its noise stays: 1e-3 where it is strained by 1."""
+
 
 class Measured(NamedTuple):
     """Where a view comes from.
@@ -70,6 +73,7 @@ class RecordView:
     scheme : Scheme or its name
         Whose difference of the strain is meant.
     temperature : ndarray, shape (n_samples,) [°C], or None
+        Declared, if it is one number all along; else measured.
     index, count : int
         Place among the records of the campaign, in order of test, and how many there are.
     quiet_stress : ndarray, shape (n,) [MPa], or None
@@ -81,6 +85,8 @@ class RecordView:
         Rate at which a law without rate dependence and one with it agree [1/s]; one number for all records.
     measured : Measured or None
         None for a test that is only planned.
+    reference_temperature : float or None
+        Where the law's parameters are meant [°C]: one number for all records, None unless each has its temperature.
     """
 
     id: str
@@ -102,6 +108,7 @@ class RecordView:
     quiet_stress: FloatArray | None = None
     specimen_id: str | None = None
     measured: Measured | None = None
+    reference_temperature: float | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -148,6 +155,16 @@ class RecordView:
         return np.maximum.accumulate(np.maximum(self.true_strain, 0.0))
 
     @cached_property
+    def strain_behind_backlash(self) -> FloatArray:
+        """The strain behind a backlash of `BACKLASH` of its range, shape (n,): noise does not lengthen its path."""
+        width = BACKLASH * float(np.ptp(self.true_strain))
+        behind, path = float(self.true_strain[0]), []
+        for strain in self.true_strain.tolist():
+            behind = min(max(behind, strain - width), strain + width)
+            path.append(behind)
+        return np.array(path)
+
+    @cached_property
     def haward_thackray_strain(self) -> FloatArray:
         """e^(2 strain) - e^(-strain), shape (n,) [-]."""
         return haward_thackray_strain(self.true_strain)
@@ -161,6 +178,25 @@ class RecordView:
     def stretch(self) -> FloatArray:
         """e^recorded strain, shape (n,): true over nominal stress as it was recorded."""
         return np.exp(self.recorded_strain)
+
+    @property
+    def temperature_is_measured(self) -> bool:
+        """Whether there is a column of temperatures that are not all one number."""
+        return self.temperature is not None and float(np.ptp(self.temperature)) > 0.0
+
+    @cached_property
+    def warmer_than_reference(self) -> FloatArray | None:
+        """Temperature above the reference temperature, shape (n,) [°C]; None where either is not known."""
+        if self.temperature is None or self.reference_temperature is None:
+            return None
+        return np.asarray(np.interp(self.time, self.sampled(self.time), self.temperature) - self.reference_temperature)
+
+    @cached_property
+    def measured_rise(self) -> FloatArray | None:
+        """Measured temperature above that of the first sample, shape (n,) [°C]; None where it was not measured."""
+        if self.temperature is None or not self.temperature_is_measured:
+            return None
+        return np.asarray(np.interp(self.time, self.sampled(self.time), self.temperature - self.temperature[0]))
 
     @cached_property
     def nominal_data(self) -> FloatArray:
@@ -260,6 +296,7 @@ def view_of(
     index: int = 0,
     count: int = 1,
     reference_rate: float | None = None,
+    reference_temperature: float | None = None,
     scheme: Scheme | SchemeName = "be2",
     substeps: int = 1,
 ) -> RecordView:
@@ -270,7 +307,7 @@ def view_of(
     record : Record
     excitation : Excitation
         From `probation.excite`, at the samples.
-    index, count, scheme
+    index, count, reference_temperature, scheme
         As in `RecordView`.
     reference_rate : float, optional
         As in `RecordView`; the record's own by default.
@@ -295,6 +332,7 @@ def view_of(
         index=index,
         count=count,
         reference_rate=reference_rate_of([excitation]) if reference_rate is None else reference_rate,
+        reference_temperature=reference_temperature,
         specimen_id=record.specimen_id,
         measured=Measured(record, excitation),
     )
@@ -322,6 +360,7 @@ def views_of(
         if record.id not in known:
             known[record.id] = excite(record)
     reference = reference_rate_of([known[record.id] for record in campaign.identify])
+    temperature = reference_temperature(campaign.records)
     count = len(campaign.records)
     return tuple(
         view_of(
@@ -330,6 +369,7 @@ def views_of(
             index=index,
             count=count,
             reference_rate=reference,
+            reference_temperature=temperature,
             scheme=scheme,
             substeps=substeps,
         )
@@ -347,3 +387,9 @@ def reference_rate_of(excitations: Sequence[Excitation]) -> float:
         if np.any(rate > _MOVING):
             medians.append(np.median(np.log(rate[rate > _MOVING])))
     return float(f"{np.exp(np.mean(medians)):.0e}") if medians else 1e-3
+
+
+def reference_temperature(records: Sequence[Record]) -> float | None:
+    """Mean of the temperatures at which the records start, to a degree [°C]; None unless each has its temperature."""
+    starts = [float(record.temperature[0]) for record in records if record.temperature is not None]
+    return float(round(np.mean(starts))) if starts and len(starts) == len(records) else None

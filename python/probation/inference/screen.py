@@ -56,7 +56,8 @@ def screen(
     """Columns of every effect, form, placement and start, on top of the model as it is.
 
     Effects that the law cannot follow, or not beside those of the model, are left out; see
-    `CampaignModel.missing_capabilities` and `clashes`. So are those with which it cannot be solved.
+    `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show, and those with
+    which it cannot be solved.
 
     Parameters
     ----------
@@ -84,7 +85,7 @@ def screen(
         for form in effect.forms:
             cause = Cause(effect, form)
             try:
-                if model.missing_capabilities(cause) or model.clashes(cause):
+                if not form.visible_in(model.views) or model.missing_capabilities(cause) or model.clashes(cause):
                     continue
                 wanted += [
                     (Cause(effect, form, records), values, views)

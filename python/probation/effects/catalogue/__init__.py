@@ -27,6 +27,14 @@ NAMES = (
     "periodic_disturbance",
     "temperature_drift",
     "force_saturation",
+    "temperature_dependence",
+    "mullins_softening",
+    "back_stress",
+    "strain_induced_crystallisation",
+    "change_between_tests",
+    "cell_hysteresis",
+    "slack_strip",
+    "neck_triaxiality",
 )
 
 

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.visible_temperature import all_measured, warms_by_work
 from probation.effects.warming import SOFTENING_PER_DEGREE
 from probation.law.modification import Modification, SelfHeating
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation.effects.record_view import RecordView
 
 _HEATING = EffectParameter(
@@ -41,10 +46,53 @@ _HARDENING_LOSS = EffectParameter(
 )
 
 
+_SOFTENING = EffectParameter(
+    name="softening_per_degC",
+    unit="1/°C",
+    lower=0.01,
+    upper=0.5,
+    centre=SOFTENING_PER_DEGREE,
+    scale=0.5,
+    log=True,
+    reason="-d ln tau_max / dT; only its product with the warming enters, unless the temperature was measured",
+)
+_MEASURED_SOFTENING = EffectParameter(
+    name="softening_per_degC",
+    unit="1/°C",
+    lower=0.0,
+    upper=0.5,
+    scale=0.1,
+    reason="-d ln tau_max / dT; an activation energy of 70 kJ/mol at room temperature gives 0.1",
+)
+_HARDENING_PART = EffectParameter(
+    name="hardening_part",
+    unit="",
+    lower=0.0,
+    upper=0.5,
+    centre=0.05,
+    scale=0.05,
+    reason="-d ln G / dT over the softening: G of polyethylene falls by about 0.5 % per degree",
+)
+
+
 def _warm(view: RecordView, values: Values) -> Modification:
-    """Temperature T' = heating x plastic power - cooling T; tau_max e^(-0.1 T), G e^(-loss T)."""
-    heating, cooling, hardening_loss = values
-    return Modification(feedbacks=(SelfHeating(heating, cooling, SOFTENING_PER_DEGREE, hardening_loss),))
+    """Temperature T' = heating x plastic power - cooling T; tau_max e^(-softening T), G e^(-loss T)."""
+    heating, cooling, softening, hardening_loss = values
+    return Modification(feedbacks=(SelfHeating(heating, cooling, softening, hardening_loss),))
+
+
+def _as_measured(view: RecordView, values: Values) -> Modification | None:
+    """T is the measured temperature less that at the start; tau_max e^(-a T), G e^(-b a T)."""
+    if (rise := view.measured_rise) is None:
+        return None
+    softening, hardening = values
+    return Modification(
+        relaxation_time_factor=np.exp(-softening * rise), hardening_factor=np.exp(-hardening * softening * rise)
+    )
+
+
+def _not_all_measured(views: Sequence[RecordView]) -> bool:
+    return not all_measured(views)
 
 
 EFFECT = Effect(
@@ -52,10 +100,19 @@ EFFECT = Effect(
     title="self-heating",
     physics=(
         "Plastic work turns into heat faster than it leaves: the specimen warms, relaxes faster and hardens less.\n"
-        f"Amplitude: warming per plastic work; relaxation times fall by {100 * SOFTENING_PER_DEGREE:.0f} % per degree."
+        "Amplitude: warming per plastic work; where every record has its measured temperature, that drives the law, "
+        "and the amplitude is the loss of ln tau_max per degree."
     ),
     source="Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193",
-    shows_in="fast records at large strains, against slow ones that stay cool",
+    shows_in="fast records at large strains, against slow ones that stay cool; a measured temperature judges it",
     kind="material",
-    forms=(Form("adiabatic_to_cooled", (_HEATING, _COOLING, _HARDENING_LOSS), modification=_warm),),
+    forms=(
+        Form(
+            "adiabatic_to_cooled",
+            (_HEATING, _COOLING, _SOFTENING, _HARDENING_LOSS),
+            modification=_warm,
+            needs=_not_all_measured,
+        ),
+        Form("as_measured", (_MEASURED_SOFTENING, _HARDENING_PART), modification=_as_measured, needs=warms_by_work),
+    ),
 )

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.visible_temperature import all_known, all_measured
 from probation.effects.warming import HARDENING_LOSS_PER_DEGREE, SOFTENING_PER_DEGREE, warmed
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation.effects.record_view import RecordView
 
 _REASON = "laboratories keep their temperature to 2 degrees"
@@ -31,6 +34,15 @@ def _other_temperature(view: RecordView, values: Values) -> Modification:
     return warmed(np.full(1, values[0]))
 
 
+def _not_measured(views: Sequence[RecordView]) -> bool:
+    return not all_measured(views)
+
+
+def _not_known(views: Sequence[RecordView]) -> bool:
+    """Declared differences are no drift: `temperature_dependence` takes them as they are."""
+    return not all_known(views)
+
+
 EFFECT = Effect(
     name="temperature_drift",
     title="drift of the temperature",
@@ -40,24 +52,27 @@ EFFECT = Effect(
         f"{100 * HARDENING_LOSS_PER_DEGREE:.1f} % per degree. Thermal strains (1.5e-4 per degree) are left out."
     ),
     source="Na et al. 2007, J. Phys. Chem. B 111, 13206; ISO 291 (standard atmospheres)",
-    shows_in="long records, or records of different days",
+    shows_in="long records, or records of different days, where their temperatures are not known",
     kind="rig",
     forms=(
         Form(
             "within_record",
             (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
             modification=_within_record,
+            needs=_not_measured,
         ),
         Form(
             "test_to_test",
             (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
             modification=_test_to_test,
+            needs=_not_known,
             placements=("all",),
         ),
         Form(
             "other_temperature",
             (EffectParameter("warmer_by_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
             modification=_other_temperature,
+            needs=_not_known,
             placements=("one",),
         ),
     ),

@@ -1,0 +1,76 @@
+"""A back stress grows with the strain and turns with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.maxwell_element import maxwell_element
+from probation.effects.visible import unloads
+from probation.law.modification import Modification
+
+if TYPE_CHECKING:
+    from probation.effects.record_view import RecordView
+
+_SIZE = EffectParameter(
+    name="back_stress_MPa",
+    unit="MPa",
+    lower=0.0,
+    upper=500.0,
+    scale=3.0,
+    reason="C/gamma; a tenth of a polymer's yield stress, some tenths of a metal's",
+)
+_REACH = EffectParameter(
+    name="reach_strain",
+    unit="",
+    lower=1e-3,
+    upper=2.0,
+    centre=0.05,
+    scale=1.0,
+    log=True,
+    starts=(0.02, 0.1),
+    reason="1/gamma; one to ten per cent of strain from a reversal on",
+)
+
+
+def _armstrong_frederick(view: RecordView, values: Values) -> Modification:
+    """Back stress X, dX = (a / r) de - (X / r) |de|, added to the relaxed stress."""
+    size, reach = values
+    strain = view.strain_behind_backlash
+    # Along the length of the path a Maxwell element; the path must grow, if only by a trifle.
+    path = np.append(0.0, np.cumsum(np.abs(np.diff(strain)) + 1e-12 * reach))
+    stress = size / reach * maxwell_element(path, strain, reach)
+    return Modification(added_relaxed_stress=stress)
+
+
+def _slip_element(view: RecordView, values: Values) -> Modification:
+    """Back stress of a spring and a slider, dX = (a / r) de while |X| < a, added to the relaxed stress."""
+    size, reach = values
+    carried, held = 0.0, [0.0]
+    for step in (np.diff(view.strain_behind_backlash) / reach).tolist():
+        carried = min(max(carried + step, -1.0), 1.0)
+        held.append(carried)
+    return Modification(added_relaxed_stress=size * np.array(held))
+
+
+EFFECT = Effect(
+    name="back_stress",
+    title="back stress",
+    physics=(
+        "Straining leaves internal stresses that help the way back: flow begins early after a reversal (Bauschinger).\n"
+        "Amplitude: the stress at which it saturates, which no rate changes and no dwell relaxes."
+    ),
+    source=(
+        "Prager 1956, J. Appl. Mech. 23, 493; Armstrong & Frederick 1966, CEGB report RD/B/N731; Iwan 1966, J. Appl. "
+        "Mech. 33, 893; Chaboche 1986, Int. J. Plasticity 2, 149"
+    ),
+    shows_in="reversals, where the strain is taken back by some hundredths",
+    kind="material",
+    forms=(
+        Form("armstrong_frederick", (_SIZE, _REACH), modification=_armstrong_frederick, needs=unloads),
+        Form("slip_element", (_SIZE, _REACH), modification=_slip_element, needs=unloads),
+    ),
+    odds=0.3,
+)

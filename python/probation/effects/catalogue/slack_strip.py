@@ -1,0 +1,95 @@
+"""A strip goes slack: there is no force below zero."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import Effect, EffectParameter, Form, Values
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_LOADED, _NONE = 0.1, 0.02
+"""Parts of the largest force above which a record has been loaded, and within which there is no force."""
+
+_FEWEST = 5
+"""Samples without force in a row that are more than a crossing of zero."""
+
+_SIZE = EffectParameter("slack_part", "", 0.0, 1.0, 1.0, "a thin strip buckles at once (1), a stout bar never (0)")
+
+
+def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
+    """First and last sample of each stretch without force after a loading, while the strain is below its largest."""
+    force = view.data / view.sampled(view.stretch)
+    largest = float(np.max(force))
+    if largest <= 0.0:
+        return []
+    loaded = np.maximum.accumulate(force) > _LOADED * largest
+    back = view.sampled(view.true_strain) < view.sampled(view.largest_strain)
+    slack = loaded & back & (np.abs(force) < _NONE * largest)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], slack.astype(np.int8), [0]])))
+    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a >= _FEWEST]
+
+
+def _inside(view: RecordView) -> NDArray[np.bool_]:
+    """Instants at which the strip is slack, shape (n,)."""
+    found = np.zeros(len(view), dtype=np.bool_)
+    for first, last in slack_intervals(view):
+        found[first * view.stride : last * view.stride + 1] = True
+    return found
+
+
+def _own_strain(view: RecordView, values: Values) -> FloatArray:
+    """While there is no force the strip goes straight from its strain at the beginning to that at the end of it."""
+    strain = view.true_strain.copy()
+    for first, last in slack_intervals(view):
+        here = slice(first * view.stride, last * view.stride + 1)
+        begin, end = float(view.true_strain[here][0]), float(view.true_strain[here][-1])
+        own = np.linspace(begin, end if last < len(view.data) - 1 else begin, len(view.time[here]))
+        strain[here] += values[0] * (own - view.true_strain[here])
+    return strain
+
+
+def _no_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """While it is slack the part a of the stress is missing."""
+    return np.where(_inside(view), (1.0 - values[0]) * stress, stress)
+
+
+def _no_compression(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The part a of every stress below zero is missing."""
+    return np.where(stress < 0.0, (1.0 - values[0]) * stress, stress)
+
+
+def _goes_slack(views: Sequence[RecordView]) -> bool:
+    return any(slack_intervals(view) for view in views)
+
+
+EFFECT = Effect(
+    name="slack_strip",
+    title="a strip that goes slack",
+    physics=(
+        "Taken back below zero force, a strip buckles and hangs: the force stays at zero until it is taut again.\n"
+        "Amplitude: part of the compression that is missing; it keeps a strain of its own, or follows."
+    ),
+    source="Euler 1744 (buckling); ASTM D412 and ISO 37 (strips of elastomer pull only)",
+    shows_in="unloading down to zero force, where the force stays",
+    kind="rig",
+    forms=(
+        Form(
+            "own_strain",
+            (_SIZE,),
+            driving_strain=_own_strain,
+            recorded_stress=_no_force,
+            converts=False,
+            needs=_goes_slack,
+        ),
+        Form("no_compression", (_SIZE,), recorded_stress=_no_compression, needs=_goes_slack),
+    ),
+)

@@ -1,0 +1,65 @@
+"""What temperatures of the records, declared or measured, say of where a warming can come from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+DIFFERENT = 1.0
+"""Difference of temperatures that is more than their scatter [°C]: a laboratory keeps its room to 2 °C (ISO 291)."""
+
+WORK_TO_HEAT = 1.0
+"""Most warming that work can give [°C/MPa]: one over a density times heat capacity of 1 MJ/(m^3 °C), an elastomer's."""
+
+
+def all_known(views: Sequence[RecordView]) -> bool:
+    """Whether every record has a temperature, declared or measured."""
+    return all(view.temperature is not None for view in views)
+
+
+def all_measured(views: Sequence[RecordView]) -> bool:
+    """Whether every record has a column of measured temperatures."""
+    return all(view.temperature_is_measured for view in views)
+
+
+def starts_differ(views: Sequence[RecordView]) -> bool:
+    """Whether every record has a temperature and they do not start alike."""
+    starts = [float(view.temperature[0]) for view in views if view.temperature is not None]
+    return len(starts) == len(views) and float(np.ptp(starts)) > DIFFERENT
+
+
+def work_can_warm(view: RecordView) -> bool:
+    """Whether a measured temperature rises no further than all work, turned into heat at once, would take it.
+
+    Cooling below the first sample's temperature, and warming without work, come from the room.
+    """
+    rise = view.measured_rise
+    if rise is None:
+        return True
+    seen = view.sampled(rise)
+    return bool(np.all(seen <= largest_rise_by_work(view) + DIFFERENT) and np.all(seen >= -DIFFERENT))
+
+
+def largest_rise_by_work(view: RecordView) -> FloatArray:
+    """All work so far as heat, nothing of it lost; shape (n_samples,) [°C]."""
+    strain = view.sampled(view.true_strain)
+    work = np.append(0.0, np.cumsum(0.5 * (view.data[1:] + view.data[:-1]) * np.diff(strain)))
+    return WORK_TO_HEAT * np.maximum.accumulate(np.maximum(work, 0.0))
+
+
+def warms_by_work(views: Sequence[RecordView]) -> bool:
+    """Whether every record has a temperature, some rise while they are strained, and work can do it."""
+    rises = [float(np.max(view.measured_rise)) for view in views if view.measured_rise is not None]
+    return all_known(views) and max(rises, default=0.0) > DIFFERENT and all(work_can_warm(view) for view in views)
+
+
+def changes_without_work(views: Sequence[RecordView]) -> bool:
+    """Whether every record has a temperature and some change within a record as work cannot do it."""
+    return all_known(views) and not all(work_can_warm(view) for view in views)
