@@ -360,7 +360,7 @@ def views_of(
         if record.id not in known:
             known[record.id] = excite(record)
     reference = reference_rate_of([known[record.id] for record in campaign.identify])
-    temperature = reference_temperature(campaign.records)
+    temperature = reference_temperature_of(campaign.records)
     count = len(campaign.records)
     return tuple(
         view_of(
@@ -389,7 +389,7 @@ def reference_rate_of(excitations: Sequence[Excitation]) -> float:
     return float(f"{np.exp(np.mean(medians)):.0e}") if medians else 1e-3
 
 
-def reference_temperature(records: Sequence[Record]) -> float | None:
+def reference_temperature_of(records: Sequence[Record]) -> float | None:
     """Mean of the temperatures at which the records start, to a degree [°C]; None unless each has its temperature."""
     starts = [float(record.temperature[0]) for record in records if record.temperature is not None]
     return float(round(np.mean(starts))) if starts and len(starts) == len(records) else None
