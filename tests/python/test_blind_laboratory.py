@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 import probation
 import probation_studies
+from probation.effects.registry import effects
 from probation_studies.blind import laboratory
 from probation_studies.blind.laboratory.bank import Bank
 from probation_studies.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
@@ -195,6 +196,9 @@ def test_every_name_of_the_contract_can_be_withheld():
     assert set(NAMES) == CONTRACT
     assert len({cause.name for cause in OUTSIDE}) >= 5
     assert not {cause.name for cause in OUTSIDE} & CONTRACT
+    since = {cause.known_as for cause in OUTSIDE if cause.known_as}
+    assert since < {effect.name for effect in effects()} - CONTRACT
+    assert {cause.answer for cause in OUTSIDE if not cause.known_as} == {"unknown"}
     assert all(not cause.outside for cause in KNOWN)
     assert all(cause.outside for cause in OUTSIDE)
 

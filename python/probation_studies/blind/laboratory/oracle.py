@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 Names: TypeAlias = "tuple[str, ...]"
 
-UNKNOWN = "unknown"
 TARGETS = (3.0, 5.0, 8.0, 15.0, 40.0, 100.0)
 """Detectabilities, sqrt(lambda), that are aimed at."""
 
@@ -68,8 +67,8 @@ class _Member:
 
 
 def explanation(signals: Sequence[Signal]) -> Names:
-    """Names of an explanation, sorted; whatever is outside the catalogue is unknown."""
-    return tuple(sorted({UNKNOWN if each.cause.outside else each.cause.name for each in signals}))
+    """Names of an explanation, sorted; what has none in the catalogue is unknown."""
+    return tuple(sorted({each.cause.answer for each in signals}))
 
 
 def consult(
@@ -147,7 +146,7 @@ def _members(
     per_name = {name: sum(where[0] == name for where in placed) for name in known | outside}
     for where, held in placed.items():
         names = explanation([signals[held[0]]])
-        prior = (share_outside if names == (UNKNOWN,) else share) - np.log(per_name[where[0]])
+        prior = (share_outside if where[0] in outside else share) - np.log(per_name[where[0]])
         for k in held:
             members.append(_Member(names, [k], _sizes(signals, [k], TARGETS), float(prior - np.log(2.0 * len(held)))))
         members.append(_Member(names, held, _sizes(signals, held, TARGETS), float(prior - np.log(2.0))))

@@ -155,6 +155,10 @@ LawHook: TypeAlias = Callable[[Trial, float, Shape], None]
 RecordHook: TypeAlias = "Callable[[Trial, float, Shape, FloatArray], FloatArray]"
 
 
+UNKNOWN = "unknown"
+"""What a cause without a name in the catalogue is called in an answer."""
+
+
 @dataclass(frozen=True)
 class Cause:
     """Something that the base law does not know.
@@ -162,7 +166,7 @@ class Cause:
     Attributes
     ----------
     name : str
-        A name of the catalogue, or the kind of something outside it.
+        A name of the catalogue as it was when this laboratory was written, or the kind of something outside it.
     scale : float
         A usual amplitude; 0 is absence.
     draw : callable
@@ -173,7 +177,9 @@ class Cause:
         Whether the amplitude may be negative.
     placements : tuple of {"all", "one"}
     outside : bool
-        Whether it has no name in the catalogue.
+        Whether it had no name there.
+    known_as : str
+        The name that something outside has in the catalogue since then; empty if it has none.
     localised : bool
         Whether it happens in a part of the record.
     needs_unloading : bool
@@ -192,10 +198,16 @@ class Cause:
     signed: bool = False
     placements: tuple[Literal["all", "one"], ...] = ("all",)
     outside: bool = False
+    known_as: str = ""
     localised: bool = False
     needs_unloading: bool = False
     draws: int = 3
     most: Callable[[Setting], float] | None = None
+
+    @property
+    def answer(self) -> str:
+        """The name that an answer should give it: the catalogue's, or "unknown"."""
+        return (self.known_as or UNKNOWN) if self.outside else self.name
 
     def largest(self, setting: Setting) -> float:
         """Largest plausible amplitude."""

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation_studies.blind.laboratory.oracle import UNKNOWN
 from probation_studies.blind.laboratory.placing import left_by_others, likeness
 from probation_studies.blind.laboratory.truth import Window, WithheldCause
 
@@ -27,7 +26,7 @@ def describe(bank: Bank, planted: Planted) -> WithheldCause:
     touched = bench.identified if planted.record is None else [planted.record]
     alone, pair, _ = left_by_others(bank.signals, planted.column, (cause.name,))
     return WithheldCause(
-        effect=UNKNOWN if cause.outside else cause.name,
+        effect=cause.answer,
         kind=cause.name,
         everywhere=planted.record is None,
         records=tuple(bench.ids[k] for k in touched),

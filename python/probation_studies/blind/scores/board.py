@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from probation_studies.blind.scores.case import DETECTABILITIES
+from probation_studies.blind.scores.case import DETECTABILITIES, UNKNOWN
 from probation_studies.blind.scores.closure import closure
 from probation_studies.blind.scores.confusion import confusion, confusion_matrix
 from probation_studies.blind.scores.held import amplitudes, base_parameters
@@ -94,7 +94,7 @@ def _group(cases: Sequence[Case]) -> dict[str, object]:
 def _unknown(cases: Sequence[Case]) -> dict[str, object]:
     """Whether what is outside the catalogue is discriminated from what is in it."""
     within = [case.answer.unknown for case in cases if case.stratum in ("none", "single", "pair")]
-    outside = [case for case in cases if case.stratum == "outside"]
+    outside = [case for case in cases if case.stratum == "outside" and UNKNOWN in case.explanation]
     clear = [case for case in outside if case.clear]
     level = float(np.quantile(within, 1.0 - _FALSE_ALARMS, method="higher")) if within else 1.0
     return {

@@ -1,4 +1,4 @@
-"""What no name of the catalogue stands for."""
+"""What no name of the catalogue stood for when this laboratory was written; some have got one since."""
 
 from __future__ import annotations
 
@@ -133,14 +133,39 @@ _local = partial(_outside, localised=True)
 _reversed = partial(_local, needs_unloading=True, draws=2)
 
 CAUSES = (
-    _reversed("mullins_softening", 0.1, lambda r, s: {"strain": r.uniform(0.02, 0.08)}, change=_mullins),
+    _reversed(
+        "mullins_softening",
+        0.1,
+        lambda r, s: {"strain": r.uniform(0.02, 0.08)},
+        change=_mullins,
+        known_as="mullins_softening",
+    ),
     _local("yield_band", 1.0, _band, change=_yield_band),
-    _reversed("bauschinger", 1.0, lambda r, s: {"strain": r.uniform(0.01, 0.05)}, change=_bauschinger),
+    _reversed(
+        "bauschinger",
+        1.0,
+        lambda r, s: {"strain": r.uniform(0.01, 0.05)},
+        change=_bauschinger,
+        known_as="back_stress",
+    ),
     _local("open_door", 3.0, _somewhere, change=_open_door, placements=("one",), draws=2),
     _outside("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, placements=("all", "one")),
-    _outside("moisture", 0.1, lambda r, s: {"power": r.uniform(0.5, 2.0)}, change=_moisture, draws=2),
+    _outside(
+        "moisture",
+        0.1,
+        lambda r, s: {"power": r.uniform(0.5, 2.0)},
+        change=_moisture,
+        draws=2,
+        known_as="change_between_tests",
+    ),
     _outside("serrations", 1.0, _pitch, record=_serrations, placements=("all", "one")),
-    _reversed("cell_hysteresis", 0.03, lambda r, s: {"width": r.uniform(0.05, 0.3)}, record=_cell_hysteresis),
-    _outside("strain_crystallisation", 5.0, _growth, change=_crystals),
+    _reversed(
+        "cell_hysteresis",
+        0.03,
+        lambda r, s: {"width": r.uniform(0.05, 0.3)},
+        record=_cell_hysteresis,
+        known_as="cell_hysteresis",
+    ),
+    _outside("strain_crystallisation", 5.0, _growth, change=_crystals, known_as="strain_induced_crystallisation"),
     _local("blade_slip", 0.005, _somewhere, strain=_blade_slip, placements=("one",), draws=2),
 )
