@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 FIRST, STIFFER, FAR = 20, 1.3, 3.0
 """Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
+BEYOND_CHANCE = 3.0
+"""Standard deviations by which the stress must show the recorded strain to be real before it is taken as it is."""
+
 PARTS = 8
 """Parts of a record in which the local noise variance is estimated where strains are chosen ..."""
 
@@ -83,19 +86,24 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
     control, which it did. The strain does not tell; the stress does, of all smoothed records together, by what is
-    rougher than any effect that the law may lack.
+    rougher than any effect that the law may lack. Where it tells nothing, since the law is soft there or lacks what
+    makes it stiff, the wiggles are noise: a law that follows the rate would make much of them.
     """
     chosen = {record.id: excite(record) for record in campaign.records}
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
-    favours_raw = 0.0
+    favours_raw, told_apart = 0.0, 0.0
     for record in campaign.identify:
         if record.id in raw:
             smooth, recorded = (
                 predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
             )
             rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
-            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / _local_noise_variance(smooth)))
-    return chosen | raw if favours_raw > 0.0 else chosen
+            variance = _local_noise_variance(smooth)
+            favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / variance))
+            told_apart += float(np.sum((rough[0] - rough[1]) ** 2 / variance))
+    # Were the wiggles noise, the sum would have the mean -told_apart and the variance 4 told_apart.
+    by_chance = 2.0 * BEYOND_CHANCE * np.sqrt(told_apart) - told_apart
+    return chosen | raw if favours_raw > max(by_chance, 0.0) else chosen
 
 
 def _local_noise_variance(residual: FloatArray) -> FloatArray:
