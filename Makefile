@@ -117,7 +117,9 @@ wheel: $(VENV)/.tools $(VENV)/.wheel  ## build dist/*.whl and check that it need
 	    { cat build/wheel/repair.txt; exit 1; }
 	@$(BIN)/python -m venv build/wheel/venv
 	@build/wheel/venv/bin/python -m pip --disable-pip-version-check --quiet install dist/*.whl
-	@cd build/wheel && venv/bin/python -c 'import probation; print("wheel: probation", probation.__version__, "imports")'
+	@# Without an extra: fit, certify and diagnose, their tables and pages.
+	@cd build/wheel && venv/bin/probation demo --out demo >demo.txt
+	@cd build/wheel && venv/bin/python -c 'import probation; print("wheel: probation", probation.__version__, "runs the demo")'
 	@ls dist/*.whl
 
 clean:  ## remove everything that was made here, .venv too

@@ -36,8 +36,8 @@ endif()
 set(STATIC_SUNDIALS_LIBRARIES "")
 set(archive_variables "")
 foreach(archive ${archives})
-  find_library(STATIC_SUNDIALS_${archive} libsundials_${archive}.a
-    HINTS "${PROBATION_SUNDIALS_ROOT}" PATH_SUFFIXES lib "lib/${CMAKE_LIBRARY_ARCHITECTURE}" ${only_there})
+  find_library(STATIC_SUNDIALS_${archive} NAMES libsundials_${archive}.a sundials_${archive}_static  # the latter: Windows
+    HINTS "${PROBATION_SUNDIALS_ROOT}" PATH_SUFFIXES lib lib64 "lib/${CMAKE_LIBRARY_ARCHITECTURE}" ${only_there})
   list(APPEND archive_variables STATIC_SUNDIALS_${archive})
   list(APPEND STATIC_SUNDIALS_LIBRARIES "${STATIC_SUNDIALS_${archive}}")
 endforeach()
@@ -51,7 +51,7 @@ find_package_handle_standard_args(StaticSundials
 if(StaticSundials_FOUND AND NOT TARGET sundials_static)
   add_library(sundials_static INTERFACE IMPORTED GLOBAL)
   target_include_directories(sundials_static SYSTEM INTERFACE "${STATIC_SUNDIALS_INCLUDE}")
-  target_link_libraries(sundials_static INTERFACE ${STATIC_SUNDIALS_LIBRARIES} m)
+  target_link_libraries(sundials_static INTERFACE ${STATIC_SUNDIALS_LIBRARIES} $<$<NOT:$<PLATFORM_ID:Windows>>:m>)
   # Since 7.0 the core itself calls MPI if it was built with it, so that library cannot be left out.
   if(with_mpi AND STATIC_SUNDIALS_VERSION VERSION_GREATER_EQUAL 7)
     message(STATUS "SUNDIALS ${STATIC_SUNDIALS_VERSION} was built with MPI: the extension will need the MPI library")
