@@ -183,13 +183,15 @@ def check_file_place(path: str | os.PathLike[str]) -> None:
 
 
 def check_folder_place(path: str | os.PathLike[str]) -> None:
-    """Refuse a path that is no folder and cannot become one.
+    """Refuse a path that is no folder and cannot become one, and an empty one.
 
     Raises
     ------
     InputError, OSError
         As `write_whole` does.
     """
+    if not os.fspath(path):
+        raise InputError("found an empty name, expected a folder")
     target = Path(path)
     with written_to(target):
         there = next(each for each in (_real(target), *_real(target).parents) if each.exists())

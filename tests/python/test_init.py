@@ -99,6 +99,55 @@ def test_without_a_terminal_one_line_says_which_option_to_give(lab, tmp_path, ca
     assert not (tmp_path / "made").exists()
 
 
+def test_all_that_is_missing_is_said_at_once(lab, tmp_path, capsys):
+    """A displacement and a force without dimensions, a curve without time: three answers, in one line."""
+    curve = tmp_path / "curve.csv"
+    curve.write_text("Strain (%),Stress (MPa)\n" + "".join(f"{at},{at}\n" for at in range(12)))
+    files = [str(lab / "specimen.dat"), str(lab / "Zugversuch.xlsx"), str(curve)]
+    assert main(["init", *files, "-o", str(tmp_path / "made"), "--yes"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "specimen.dat and Zugversuch.xlsx: found no gauge length" in line
+    assert "specimen.dat and Zugversuch.xlsx: found no section" in line or "specimen.dat: found no section" in line
+    assert "curve.csv: found no time column" in line
+    for option in ("--specimen gauge_length_mm=…", "--specimen area_mm2=…", "--test-rate"):
+        assert line.count(option) == 1
+
+
+@pytest.mark.parametrize("quantity", ["Strain", "Stress"])
+def test_a_record_of_zeros_is_refused(tmp_path, quantity):
+    path = tmp_path / "idle.csv"
+    rows = [(at, 0.0 if quantity == "Strain" else 0.1 * at, 0.0 if quantity == "Stress" else at) for at in range(12)]
+    path.write_text("time_s,true_strain,true_stress_MPa\n" + "".join(f"{t},{e},{s}\n" for t, e, s in rows))
+    with pytest.raises(
+        InputError, match=rf"idle: found a {quantity.lower()} of zero in all 12 samples, expected a test"
+    ):
+        init_campaign([path], tmp_path / "made")
+    assert not (tmp_path / "made").exists()
+
+
+def test_an_empty_folder_name_is_refused(lab, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", str(lab / "raw.csv"), "-o", "", "--yes"]) == 2
+    assert "-o" in (said := capsys.readouterr().err.splitlines()[-1])
+    assert "found an empty name, expected a folder" in said
+    with pytest.raises(InputError, match="found an empty name"):
+        init_campaign([lab / "raw.csv"], "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_turns_the_order_of_reading_is_escaped_in_campaign_toml(lab, tmp_path):
+    """U+202E turns what follows it; U+1F4A9 prints; U+E0001, a tag, has no place in the first plane."""
+    name = "raw \u202egnp.\U000e0001\U0001f4a9é.csv"
+    shutil.copy(lab / "raw.csv", tmp_path / name)
+    init_campaign([tmp_path / name], tmp_path / "made", specimen={"area_mm2": 40.0, "gauge_length_mm": 50.0})
+    text = (tmp_path / "made" / "campaign.toml").read_text(encoding="utf-8")
+    assert "\u202e" not in text
+    assert "\U000e0001" not in text
+    assert "\U0001f4a9é" in text
+    assert tomllib.loads(text)["record"][0]["file"] == name
+    assert len(Campaign.load(tmp_path / "made").records) >= 1
+
+
 def test_a_curve_without_time_says_that_it_needs_a_rate(tmp_path, capsys):
     path = tmp_path / "curve.csv"
     path.write_text("Strain (%),Stress (MPa)\n" + "".join(f"{at},{at}\n" for at in range(12)))

@@ -2,6 +2,7 @@
 
 import json
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -82,12 +83,19 @@ def lines_of(values: Mapping[str, object]) -> str:
 def _toml(value: object) -> str:
     match value:
         case str():
-            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+            return "".join(map(_escaped, json.dumps(value, ensure_ascii=False)))
         case Mapping():
             return "{ " + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + " }"
         case tuple():
             return "[" + ", ".join(map(_toml, value)) + "]"
     return repr(value)
+
+
+def _escaped(character: str) -> str:
+    """What does not print, or turns the order of what is read, as TOML escapes it; blanks stay."""
+    if character.isprintable() or unicodedata.category(character) == "Zs":
+        return character
+    return f"\\u{ord(character):04x}" if ord(character) < 0x10000 else f"\\U{ord(character):08x}"
 
 
 def _file_names(ids: Sequence[str]) -> list[str]:

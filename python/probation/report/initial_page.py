@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.report.figures import house_style, new_figure
 from probation.report.initial_summary import record_table
 from probation.report.page import Page, Section, picture
+from probation.report.style import colour
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,6 +19,10 @@ if TYPE_CHECKING:
 
     from probation.records.initial.init_campaign import InitialCampaign
     from probation.records.record import Record
+    from probation.report.page import Picture
+
+_ONSET = 0.3  # of the largest value: so far the beginning is drawn
+_FEWEST = 10  # samples of it
 
 
 def initial_figure(made: InitialCampaign) -> Figure:
@@ -44,9 +51,35 @@ def record_figure(record: Record) -> Figure:
     return figure
 
 
+def clocks_figure(record: Record) -> Figure:
+    """Whether force and strain, of two files, start together: both over time, as parts of their largest value."""
+    with house_style():
+        figure = new_figure(7.2, 3.2)
+        axes = figure.subplots()
+        for label, values, shade in (
+            ("stress, of the force file", record.true_stress, "model"),
+            ("strain, of the strain file", record.true_strain, "second"),
+        ):
+            size = np.abs(values)
+            part = size / max(float(size.max()), 1e-300)
+            end = max(int(np.argmax(part > _ONSET)) + 1, _FEWEST)
+            axes.plot(record.time[:end], part[:end], ".-", ms=3, lw=1.0, color=colour(shade), label=label)
+        axes.set(xlabel="time [s]", ylabel="part of the largest value [–]")
+        axes.legend()
+    return figure
+
+
 def _label(over_strain: Axes, over_time: Axes) -> None:
     over_strain.set(xlabel="true strain [–]", ylabel="true stress [MPa]")
     over_time.set(xlabel="time [s]", ylabel="true strain [–]")
+
+
+def _clocks(made: InitialCampaign, record: Record) -> tuple[Picture, ...]:
+    if record.id not in made.filmed:
+        return ()
+    shift = next((note for note in record.warnings if "its clock set forward" in note), "")
+    caption = f"{record.id}: the beginning of the test on one clock; {shift}."
+    return (picture(clocks_figure(record), caption),)
 
 
 def write_initial_page(made: InitialCampaign, path: Path) -> None:
@@ -60,6 +93,7 @@ def write_initial_page(made: InitialCampaign, path: Path) -> None:
                 f"Read from {made.reads[record.id]}.",
                 *(f"Note: {warning}." for warning in record.warnings),
                 picture(record_figure(record), f"{record.id}: stress over strain, strain and stress over time."),
+                *_clocks(made, record),
             ),
         )
         for record in records

@@ -14,7 +14,7 @@ from probation.records.assignment import assign_columns
 from probation.records.campaign import Campaign
 from probation.records.campaign_file import FILE_NAME
 from probation.records.initial.control import guess_control
-from probation.records.initial.questions import Question, answered, next_question
+from probation.records.initial.questions import Question, answered, next_question, refuse_unanswered, unanswerable
 from probation.records.initial.text import Entry, campaign_text
 from probation.records.opening import chosen_tables, open_file
 from probation.records.options import SPECIMEN_KEYS, ReadingKeys, read_options
@@ -39,11 +39,14 @@ class InitialCampaign(Result):
     folder : Path
     reads : dict of str to str
         By record: file, profile, and which column is which.
+    filmed : tuple of str
+        Ids of records whose strain comes from a file on another clock.
     """
 
     campaign: Campaign
     folder: Path
     reads: dict[str, str]
+    filmed: tuple[str, ...] = ()
 
 
 def init_campaign(
@@ -91,10 +94,11 @@ def init_campaign(
     Raises
     ------
     InputError
-        If a file cannot be read, or does not say what has no default and cannot be asked: the error names the option.
+        If a file cannot be read, holds a stress or a strain of zeros, or if files do not say what has no default and
+        cannot be asked: the error names every option that is missing.
     """
-    folder = Path(folder)
     check_folder_place(folder)
+    folder = Path(folder)
     if kind_of(folder / FILE_NAME) is not None:
         raise InputError(f"{folder}: found a {FILE_NAME}, expected a new folder; name another, or remove the file")
     if not files:
@@ -105,12 +109,14 @@ def init_campaign(
             raise InputError(f"{path}: found a name that is not UTF-8, which no {FILE_NAME} can hold; rename the file")
     single = _by_file(paths, by_file or {})
     target = _Target(folder, link)
-    entries: list[Entry] = []
+    read: list[tuple[Path, ReadingKeys, dict[str, str | None]]] = []
     for path in paths:
         own = dict(single.get(path.name, {}))
         choices = {"control": own.pop("control", control), "role": own.pop("role", role)}
-        merged = _merged(_where_not_stated(path, how, own), own)
-        entries += _entries(path, merged, choices, target, ask)
+        read.append((path, _merged(_where_not_stated(path, how, own), own), choices))
+    if ask is None:
+        refuse_unanswered([question for path, merged, _ in read for question in unanswerable(path, merged)])
+    entries = [entry for path, merged, choices in read for entry in _entries(path, merged, choices, target, ask)]
     entries = _with_unique_ids(entries)
     if all(entry.record.role != "identify" for entry in entries):
         raise InputError('found held-out records only, expected at least one with the role "identify"')
@@ -118,7 +124,10 @@ def init_campaign(
     target.write()
     write_whole(folder / FILE_NAME, campaign_text(name or folder.resolve().name or "campaign", entries))
     made = InitialCampaign(
-        Campaign.load(folder), folder, {entry.record.id: f"{entry.file}: {entry.read}" for entry in entries}
+        Campaign.load(folder),
+        folder,
+        {entry.record.id: f"{entry.file}: {entry.read}" for entry in entries},
+        tuple(entry.record.id for entry in entries if "strain_from" in entry.keys),
     )
     try:
         made.report(folder / PAGE_NAME)
@@ -214,6 +223,7 @@ def _entries(
         records = assemble_all(source, found, reading, chosen)
         tables = chosen_tables(path, reading, chosen.specimen_index)
         for record, (number, table) in zip(records, tables, strict=True):
+            _check_moves(path, record)
             columns = assign_columns(table, chosen)
             read = ", ".join(f"{role} {quoted(column.label)}" for role, column in columns.items())
             keys = {
@@ -237,6 +247,16 @@ def _entries(
                 )
             )
     return entries
+
+
+def _check_moves(path: Path, record: Record) -> None:
+    """Refuse a record in which nothing happens."""
+    for quantity, values in (("stress", record.true_stress), ("strain", record.true_strain)):
+        if not values.any():
+            raise InputError(
+                f"{path}: {record.id}: found a {quantity} of zero in all {len(record)} samples, expected a test; "
+                "name the column that holds it (--column), or leave the file out"
+            )
 
 
 def _driven(record: Record, choices: Mapping[str, str | None], ask: Ask | None) -> Record:

@@ -1,12 +1,12 @@
 """What a file does not say, as questions: one after the other, until it can be read."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-from probation._complaint import quoted
+from probation._complaint import joined, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns
 from probation.records.opening import chosen_tables, open_file
@@ -49,6 +49,45 @@ class Question:
     def unanswered(self) -> InputError:
         """Build the error for a question that nobody may be asked."""
         return InputError(f"{self.file}: found no {self.text}, expected {self.option}; it is not in the file")
+
+
+def unanswerable(path: Path, how: ReadingKeys) -> list[Question]:
+    """All that must be known before the file can be read and has no default.
+
+    Raises
+    ------
+    InputError
+        At what no answer mends.
+    """
+    missing = []
+    while (question := next_question(path, how)) is not None:
+        if not question.default:
+            missing.append(question)
+        how = answered(path, how, question, question.default or _STAND_IN[question.key])
+    return missing
+
+
+def refuse_unanswered(questions: Sequence[Question]) -> None:
+    """Refuse questions that nobody may be asked, all of them in one line.
+
+    Raises
+    ------
+    InputError
+        If there are any.
+    """
+    files: dict[tuple[str, str], list[str]] = {}
+    for question in questions:
+        files.setdefault((question.text, question.option), []).append(question.file)
+    if files:
+        said = (
+            f"{joined(names, 'and')}: found no {text}, expected {option}" for (text, option), names in files.items()
+        )
+        ending = "it is not in the file" if len(questions) == 1 else "FILE: before a value says it of that file alone"
+        raise InputError(f"{'; '.join(said)}; {ending}")
+
+
+_STAND_IN = {"area": "1", "gauge_length": "1", "test_rate": "1 1/s"}
+"""Answers with which the other questions of a file are found."""
 
 
 def next_question(path: Path, how: ReadingKeys) -> Question | None:
