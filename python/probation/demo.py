@@ -165,7 +165,7 @@ def diagnosis() -> Outcome:
     found = diagnose(diagnosis_campaign(), seed=SEED)
     figure = found.plot()
     missing = ("rate_dependent_relaxation",)
-    tables = [make(found, MOST)[0].wrapped({}) for make in (where_table, which_table, shrink_table)]
+    tables = [make(found, MOST)[0] for make in (where_table, which_table, shrink_table)]
     return Outcome(
         verdict=f"Diagnosis without the companion relation: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "explained" and found.best.effects == missing,

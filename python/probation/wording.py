@@ -2,12 +2,46 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+
+WIDTH = 80
+"""Columns of a terminal; a longer line is broken between words, a longer word is not."""
+
+
+def within_width(text: str, width: int = WIDTH) -> str:
+    """A text with its long lines broken; an indented line goes on two letters further in.
+
+    Parameters
+    ----------
+    text : str
+    width : int
+
+    Returns
+    -------
+    str
+        Lines that fit are as they were, so that tables and plots stay.
+    """
+    return "\n".join(line if len(line) <= width else _broken(line, width) for line in text.split("\n"))
+
+
+def _broken(line: str, width: int) -> str:
+    words = line.lstrip(" ")
+    indent = " " * min(len(line) - len(words), width // 2)
+    return fill(
+        words,
+        width,
+        initial_indent=indent,
+        subsequent_indent=f"{indent}  " if indent else "",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def percentage(part: float, sign: str = "") -> str:
@@ -30,7 +64,8 @@ def plus_minus(value: float, se: float) -> str:
     ----------
     value : float
     se : float
-        Its standard error; where it is zero or not finite the value stands alone.
+        Its standard error; where it is zero or not finite the value stands alone. Below 1e-9 both are written with
+        an exponent.
 
     Returns
     -------
@@ -38,6 +73,8 @@ def plus_minus(value: float, se: float) -> str:
     """
     if not np.isfinite(se) or se <= 0.0:
         return f"{value:.5g}"
+    if se < 1e-9:
+        return f"{value:.5g} ± {se:.2g}"
     digits = max(1 - int(np.floor(np.log10(se))), 0)
     if float(f"{se:.{digits}f}") >= 10.0 ** (2 - digits) and digits > 0:  # 0.0996 is 0.10
         digits -= 1

@@ -206,7 +206,7 @@ def test_autocorrelated_noise_is_found_and_widens_the_errors():
     assert auto.autocorrelated
     assert not auto.newey_west
     assert auto.noise_MPa == pytest.approx(0.04, rel=0.15)
-    assert "correlation of neighbours 0." in auto.summary()
+    assert "correlation of neighbours 0." in " ".join(auto.summary().split())
     assert_allclose(values(auto), values(plain), atol=2.0 * errors(auto).max())
 
 

@@ -12,6 +12,7 @@ from probation._files import check_file_place, check_folder_place, write_whole
 from probation.commands.progress import shown
 from probation.commands.streams import put, put_data, say
 from probation.errors import InputError
+from probation.wording import WIDTH, within_width
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -157,10 +158,15 @@ def add_json(parser: argparse._ActionsContainer, what: str = "the answer") -> No
 
 
 def tell(summary: str, *, aside: bool = False) -> None:
-    """Print a summary, its first line, the verdict, in bold on a terminal; `aside` on standard error."""
+    """Print a summary, the verdict that it begins with in bold on a terminal; `aside` on standard error."""
     if not summary:
         return
-    verdict, newline, rest = summary.partition("\n")
+    lines = within_width(summary).split("\n")
+    ends = 1
+    while ends < len(lines) and lines[ends][:1].strip() and len(f"{lines[ends - 1]} {lines[ends].split()[0]}") > WIDTH:
+        ends += 1  # a line that was broken there goes on
+    verdict, rest = "\n".join(lines[:ends]), "\n".join(lines[ends:])
+    newline = "\n" if ends < len(lines) else ""
     if aside:
         say(newline + rest, bold=verdict)
     else:

@@ -12,7 +12,8 @@ from probation.report.certificate_summary import parameter_table, prediction_tab
 from probation.report.diagnosis_tables import base_table, where_table, which_table
 from probation.report.fit_summary import estimate_text
 from probation.report.table import Table
-from probation.wording import plus_minus
+from probation.results.rendering import rendered
+from probation.wording import plus_minus, within_width
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -237,13 +238,13 @@ def calibration_card(found: Calibration) -> Card:
 
 def summary_line(result: Any) -> str:
     """The first line of its summary."""
-    return _line(type(result).__name__, "", result.summary().splitlines()[0])
+    return _line(type(result).__name__, "", rendered(result, "summary").splitlines()[0])
 
 
 def summary_card(result: Any) -> Card:
     """The first line of its summary, and the rest to unfold."""
-    first, _, rest = result.summary().partition("\n")
-    return Card(kind=type(result).__name__, title="", verdict=first, details=rest.strip("\n"))
+    first, _, rest = rendered(result, "summary").partition("\n")
+    return Card(kind=type(result).__name__, title="", verdict=first, details=within_width(rest.strip("\n")))
 
 
 def _line(kind: str, title: str, verdict: str) -> str:

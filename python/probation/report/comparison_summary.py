@@ -6,11 +6,11 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.comparison.headline import named, percent, sized
+from probation.wording import WIDTH
 
 if TYPE_CHECKING:
     from probation.comparison.result import Comparison
 
-WIDTH = 100
 MOST = 6
 
 
@@ -21,7 +21,7 @@ def comparison_summary(found: Comparison) -> str:
         star = "*" if each in found.answer_set else " "
         where = ", ".join(each.records)
         text = f"{star} {percent(each.probability):>6}  {named(each)}" + (f" in {where}" if where else "")
-        lines.append(fill(text, WIDTH, subsequent_indent="            "))
+        lines.append(fill(text, WIDTH, subsequent_indent=12 * " "))
         lines += [f"            {sized(parameter)}" for parameter in each.parameters]
     lines.append("")
     for name, others in found.pairs.items():
@@ -29,6 +29,6 @@ def comparison_summary(found: Comparison) -> str:
             f"{name} against {', '.join(others)}: the change is {found.rms_MPa[name]:.3g} MPa rms, the noise "
             f"{found.noise_MPa[name]:.3g} MPa"
         )
-        lines.append(fill(text, WIDTH, initial_indent="  ", subsequent_indent="    "))
-    lines += [fill(f"warning: {each}", WIDTH, initial_indent="  ", subsequent_indent="    ") for each in found.warnings]
+        lines.append(f"  {text}")
+    lines += [f"  warning: {each}" for each in found.warnings]
     return "\n".join(lines)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.report.diagnosis_tables import (
@@ -22,15 +21,11 @@ if TYPE_CHECKING:
     from probation.diagnosis.result import Diagnosis
     from probation.report.table import Table
 
-WIDTH = 100
 MOST_SIGNS = 4
-
-_CELLS = {"explanation": 24, "its parameters": 27, "checks": 27}
-"""Letters in a line of those columns."""
 
 
 def summary(found: Diagnosis) -> str:
-    """What was found, as text of at most `WIDTH` columns.
+    """What was found.
 
     Parameters
     ----------
@@ -52,9 +47,9 @@ def summary(found: Diagnosis) -> str:
         parts.append(_shown(*effects_table(found, MOST)))
     parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
     if found.remainder is not None:
-        parts.append(fill(found.remainder.description, WIDTH))
+        parts.append(found.remainder.description)
     if found.next_test is not None:
-        parts.append(fill(next_test_text(found), WIDTH))
+        parts.append(next_test_text(found))
     parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found, MOST_SKIPPED)))
     parts.append("\n".join(_sentence(f"warning: {warning}") for warning in found.warnings))
     return "\n\n".join(part for part in parts if part)
@@ -137,9 +132,9 @@ def _gap(found: Diagnosis) -> str:
 
 
 def _sentence(text: str) -> str:
-    return fill(text, WIDTH, initial_indent="  ", subsequent_indent="    ")
+    return f"  {text}" if text else ""
 
 
 def _shown(table: Table, rest: str) -> str:
-    text = table.wrapped(_CELLS).text()
+    text = table.text()
     return f"{text}\n  {rest}" if rest else text

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from probation.records.initial.init_campaign import InitialCampaign
     from probation.records.record import Record
 
-_NAME_WIDTH = 18
 _HEIGHT = 6  # lines of a plot
 _PLOTTED = 8  # records; the page has them all
 
@@ -46,7 +45,7 @@ def record_table(made: InitialCampaign) -> Table:
         for record in made.campaign.records
     )
     headings = ("record", "profile", "control", "time [s]", "strain", "stress [MPa]")
-    return Table(headings, rows, left=3).wrapped({"record": _NAME_WIDTH, "control": _NAME_WIDTH})
+    return Table(headings, rows, left=3)
 
 
 def _described(record: Record) -> str:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.report.diagnosis_summary import WIDTH
 from probation.report.isolability_table import HOW_TO_READ, in_words, isolability_table
 
 if TYPE_CHECKING:
@@ -14,7 +12,7 @@ if TYPE_CHECKING:
 
 def isolability_summary(answer: CampaignIsolability) -> str:
     """The headline, then every effect."""
-    table = isolability_table(answer.found).wrapped({"effect": 36, "these tests": 40})
+    table = isolability_table(answer.found)
     return "\n\n".join(
-        [f"{answer.campaign}: {in_words(answer.found.headline, answer.found)}", table.text(), fill(HOW_TO_READ, WIDTH)]
+        [f"{answer.campaign}: {in_words(answer.found.headline, answer.found)}", table.text(), HOW_TO_READ]
     )

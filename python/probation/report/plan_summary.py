@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.inference.parameter import SYMBOLS
-from probation.report.diagnosis_summary import WIDTH
 from probation.report.fit_summary import estimate_text
 from probation.report.isolability_table import HOW_TO_READ, in_words, isolability_table
 from probation.report.table import Table
@@ -28,10 +26,10 @@ def plan_verdict(plan: Plan) -> str:
 
 
 def plan_summary(plan: Plan) -> str:
-    """As text of at most `WIDTH` columns, but for the first line, which holds the verdict."""
-    effects = isolability_table(plan.isolability).wrapped({"effect": 36, "these tests": 40})
-    warnings = "\n".join(fill(f"warning: {warning}", WIDTH) for warning in plan.warnings)
-    parts = [plan_verdict(plan), _parameters(plan), effects.text(), fill(HOW_TO_READ, WIDTH), _tests(plan), warnings]
+    """The verdict, parameters, effects, tests."""
+    effects = isolability_table(plan.isolability)
+    warnings = "\n".join(f"warning: {warning}" for warning in plan.warnings)
+    parts = [plan_verdict(plan), _parameters(plan), effects.text(), HOW_TO_READ, _tests(plan), warnings]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -68,7 +66,7 @@ def _tests(plan: Plan) -> str:
     )
     headings = ("test", "history", "samples", "time [s]", "max. strain", "noise [MPa]", "of strain [–]")
     table = Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
-    return table.wrapped({"test": 14, "history": 22}).text()
+    return table.text()
 
 
 def _relative(each: Parameter) -> str:

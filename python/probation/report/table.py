@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from probation.wording import WIDTH, within_width
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Sequence
 
 
 @dataclass(frozen=True)
@@ -29,38 +31,88 @@ class Table:
     caption: str = ""
     left: int = 1
 
-    def wrapped(self, widths: Mapping[str, int]) -> Table:
-        """The table with long cells broken into lines, which become rows.
+    def text(self, indent: str = "  ", width: int = WIDTH) -> str:
+        """The table as aligned lines of at most so many letters, the caption first.
 
-        Parameters
-        ----------
-        widths : dict of str to int
-            Letters in a line, by heading; other columns stay as they are. A cell may also hold line ends of its own.
+        What is too wide has its headings broken, then its cells of words; what is still too wide goes on below, under
+        the first columns again.
         """
-        return replace(self, rows=tuple(line for row in self.rows for line in self._lines(row, widths)))
+        room = width - len(indent)
+        if self._wide(self._natural()) <= room:
+            return self._set(self._natural(), indent, width)
+        least = self._least()
+        if self._wide(least) <= room:
+            widths, full = least, self._natural()
+            while self._wide(widths) < room and (growing := [at for at in range(len(full)) if widths[at] < full[at]]):
+                widths[min(growing, key=widths.__getitem__)] += 1
+            return self._set(widths, indent, width)
+        named = max(1, min(self.left, 2)) if sum(least[:2]) < room // 2 else 1
+        fitting = named + 1
+        while fitting < len(least) and self._wide(least[: fitting + 1]) <= room:
+            fitting += 1
+        if fitting >= len(least):  # two columns that are too wide even so: nothing is left to break
+            return self._set(least, indent, width)
+        first = self._columns(range(fitting), self.caption)
+        rest = self._columns([*range(named), *range(fitting, len(least))], "")
+        return f"{first.text(indent, width)}\n\n{rest.text(indent, width)}"
 
-    def _lines(self, row: tuple[str, ...], widths: Mapping[str, int]) -> list[tuple[str, ...]]:
-        cells = []
-        for cell, heading in zip(row, self.headings, strict=True):
-            width = widths.get(heading)
-            cells.append(
-                [part for line in cell.split("\n") for part in (wrap(line, width) if width else [line]) or [""]]
-            )
-        deepest = max(len(cell) for cell in cells)
-        return [tuple(cell[at] if at < len(cell) else "" for cell in cells) for at in range(deepest)]
+    def _columns(self, kept: Sequence[int], caption: str) -> Table:
+        left = sum(at < self.left for at in kept)
+        rows = tuple(tuple(row[at] for at in kept) for row in self.rows)
+        return Table(tuple(self.headings[at] for at in kept), rows, caption, left)
 
-    def text(self, indent: str = "  ") -> str:
-        """The table as aligned lines, the caption first."""
-        lines = [self.headings, *self.rows]
-        widths = [max(len(line[at]) for line in lines) for at in range(len(self.headings))]
-        set_lines = [
+    def _wide(self, widths: Sequence[int]) -> int:
+        return sum(widths) + 2 * (len(widths) - 1)
+
+    def _natural(self) -> list[int]:
+        return [max(_longest(cell.split("\n")) for cell in column) for column in self._by_column()]
+
+    def _least(self) -> list[int]:
+        """What each column needs at least: its longest word, or a number with what belongs to it; a name is broken."""
+        least = []
+        for at, (heading, *cells) in enumerate(self._by_column()):
+            words = at < self.left or _longest(cells) > _NUMBER
+            needed = [part for cell in cells for part in (cell.split() if words else cell.split("\n"))]
+            least.append(min(max(_longest(heading.split()), _longest(needed)), _NAME))
+        return least
+
+    def _by_column(self) -> list[tuple[str, ...]]:
+        return list(zip(self.headings, *self.rows, strict=True))
+
+    def _set(self, widths: Sequence[int], indent: str, width: int) -> str:
+        headings = self._broken(self.headings, widths, below=True)
+        rows = [line for row in self.rows for line in self._broken(row, widths)]
+        lines = [
             indent
             + "  ".join(
-                cell.ljust(width) if at < self.left else cell.rjust(width)
-                for at, (cell, width) in enumerate(zip(line, widths, strict=True))
+                cell.ljust(wide) if at < self.left else cell.rjust(wide)
+                for at, (cell, wide) in enumerate(zip(line, widths, strict=True))
             ).rstrip()
-            for line in lines
+            for line in (*headings, *rows)
         ]
-        rule = indent + "  ".join("─" * width for width in widths)
-        caption = [self.caption] if self.caption else []
-        return "\n".join([*caption, set_lines[0], rule, *set_lines[1:]])
+        lines.insert(len(headings), indent + "  ".join("─" * wide for wide in widths))
+        caption = [within_width(self.caption, width)] if self.caption else []
+        return "\n".join([*caption, *lines])
+
+    def _broken(self, row: tuple[str, ...], widths: Sequence[int], *, below: bool = False) -> list[tuple[str, ...]]:
+        """A row as lines; the cells begin in the first of them, or end in the last."""
+        cells = [
+            [part for line in cell.split("\n") for part in (wrap(line, wide) if len(line) > wide else [line])]
+            for cell, wide in zip(row, widths, strict=True)
+        ]
+        deepest = max(len(cell) for cell in cells)
+        padded = [
+            [""] * (deepest - len(cell)) + cell if below else cell + [""] * (deepest - len(cell)) for cell in cells
+        ]
+        return list(zip(*padded, strict=True))
+
+
+_NUMBER = 24
+"""Letters beyond which a cell of numbers is broken like words ..."""
+
+_NAME = 26
+"""... and beyond which a word is broken."""
+
+
+def _longest(parts: Iterable[str]) -> int:
+    return max(map(len, parts), default=0)

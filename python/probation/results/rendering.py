@@ -11,6 +11,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from probation.wording import within_width
+
 if TYPE_CHECKING:
     from os import PathLike
 
@@ -57,9 +59,8 @@ class Summarised(InOneLine):
     """A result that has a text for the terminal."""
 
     def summary(self) -> str:
-        """The answer as text: the verdict first, then numbers, then details."""
-        text: str = rendered(self, "summary")
-        return text
+        """The answer as text for a terminal of 80 columns: the verdict first, then numbers, then details."""
+        return within_width(rendered(self, "summary"))
 
 
 class Plotted:
