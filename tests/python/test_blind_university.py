@@ -1,16 +1,12 @@
 """The university's laboratory: its integration, its errors, its forms, its secrecy."""
 
-import ast
 import json
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import probation
-import probation_studies
 from probation_studies.blind.laboratories import university
 from probation_studies.blind.laboratories.university.catalogue_names import CATALOGUE_NAMES, catalogue_name
 from probation_studies.blind.laboratories.university.causes import COMMON, OUTSIDE, Run
@@ -21,8 +17,6 @@ from probation_studies.blind.laboratories.university.modal_law import Material, 
 from probation_studies.blind.laboratories.university.oracle import discriminability
 from probation_studies.blind.laboratories.university.signals import added, bench_of, course_of
 
-SOURCE = Path(probation_studies.__file__).parent
-FOLDER = SOURCE / "blind" / "laboratories" / "university"
 PLAIN = Material(2000.0, 5.0, 2.0)
 WITH_COMPANION = Material(3000.0, 1.1, 1.8, (0.00464, 0.0367))
 
@@ -38,24 +32,6 @@ def _engine(material):
         hardening_modulus=material.hardening,
         companion=probation.Weissenberg(*material.companion),
     )
-
-
-def test_it_imports_nothing_of_what_is_tested():
-    """Within its own folder, NumPy, SciPy, the exceptions and what writes files whole."""
-    allowed = ("numpy", "scipy", "probation.errors", "probation._files", "__future__")
-    for path in FOLDER.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            names = []
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom):
-                assert node.level == 0, path
-                names = [str(node.module)]
-            for name in names:
-                own = name.startswith("probation_studies.blind.laboratories.university")
-                standard = name.split(".")[0] in sys.stdlib_module_names
-                assert own or standard or name.startswith(allowed), f"{path}: {name}"
-        assert "import_module" not in path.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("material", [PLAIN, WITH_COMPANION])

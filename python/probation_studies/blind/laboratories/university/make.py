@@ -11,7 +11,7 @@ import numpy as np
 from probation.errors import InputError
 from probation_studies.blind.laboratories.university.catalogue_names import UNKNOWN, catalogue_name
 from probation_studies.blind.laboratories.university.causes import COMMON, OUTSIDE, Run
-from probation_studies.blind.laboratories.university.design import Design, Test, draw_design
+from probation_studies.blind.laboratories.university.design import Test, draw_design
 from probation_studies.blind.laboratories.university.histories import FINER
 from probation_studies.blind.laboratories.university.modal_law import integrate
 from probation_studies.blind.laboratories.university.oracle import Candidate, Oracle, consult, discriminability
@@ -334,6 +334,3 @@ def _windows(planted: Planted, bench: Bench) -> list[dict[str, object]]:
             }
         )
     return found
-
-
-__all__ = ["SPLITS", "STRATA", "Design", "make"]
