@@ -1,7 +1,7 @@
 """The university's laboratory: its integration, its errors, its forms, its secrecy."""
 
 import json
-from dataclasses import replace
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -158,6 +158,19 @@ def test_what_a_null_leaves_of_the_engine_is_white_of_variance_one():
         seen = strain + design.errors.strain * design.errors.averaging(n) @ random.standard_normal(n)
         white = bench.whitened(k, stress - engine.stress(time, seen, scheme="exact"))
         assert abs(white @ white / n - 1.0) < 6.0 * np.sqrt(2.0 / n)
+
+
+def test_a_specimen_deviates_as_the_covariance_has_it():
+    """To first order: up to a tenth, deviations being some per cent."""
+    design = draw_design(np.random.default_rng(12), unloading=False, replicated=True)
+    bench = bench_of(design)
+    test, deviating = bench.tests[0], bench.specimens[0]
+    other = base_course(test.specimen.of(design.material), test.run.time, test.run.strain)
+    mean, stress = integrate(test.run.time, [test.run.course, other])[:, ::FINER]
+    stress = stress * (1.0 + test.specimen.area)
+    left = stress - mean - deviating @ np.array(astuple(test.specimen))
+    assert test.specimen.modulus != 0.0
+    assert np.linalg.norm(left) < 0.1 * np.linalg.norm(stress - mean)
 
 
 def test_discriminability_is_what_the_method_says():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from typing import TYPE_CHECKING, cast
 from zlib import crc32
 
@@ -120,12 +120,16 @@ def _sealed(
 ) -> SealedCampaign:
     design = bench.design
     records, strain_errors, stress_errors, added_rms = _record(random, bench, planted)
-    carried = [
+    noise = [
         stress - response @ strain
         for stress, strain, response in zip(stress_errors, strain_errors, bench.responses, strict=True)
     ]
+    errors = [
+        each + deviating @ np.array(astuple(test.specimen))
+        for each, deviating, test in zip(noise, bench.specimens, bench.tests, strict=True)
+    ]
     bank = bank_of(random, bench)
-    weighed = _Weighed(bench, bank, planted, carried)
+    weighed = _Weighed(bench, bank, planted, errors)
     explanation = tuple(sorted({catalogue_name(each.cause.name) for each in planted}))
     oracle = weighed.consult(random, explanation)
     third = "tau_max_s" if design.material.companion is None else "alpha"
@@ -166,9 +170,7 @@ def _sealed(
             "answer_set": [list(names) for names in oracle.answer_set],
         },
         "added_MPa": added_rms,
-        "noise_drawn_MPa": {
-            key: float(np.sqrt(np.mean(each**2))) for key, each in zip(identified, carried, strict=True)
-        },
+        "noise_drawn_MPa": {key: float(np.sqrt(np.mean(each**2))) for key, each in zip(identified, noise, strict=True)},
     }
     return SealedCampaign(name, records, design.material.companion, design.scatter is None, Truth(content))
 

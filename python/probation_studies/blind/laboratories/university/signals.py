@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -74,6 +74,8 @@ class Bench:
         Whitened derivatives to the logarithms of the base law's parameters.
     responses : tuple of ndarray, shape (n, n) [MPa]
         To the strain samples.
+    specimens : tuple of ndarray, shape (n, 4) [MPa]
+        To a specimen's relative deviations: modulus, time, hardening modulus, area.
     """
 
     design: Design
@@ -81,6 +83,7 @@ class Bench:
     factors: tuple[FloatArray, ...]
     tangents: tuple[FloatArray, ...]
     responses: tuple[FloatArray, ...]
+    specimens: tuple[FloatArray, ...]
 
     def whitened(self, record: int, columns: FloatArray) -> FloatArray:
         """Columns of one record in units of its errors."""
@@ -142,7 +145,7 @@ class Products:
 def bench_of(design: Design) -> Bench:
     """Covariances and tangents of the identified records."""
     tests = tuple(test for test in design.tests if not test.held_out)
-    factors, tangents, responses = [], [], []
+    factors, tangents, responses, specimens = [], [], [], []
     for test in tests:
         run = test.run
         nudged = [replace(run.material, **{name: getattr(run.material, name) * (1.0 + _NUDGE)}) for name in PARAMETERS]
@@ -151,16 +154,16 @@ def bench_of(design: Design) -> Bench:
         slopes = (stress[1:] - stress[0]).T / _NUDGE
         response = strain_response(run.material, run.time[::FINER], run.strain[::FINER])
         covariance = design.errors.covariance(response)
+        deviating = np.column_stack([slopes, stress[0]])
         if design.scatter is not None:
-            scatter = design.scatter
-            deviations = np.array([scatter.modulus, scatter.time, scatter.hardening, scatter.area])
-            specimens = np.column_stack([slopes, stress[0]]) * deviations
-            covariance = covariance + specimens @ specimens.T
+            scattered = deviating * np.array(astuple(design.scatter))
+            covariance = covariance + scattered @ scattered.T
         factor = cholesky(covariance, lower=True, check_finite=False)
         factors.append(factor)
         tangents.append(solve_triangular(factor, slopes, lower=True, check_finite=False))
         responses.append(response)
-    return Bench(design, tests, tuple(factors), tuple(tangents), tuple(responses))
+        specimens.append(deviating)
+    return Bench(design, tests, tuple(factors), tuple(tangents), tuple(responses), tuple(specimens))
 
 
 def sampling_error(bench: Bench) -> float:
