@@ -129,6 +129,14 @@ def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains
     assert all(each["rate"] == 1.0 for each in found["false_alarms_by_kind"].values())
 
 
+def test_a_truth_need_not_say_what_is_left_of_every_record():
+    truth = _truth(("damage",)) | {"noise_drawn_MPa": {"a": 0.04}}
+    truth["records"]["b"]["role"] = "held-out"
+    case = _cases([truth])[0]
+    assert case.squares("noise_drawn_MPa", "identify") == pytest.approx(0.04**2)
+    assert case.squares("noise_drawn_MPa", "held-out") is None
+
+
 def test_a_row_of_the_laboratories_page_is_made_of_a_score():
     content = {
         "laboratory": "university",

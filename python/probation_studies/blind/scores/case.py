@@ -123,7 +123,7 @@ class Case:
         known = cast("Mapping[str, float]", self.truth.get(name) or {})
         records = cast("Mapping[str, Mapping[str, object]]", self.truth["records"])
         ours = {record: cast("int", each.get("samples", 1)) for record, each in records.items() if each["role"] == role}
-        if not known or not ours:
+        if not ours or not known.keys() >= ours.keys():
             return None
         return sum(count * known[record] ** 2 for record, count in ours.items()) / sum(ours.values())
 
