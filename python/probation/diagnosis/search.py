@@ -16,7 +16,7 @@ from probation.inference.base_fit import with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_columns
-from probation.inference.refit import MOST_STEPS, Refit, refit
+from probation.inference.refit import MOST_STEPS, SETTLED, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
@@ -289,10 +289,37 @@ class Search:
 
         return [each for each in in_parallel(one, list(enumerate(jobs)), self.threads) if each is not None]
 
+    def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
+        """Refits that leave more than a part of their causes does by itself, begun anew from there."""
+        known = [*(each.refit for each in self.found), *refits]
+        for count in sorted({len(each.model.causes) for each in refits}):
+            if self.budget.spent():
+                break
+            least = _least_of_each(known)
+            jobs, before = [], []
+            for each in refits:
+                if len(each.model.causes) != count:
+                    continue
+                part = min(
+                    (other for keys, other in least.items() if keys < _keys(each)), key=lambda other: other.chi_square
+                )
+                if each.chi_square > part.chi_square + SETTLED:
+                    jobs.append((each.model, _with_others_absent(each, part)))
+                    before.append(each)
+            lower = {id(each.model): each for each in self._solved(jobs, MOST_STEPS)}
+            better = {
+                id(each): lower[id(each.model)]
+                for each in before
+                if id(each.model) in lower and lower[id(each.model)].chi_square < each.chi_square
+            }
+            refits = [better.get(id(each), each) for each in refits]
+            known += better.values()
+        return refits
+
     def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
         """Refits with their evidence; without those of which it cannot be worked out."""
         judged = []
-        for each in refits:
+        for each in self._not_above_their_parts(list(refits)):
             try:
                 hypothesis = self._weighed(each)
             except UNSOLVABLE as error:
@@ -326,6 +353,28 @@ class Search:
     def _told(self, part: float) -> None:
         if self.progress:
             self.progress(part)
+
+
+def _keys(found: Refit) -> frozenset[Key]:
+    return frozenset(cause_key(each) for each in found.model.causes)
+
+
+def _least_of_each(refits: Sequence[Refit]) -> dict[frozenset[Key], Refit]:
+    """Of each set of causes the refit that leaves least."""
+    least: dict[frozenset[Key], Refit] = {}
+    for each in refits:
+        keys = _keys(each)
+        if keys not in least or each.chi_square < least[keys].chi_square:
+            least[keys] = each
+    return least
+
+
+def _with_others_absent(whole: Refit, part: Refit) -> FloatArray:
+    """Parameters of the whole at the optimum of a part of its causes: the others' amplitudes are zero."""
+    base, values = part.model.split(part.parameters)
+    known = {cause_key(cause): own for cause, own in values}
+    others = whole.model.split(whole.parameters)[1]
+    return whole.model.parameters(base, *(known.get(cause_key(cause), (0.0, *own[1:])) for cause, own in others))
 
 
 def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:

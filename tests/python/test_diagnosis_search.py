@@ -1,0 +1,70 @@
+"""What a search must never do: leave more with a further effect, or lead with what a part of it beats."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import probation
+from probation.diagnosis.search import Search
+from probation.effects.registry import effects
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+from probation.inference.candidate import cause_key
+from probation.inference.refit import SETTLED, refit
+
+NOISE, SAMPLES = 0.04, 120
+CONSIDERED = ("damage", "structural_softening", "force_offset", "strain_offset")
+
+
+def campaign(seed):
+    """Three ramps of a material that loses section, in a rig whose strain starts late in one of them."""
+    random = np.random.default_rng(seed)
+    law = probation.Law(unrelaxed_modulus=random.uniform(500.0, 2000.0), tau_max=30.0, hardening_modulus=2.0)
+    loss, late, offset = random.uniform(0.2, 0.5), random.uniform(0.005, 0.02), random.uniform(0.5, 2.0)
+    records = []
+    for name, rate in (("slow", 1e-3), ("middle", 5e-3), ("fast", 2e-2)):
+        time = np.linspace(0.0, 0.4 / rate, SAMPLES)
+        strain = rate * time
+        stress = law.stress(time, strain, "exact") * (1.0 - loss * strain**2) + NOISE * random.standard_normal(SAMPLES)
+        if name == "fast":
+            strain, stress = strain + late, stress + offset
+        records.append(probation.Record(id=name, time=time, true_strain=strain, true_stress=stress))
+    alike = probation.Specimens(scatter="none")
+    return probation.Campaign(name="search", records=tuple(records), specimens=alike)
+
+
+def searched(seed):
+    """A search that has been run, and what it found."""
+    chosen = effects(CONSIDERED)
+    made = campaign(seed)
+    base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
+    search = Search(base, chosen)
+    found = search.run(base.columns_with_starts(chosen))
+    return search, found
+
+
+def keys(found):
+    return frozenset(cause_key(each) for each in found.causes)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 4])
+def test_no_effect_that_is_added_leaves_more_and_no_part_of_the_leader_beats_it(seed):
+    search, found = searched(seed)
+    least = {}
+    for each in found:
+        least[keys(each)] = min(least.get(keys(each), np.inf), each.refit.chi_square)
+    for part, whole in itertools.permutations(least, 2):
+        if part < whole:
+            assert least[whole] <= least[part] + 2.0 * SETTLED
+
+    leader = search.ranked()[0]
+    assert len(leader.causes) > 1
+    base, values = leader.refit.model.split(leader.refit.parameters)
+    for size in range(1, len(values)):
+        for part in itertools.combinations(values, size):
+            model = leader.refit.model.with_causes(cause for cause, _ in part)
+            start = model.parameters(base, *(own for _, own in part))
+            again = refit(search.base.problem.with_model(model), start)
+            (judged,) = search._judged([again])
+            assert judged.evidence.log_evidence <= leader.evidence.log_evidence
