@@ -35,7 +35,7 @@ Constants of numerical methods (steps of difference quotients, limits of iterati
 where they are used.
 
 Origin: *derived* from an argument, *calibrated* on data (which, it says), or *chosen* by judgement.
-`python -m bench.ablation` solves and scores campaigns with other values.
+`python -m bench.ablation` solves and scores campaigns with other values (docs/ablation.md).
 """
 
 
