@@ -95,6 +95,13 @@ def test_the_catalogue_has_the_names_that_causes_are_mapped_to():
     assert sum(effect(name) == "unknown" for name in CAUSES) >= 3
 
 
+def test_an_extensometer_on_the_specimen_sees_nothing_of_the_frame():
+    for name in ("frame_compliance", "slack", "grip_slip"):
+        assert CAUSES[name].forms_seen(clip_on=True) == ()
+        assert CAUSES[name].forms_seen(clip_on=False) == CAUSES[name].forms
+    assert [form.name for form in CAUSES["machine_vibration"].forms_seen(clip_on=True)] == ["den Hartog 1934"]
+
+
 @pytest.mark.parametrize(("size", "degrees"), [(2.8, 90.0), (6.4, 30.0), (18.9, 10.0)])
 def test_two_causes_are_discriminated_in_95_percent_at_the_published_sizes(size, degrees):
     assert beats(size, float(np.cos(np.radians(degrees)))) == pytest.approx(0.95, abs=0.005)

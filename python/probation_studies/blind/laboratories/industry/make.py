@@ -32,11 +32,11 @@ STRATA = ("none", "single", "pair", "outside", "replicates")
 
 _SCHEMA = "probation.blind.truth/1"
 _DRAWN = (0.25, 0.25, 0.15, 0.15, 0.2)
-_CROSSHEAD = {"frame_compliance", "backlash", "slack", "grip_slip", "neck_in_gauge"}
+_CROSSHEAD = {name for name, cause in CAUSES.items() if not cause.forms_seen(clip_on=True)}
 _CLIP_ON = {"bending"}
 _TARGETS = 2.5, 300.0
 _SEEN, _UNSEEN, _LOST = 2.0, 0.05, 1.5
-_TRIES = 200
+_TRIES, _PATIENCE = 240, 30
 _SMALL = 0.02, 0.2
 """Parts of the largest amplitude that the bank's signals have; the second where the first is not seen."""
 _LOCALISED = 0.25
@@ -135,13 +135,14 @@ def make(seed: int, index: int, split: str = "develop", stratum: str | None = No
     random = np.random.default_rng([seed, index, SPLITS.index(split), 3])
     drawn = str(random.choice(STRATA, p=_DRAWN))
     stratum = drawn if stratum is None else stratum
-    for _ in range(_TRIES):
-        causes = _draw_causes(random, stratum)
+    for k in range(_TRIES):
+        if k % _PATIENCE == 0:
+            causes = _draw_causes(random, stratum)
         series = _draw_series(random, stratum, causes)
         sight = _look(series)
         if sight is None:
             continue
-        placed = _place(random, sight, causes)
+        placed = _place(random, sight, causes, clip_on=series.design.clip_on)
         if placed is not None:
             return _finish(random, series, sight, placed, (seed, index, split, stratum))
     raise AssertionError(f"no campaign of stratum {stratum} in {_TRIES} draws")
@@ -204,11 +205,14 @@ def _lost(series: _Series, sight: Sight) -> float:
     return sight.sampling(chosen, chosen)
 
 
-def _place(random: np.random.Generator, sight: Sight, causes: Sequence[Cause]) -> list[_Placed] | None:
+def _place(
+    random: np.random.Generator, sight: Sight, causes: Sequence[Cause], *, clip_on: bool
+) -> list[_Placed] | None:
     placed: list[_Placed] = []
     count = len(sight.views)
     for cause in causes:
-        form = cause.forms[int(random.integers(len(cause.forms)))]
+        forms = cause.forms_seen(clip_on=clip_on)
+        form = forms[int(random.integers(len(forms)))]
         shape = {name: float(np.exp(random.uniform(np.log(a), np.log(b)))) for name, (a, b) in form.shape.items()}
         everywhere = not cause.rig or count == 1 or random.random() < 0.5
         some = random.choice(count, 1 if count < 4 else int(random.integers(1, 3)), replace=False)
@@ -255,9 +259,9 @@ def _bank(sight: Sight, design: Design) -> list[Column]:
     columns: list[Column] = []
     count = len(sight.views)
     for cause in CAUSES.values():
-        if cause.name in (_CROSSHEAD if design.clip_on else _CLIP_ON):
+        if cause.name in _CLIP_ON and not design.clip_on:
             continue
-        for form in cause.forms:
+        for form in cause.forms_seen(clip_on=design.clip_on):
             shape = {name: float(np.sqrt(a * b)) for name, (a, b) in form.shape.items()}
             for part in _SMALL:
                 acting = Acting(cause.name, form, part * form.largest, shape)

@@ -24,6 +24,11 @@ CATALOGUE = {
     "preload": "prestress",
     "grip_slip": "grip_slip",
     "machine_vibration": "periodic_disturbance",
+    "mullins": "mullins_softening",
+    "kinematic_hardening": "back_stress",
+    "cell_hysteresis": "cell_hysteresis",
+    "ageing_between_tests": "change_between_tests",
+    "crystallisation": "strain_induced_crystallisation",
 }
 """The catalogue's name of a cause: the only thing here that knows of it. What is not listed lies outside."""
 

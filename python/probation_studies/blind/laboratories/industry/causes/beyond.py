@@ -164,9 +164,13 @@ BEYOND = (
     Cause(
         "neck_in_gauge",
         (
-            Form("Considere 1885", _neck_in_gauge, 0.4, {"onset": (0.1, 0.5)}),
+            Form("Considere 1885", _neck_in_gauge, 0.4, {"onset": (0.1, 0.5)}, crosshead=True),
             Form(
-                "spreading, Carothers & Hill 1932", _neck_spreading, 0.3, {"onset": (0.05, 0.3), "spread": (0.1, 0.4)}
+                "spreading, Carothers & Hill 1932",
+                _neck_spreading,
+                0.3,
+                {"onset": (0.05, 0.3), "spread": (0.1, 0.4)},
+                crosshead=True,
             ),
         ),
         rig=True,
@@ -175,7 +179,14 @@ BEYOND = (
         "extensometer_scale",
         (
             Form("ISO 9513", _extensometer_class, 0.3, {}, signed=True),
-            Form("effective gauge length, ASTM D638", _effective_gauge, 0.3, {"m": (1.1, 2.0)}, signed=True),
+            Form(
+                "effective gauge length, ASTM D638",
+                _effective_gauge,
+                0.3,
+                {"m": (1.1, 2.0)},
+                signed=True,
+                crosshead=True,
+            ),
         ),
         rig=True,
     ),

@@ -31,6 +31,8 @@ class Form:
         Whether the amplitude may be negative.
     unit : callable, optional
         From the campaign's scales to the size of an amplitude of one in its own unit.
+    crosshead : bool
+        Whether an extensometer on the specimen does not see it.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Form:
     shape: Mapping[str, tuple[float, float]]
     signed: bool = False
     unit: Callable[[Scales], float] | None = None
+    crosshead: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,3 +64,7 @@ class Cause:
     forms: tuple[Form, ...]
     rig: bool = False
     needs: str = ""
+
+    def forms_seen(self, *, clip_on: bool) -> tuple[Form, ...]:
+        """Forms that the strain's instrument lets through."""
+        return tuple(form for form in self.forms if not (clip_on and form.crosshead))

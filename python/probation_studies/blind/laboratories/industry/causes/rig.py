@@ -266,17 +266,17 @@ RIG = (
     Cause(
         "frame_compliance",
         (
-            Form("linear, Hockett & Gillis 1971", _linear_frame, 0.2, {}),
-            Form("Hertz 1882", _hertz_frame, 0.2, {"contact": (0.2, 0.9)}),
-            Form("Kalidindi et al. 1997", _curved_frame, 0.2, {"curve": (0.1, 1.0)}),
+            Form("linear, Hockett & Gillis 1971", _linear_frame, 0.2, {}, crosshead=True),
+            Form("Hertz 1882", _hertz_frame, 0.2, {"contact": (0.2, 0.9)}, crosshead=True),
+            Form("Kalidindi et al. 1997", _curved_frame, 0.2, {"curve": (0.1, 1.0)}, crosshead=True),
         ),
         rig=True,
     ),
     Cause(
         "backlash",
         (
-            Form("Tao & Kokotovic 1996", _backlash, 0.02, {}),
-            Form("Dahl 1968", _worn_screw, 0.02, {"over": (0.5, 4.0)}),
+            Form("Tao & Kokotovic 1996", _backlash, 0.02, {}, crosshead=True),
+            Form("Dahl 1968", _worn_screw, 0.02, {"over": (0.5, 4.0)}, crosshead=True),
         ),
         rig=True,
         needs="unloading",
@@ -284,8 +284,8 @@ RIG = (
     Cause(
         "slack",
         (
-            Form("loose load train", _slack, 0.05, {}),
-            Form("seating, ASTM D638", _seating, 0.05, {"force": (0.02, 0.2)}),
+            Form("loose load train", _slack, 0.05, {}, crosshead=True),
+            Form("seating, ASTM D638", _seating, 0.05, {"force": (0.02, 0.2)}, crosshead=True),
         ),
         rig=True,
     ),
@@ -355,8 +355,8 @@ RIG = (
     Cause(
         "grip_slip",
         (
-            Form("stick-slip, Coulomb", _stick_slip, 0.05, {"force": (0.3, 0.8), "count": (1.0, 5.0)}),
-            Form("progressive", _creeping_grip, 0.1, {"force": (0.3, 0.8)}),
+            Form("stick-slip, Coulomb", _stick_slip, 0.05, {"force": (0.3, 0.8), "count": (1.0, 5.0)}, crosshead=True),
+            Form("progressive", _creeping_grip, 0.1, {"force": (0.3, 0.8)}, crosshead=True),
         ),
         rig=True,
     ),
@@ -364,7 +364,7 @@ RIG = (
         "machine_vibration",
         (
             Form("den Hartog 1934", _ringing, 0.1, {"period": (0.01, 0.08), "lasting": (1.0, 8.0)}),
-            Form("ISO 230-2, lead screw", _screw_pitch, 0.01, {"pitch": (0.02, 0.2)}),
+            Form("ISO 230-2, lead screw", _screw_pitch, 0.01, {"pitch": (0.02, 0.2)}, crosshead=True),
         ),
         rig=True,
     ),
