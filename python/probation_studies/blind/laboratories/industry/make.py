@@ -88,10 +88,11 @@ class Made:
 
 @dataclass(frozen=True, eq=False)
 class _Series:
-    """Tests as they are planned: programmes at the samples that are kept."""
+    """Tests as they are planned, whole (`tests`) and at the samples that are kept (`programmes`)."""
 
     design: Design
     conditions: tuple[Condition, ...]
+    tests: tuple[Programme, ...]
     programmes: tuple[Programme, ...]
     starts: tuple[str, ...]
     held_out: int | None
@@ -174,15 +175,18 @@ def _draw_series(random: np.random.Generator, stratum: str, causes: Sequence[Cau
     order = random.permutation(len(conditions))
     conditions = [conditions[k] for k in order]
     instruments = draw_instruments(random, design.scales.force, clip_on=clip_on)
-    programmes, starts = [], []
+    tests, programmes, starts = [], [], []
     for k, condition in enumerate(conditions):
         programme, start = draw_programme(random, design, condition, k)
+        tests.append(programme)
         programmes.append(_cut(programme, design, instruments) if start == "cut" else programme)
         starts.append(start)
     held_out = int(random.integers(len(conditions))) if len(conditions) >= 4 and random.random() < 0.4 else None
     spread = [float(each) for each in random.uniform(0.02, 0.04, 3)]
     scatter = (spread[0], spread[1], spread[2], 0.01) if replicates else None
-    return _Series(design, tuple(conditions), tuple(programmes), tuple(starts), held_out, instruments, scatter)
+    return _Series(
+        design, tuple(conditions), tuple(tests), tuple(programmes), tuple(starts), held_out, instruments, scatter
+    )
 
 
 def _cut(programme: Programme, design: Design, instruments: Instruments) -> Programme:
@@ -201,8 +205,8 @@ def _look(series: _Series) -> Sight | None:
 
 
 def _lost(series: _Series, sight: Sight) -> float:
-    chosen = [series.programmes[k] for k in series.identified]
-    return sight.sampling(chosen, chosen)
+    chosen = series.identified
+    return sight.sampling([series.tests[k] for k in chosen], [series.programmes[k] for k in chosen])
 
 
 def _place(
@@ -445,7 +449,9 @@ def _record(
     """Test every specimen and write down what the machine shows."""
     design, records = series.design, []
     stated = {"strain": series.instruments.strain_white} if random.random() < 0.3 else {}
-    for k, (condition, programme) in enumerate(zip(series.conditions, series.programmes, strict=True)):
+    for k, (condition, programme, test) in enumerate(
+        zip(series.conditions, series.programmes, series.tests, strict=True)
+    ):
         law, section = design.law, 1.0
         if series.scatter is not None:
             e, tau, g, area = np.array(series.scatter) * random.standard_normal(4)
@@ -453,11 +459,13 @@ def _record(
                 law, modulus=law.modulus * (1 + e), time=law.time * (1 + tau), hardening=law.hardening * (1 + g)
             )
             section = 1.0 + float(area)
-        twice = len(programme.time) < _REFINED
-        fine = refined(programme) if twice else programme
+        twice = len(test.time) < _REFINED
+        fine = refined(test) if twice else test
         travel, force = tested(fine, law, design.scales, _here(series, placed, k))
         if twice:
             travel, force = travel[::2], force[::2]
+        kept = slice(len(test.time) - len(programme.time), None)
+        travel, force = travel[kept], force[kept]
         travel, force = read_out(random, programme.time, travel, force * section, series.instruments)
         name = f"{k + 1:02d}-{condition.kind}"
         records.append(

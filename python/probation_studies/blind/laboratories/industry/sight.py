@@ -147,7 +147,7 @@ class Sight:
         for whole, kept, view in zip(programmes, cut, self.views, strict=True):
             fine = refined(whole)
             true = base_stress(fine, self.law, self.scales, fine.travel)
-            there = np.interp(kept.time, fine.time, true)
+            there = np.interp(kept.time + whole.time[-1] - kept.time[-1], fine.time, true)
             found = base_stress(kept, self.law, self.scales, kept.travel)
             counts = np.diff([*view.starts, len(view.time)])
             left.append(np.add.reduceat(there - found, view.starts) / counts)
