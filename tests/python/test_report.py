@@ -70,6 +70,28 @@ def test_a_page_says_the_verdict_first_and_where_it_came_from(page):
     assert all(part in footer for part in (probation.__version__, "abc123", "seed 7", "probation fit x"))
 
 
+@pytest.mark.parametrize(
+    ("verdict", "first"),
+    [
+        ("No gap.", "No gap."),
+        (f"It holds (1; 2) for all {'tests ' * 9}: {'word ' * 20}", f"It holds (1; 2) for all {'tests ' * 9}".strip()),
+        (
+            f"Not predicted: it misses jump, by 12 MPa, which is {'far ' * 30}",
+            "Not predicted: it misses jump, by 12 MPa.",
+        ),
+        ("far " * 40, "far " * 24 + "…"),
+    ],
+    ids=["short", "at a clause", "at a comma", "anywhere"],
+)
+def test_a_verdict_is_one_sentence_and_nothing_of_it_is_lost(verdict, first):
+    html = Page("x", verdict, ()).html()
+    shown = re.search(r'<p class="verdict neutral">(.*?)</p>', html)[1]
+    assert len(shown.split()) <= 25
+    assert shown.rstrip(".").strip() == first.rstrip(".").strip()
+    rest = verdict.split(":")[-1].strip()
+    assert shown == verdict or rest in html or rest[0].upper() + rest[1:] in html
+
+
 def test_a_page_escapes_what_it_shows(page):
     html = page.html()
     assert "Fit of &lt;x&gt;" in html

@@ -101,6 +101,8 @@ def test_init_copies_the_film_and_the_campaign_joins_it(files, tmp_path):
     force, film = files
     how = {"specimen": {"area_mm2": 40.0}, "strain_from": {"file": str(film)}}
     made = init_campaign([force], tmp_path / "made", **how)
+    page = (tmp_path / "made" / "records.html").read_text(encoding="utf-8")
+    assert page.count("the beginning of the test on one clock; the strain is that of video.csv") >= 1
     force.unlink()
     film.unlink()
     (record,) = Campaign.load((tmp_path / "made").rename(tmp_path / "moved")).records

@@ -137,21 +137,23 @@ def _headed(verdict: str, most: int = 25, fewest: int = 6) -> tuple[str, str]:
     """A verdict as one sentence of at most so many words, and the rest of what it says.
 
     A longer one is parted at the first sentence's end, else where the first clause of at least `fewest` words ends,
-    outside of parentheses. If none ends early enough, words are left out and the whole of it follows.
+    outside of parentheses. If none ends early enough, it ends at a comma, else where the words are too many, and the
+    whole of it follows.
     """
     words = verdict.split()
     ends = [
         match.end()
-        for match in re.finditer(r"[.;:](?= )", verdict)
+        for match in re.finditer(r"[.;:,](?= )", verdict)
         if verdict[: match.end()].count("(") == verdict[: match.end()].count(")")
         and len(verdict[: match.end()].split()) <= most
     ]
     stops = [end for end in ends if verdict[end - 1] == "."]
     if not stops and len(words) <= most:
         return verdict, ""
-    clauses = stops or [end for end in ends if len(verdict[:end].split()) >= fewest]
+    enough = [end for end in ends if len(verdict[:end].split()) >= fewest]
+    clauses = stops or [end for end in enough if verdict[end - 1] != ","]
     if not clauses:
-        return f"{' '.join(words[: most - 1])} …", verdict
+        return f"{verdict[: enough[-1] - 1]}." if enough else f"{' '.join(words[: most - 1])} …", verdict
     rest = verdict[clauses[0] :].strip()
     begins = re.match(r"[a-z]+ ", rest)
     return f"{verdict[: clauses[0] - 1]}.", rest[0].upper() + rest[1:] if begins else rest
