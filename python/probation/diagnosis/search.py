@@ -131,7 +131,8 @@ class Search:
         )
         first = _promising(_first_of_each(candidates))
         running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.round_steps))
-        self.found += self._judged(out)
+        running, behind = self._worth_polishing(running)
+        self.found += self._judged([*out, *behind])
         polished = self._further(running, MOST_STEPS)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
@@ -159,13 +160,38 @@ class Search:
             each for each in refits if each.chi_square > limit
         ]
 
+    def _worth_polishing(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
+        """Which of the refits in the running may lead, by their evidence, and which are far behind.
+
+        Where no single effect explains a strong gap, all leave about as much of it; but the evidence of most is so low
+        that nothing which is left to gain brings them back.
+        """
+        gap = self._gap_left(refits)
+        if gap <= SEARCH.strong_gap:
+            return list(refits), []
+        scores = []
+        for each in refits:
+            try:
+                scores.append(self._weighed(each).evidence.log_evidence)
+            except UNSOLVABLE:
+                scores.append(np.inf)  # said where it is judged
+        count = len(self.base.whitened)
+        best = max((score for score in scores if np.isfinite(score)), default=0.0)
+        left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
+        least = best - (SEARCH.worth_polishing - 1.0) * left - SEARCH.slack
+        marked = list(zip(refits, scores, strict=True))
+        return [each for each, score in marked if not score < least], [each for each, score in marked if score < least]
+
+    def _gap_left(self, refits: Sequence[Refit]) -> float:
+        """What the best refit leaves of the gap, above the noise for certain; the noise itself is the same for all."""
+        best = min((each.chi_square for each in refits), default=np.inf)
+        count = len(self.base.whitened)
+        return float(max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0))
+
     def _limit(self, refits: Sequence[Refit]) -> float:
         """Least that a cause may leave and still be out of the race."""
         best = min((each.chi_square for each in refits), default=np.inf)
-        count = len(self.base.whitened)
-        # What is above the noise for certain; the noise itself is the same for all.
-        gap = max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0)
-        return float(best + (SEARCH.in_the_race - 1.0) * gap + SEARCH.slack)
+        return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause beside those of a hypothesis."""

@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
     from probation.effects.record_view import RecordView
-    from probation.identify.profile import Intervals
-    from probation.identify.result import Method
+    from probation.identify.result import Intervals, Method
     from probation.identify.weighting import Weighted, Weighting
     from probation.inference.problem import Problem
     from probation.law.modal import Law

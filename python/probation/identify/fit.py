@@ -14,8 +14,7 @@ from probation.identify.base import base_fit
 from probation.identify.base_law import base_law
 from probation.identify.describe import describe
 from probation.identify.given import given
-from probation.identify.profile import INTERVALS, Intervals
-from probation.identify.result import METHODS, Fit, Method
+from probation.identify.result import INTERVALS, METHODS, Fit, Intervals, Method
 from probation.identify.scattered import with_scatter
 from probation.identify.scheme_error import needed_substeps
 from probation.identify.search import by_least_squares, by_simplex, first_guess, search_range

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from probation.identify.weighting import Weighted
     from probation.inference.problem import Problem
     from probation.law.modal import Law
-
-Intervals = Literal["standard-error", "profile"]
-INTERVALS: tuple[Intervals, ...] = ("standard-error", "profile")
 
 FIRST_STEP = 0.75
 """Distance of neighbouring points [standard errors]; it grows where the cost rises slowly."""

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from probation.law.modal import Law
     from probation.law.schemes import Scheme, SchemeName, Start
 
+Intervals = Literal["standard-error", "profile"]
+INTERVALS: tuple[Intervals, ...] = ("standard-error", "profile")
+
 Method = Literal["least-squares", "variable-projection", "simplex"]
 ErrorsOf = Literal["specimens", "material"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import Bounds as SimplexBox
-from scipy.optimize import minimize
 
 from probation.identify.variable_projection import search, time_bounds, time_of
 from probation.inference.least_squares import NormalPrior, minimise
@@ -71,6 +69,9 @@ def by_least_squares(
 
 def by_simplex(problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds]) -> FloatArray:
     """Nelder-Mead (scipy): slow, and independent of every derivative."""
+    from scipy.optimize import Bounds as SimplexBox  # noqa: PLC0415 - slow to load, and this is one way of several
+    from scipy.optimize import minimize  # noqa: PLC0415
+
     coordinates = coordinates_of(problem, start, bounds)
     objective, box = Objective(problem, coordinates), coordinates.bounds
     found = box.clip(coordinates.of(start))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import minimize_scalar, nnls
 
+from probation.inference.scalar_minimum import non_negative, scalar_minimum
 from probation.inference.time_range import time_range
 
 if TYPE_CHECKING:
@@ -49,11 +49,11 @@ def project(problem: Problem, nonlinear: float) -> tuple[FloatArray, float]:
     columns = jacobian[:, ~is_time]
     target = columns @ values[~is_time] - residual
     if columns.shape[1]:
-        # Over the normal equations: two columns, thousands of rows. Scaled, so that nnls sees numbers near one.
+        # Two columns, thousands of rows: over their triangular factor, scaled to numbers near one.
         size = np.linalg.norm(columns, axis=0)
         size[size == 0.0] = 1.0
         factor: FloatArray = np.linalg.qr(np.column_stack([columns / size, target]))[1]
-        values[~is_time] = nnls(factor[:, :-1], factor[:, -1])[0] / size
+        values[~is_time] = non_negative(factor[:, :-1], factor[:, -1]) / size
     return values, float(np.sum((columns @ values[~is_time] - target) ** 2))
 
 
@@ -103,13 +103,7 @@ def search(
 
 def _between(problem: Problem, bounds: tuple[float, float], tolerance: float) -> float:
     """Logarithm of the tau_max (or alpha) of least cost between two logarithms, by Brent's method."""
-    found = minimize_scalar(
-        lambda point: project(problem, float(np.exp(point)))[1],
-        bounds=bounds,
-        method="bounded",
-        options={"xatol": tolerance},
-    )
-    return float(found.x)
+    return scalar_minimum(lambda point: project(problem, float(np.exp(point)))[1], *bounds, tolerance)
 
 
 def time_bounds(problem: Problem) -> tuple[float, float]:

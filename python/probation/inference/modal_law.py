@@ -62,6 +62,7 @@ class DnlrLaw:
         self._values = law.parameters
         self._free = np.array([name not in held for name in law.parameter_names])
         self._names = tuple(name for name in law.parameter_names if name not in held)
+        self._outside_names = tuple(outside_name(name) for name in self._names)
         self._companion = None if law.companion is None else law.companion._engine()
         assert law.spectrum is not None
         self._spectrum = law.spectrum._engine()
@@ -70,7 +71,7 @@ class DnlrLaw:
     @property
     def parameter_names(self) -> tuple[str, ...]:
         """Names with units of the parameters that are not held."""
-        return tuple(outside_name(name) for name in self._names)
+        return self._outside_names
 
     @property
     def start(self) -> FloatArray:

@@ -16,7 +16,6 @@ from probation.inference.model import CampaignModel
 from probation.inference.moving_noise import MovingNoise
 from probation.noise.arma import Arma
 from probation.noise.model import NoiseModel
-from probation.noise.outliers import without_outliers
 from probation.noise.whitener import Whitener
 
 if TYPE_CHECKING:
@@ -128,10 +127,6 @@ class Problem:
         """Every record's noise at some parameters."""
         return self.whitener_at(parameters).noises
 
-    def data(self, parameters: FloatArray) -> FloatArray:
-        """Measured stress in white coordinates, shape (n_samples,) [-]."""
-        return self.whitener_at(parameters).residual(self.model.data)
-
     def residual(self, parameters: FloatArray) -> FloatArray:
         """Fit residual in white coordinates, shape (n_samples,) [-]."""
         return self.whitener_at(parameters).residual(self.model.residual(parameters))
@@ -147,14 +142,8 @@ class Problem:
         if self.moving is not None:
             free = self.engine_law().free.tolist()
             jacobian[:, : len(free)] -= self.moving.slopes(self.law_at(parameters), residual, free)
-        return whitener.residual(residual), whitener.columns(jacobian)
-
-    def by_record(self, stacked: FloatArray) -> list[FloatArray]:
-        """The rows of each record, outliers set apart."""
-        return [
-            without_outliers(stacked[rows], noise.outliers)
-            for (_, rows), noise in zip(self.model.parts, self.whitener.noises, strict=True)
-        ]
+        both = whitener.columns(np.column_stack([residual, jacobian]))
+        return both[:, 0].copy(), both[:, 1:]
 
 
 def _white(view: RecordView, level: float) -> NoiseModel:

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import least_squares, nnls
 
 from probation._arrays import FloatArray, as_number, as_whole_number
 from probation.errors import InputError
@@ -164,6 +163,8 @@ class _Kernel:
             ]
         )
         wanted = np.concatenate([np.ones(len(self.at)), [_EXACTLY, _EXACTLY]])
+        from scipy.optimize import nnls  # noqa: PLC0415 - slow to load, and few ask for fewer modes
+
         weights, _ = nnls(rows, wanted)
         return weights, rows @ weights - wanted
 
@@ -173,6 +174,8 @@ class _Kernel:
     def refitted(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The nearest better relaxation times, increasing, and their weights, all positive."""
         low, high = self.limits[0] - 1e-9, self.limits[1] + 1e-9
+        from scipy.optimize import least_squares  # noqa: PLC0415
+
         found = least_squares(
             self._misfit,
             np.clip(np.log(times), low + 1e-10, high - 1e-10),

@@ -6,6 +6,7 @@ x_t = phi x_{t-1} + e_t + theta e_{t-1}. It contains white noise, AR(1), and AR(
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,9 @@ from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+
+LEAST_WEIGHT = 1e-18
+"""Weight of earlier innovations below which they do not count."""
 
 START_UP = 150
 """Most steps of the exact start; the innovation variance settles like theta^2t."""
@@ -73,26 +77,20 @@ class Arma:
         values = np.asarray(matrix, dtype=np.float64)
         if self.phi == 0.0 and self.theta == 0.0:
             return values / self.innovation
-        phi, theta = self.phi, self.theta
-        scaled = values / self.innovation
-        count = len(scaled)
-        moved = scaled.copy()
-        moved[1:] -= phi * scaled[:-1]
-        variance = (1.0 + 2.0 * phi * theta + theta**2) / (1.0 - phi**2)
-        exact = np.empty_like(moved)
-        innovation, done = moved[0], 1
-        exact[0] = innovation / np.sqrt(variance)
-        while done < min(count, START_UP) and abs(variance - 1.0) > 1e-7:
-            innovation = moved[done] - theta / variance * innovation
-            variance = 1.0 + theta**2 - theta**2 / variance
-            exact[done] = innovation / np.sqrt(variance)
-            done += 1
-        if done < count:
-            from scipy.signal import lfilter  # noqa: PLC0415 - slow to load
-
-            state = np.atleast_1d(-theta * innovation)[None] if values.ndim > 1 else np.array([-theta * innovation])
-            exact[done:] = lfilter([1.0], [1.0, theta], moved[done:], axis=0, zi=state)[0]
-        return exact
+        moved = values / self.innovation
+        moved[1:] -= self.phi * moved[:-1]
+        if self.theta == 0.0:
+            moved[0] *= np.sqrt(1.0 - self.phi**2)
+            return moved
+        inverse, deviation = _start_up(self.phi, self.theta, min(len(moved), START_UP))
+        done = len(inverse)
+        first = inverse @ moved[:done]
+        rest = moved[done:]
+        if len(rest):
+            rest[0] -= self.theta * first[-1]
+            _invert_moving_average(rest, self.theta)
+        moved[:done] = (first.T / deviation).T
+        return moved
 
     def log_determinant(self, count: int) -> float:
         """Logarithm of the determinant of the covariance of so many samples."""
@@ -116,6 +114,32 @@ class Arma:
 
         series: FloatArray = lfilter([1.0, theta], [1.0, -phi], shocks, axis=1, zi=start)[0]
         return self.innovation * series
+
+
+@lru_cache(maxsize=256)
+def _start_up(phi: float, theta: float, most: int) -> tuple[FloatArray, FloatArray]:
+    """Innovations of the first samples from x_t - phi x_{t-1}, shape (k, k), and their standard deviations (k,).
+
+    As many samples as the variance of an innovation takes to settle.
+    """
+    variance = [(1.0 + 2.0 * phi * theta + theta**2) / (1.0 - phi**2)]
+    while len(variance) < most and abs(variance[-1] - 1.0) > 1e-7:
+        variance.append(1.0 + theta**2 - theta**2 / variance[-1])
+    inverse = np.eye(len(variance))
+    for at in range(1, len(variance)):
+        inverse[at] -= theta / variance[at - 1] * inverse[at - 1]
+    return inverse, np.sqrt(variance)
+
+
+def _invert_moving_average(values: FloatArray, theta: float) -> None:
+    """Solve e_t + theta e_{t-1} = values_t in place, along the first axis.
+
+    By 1 / (1 + theta L) = (1 - theta L) (1 + theta^2 L^2) (1 + theta^4 L^4) ..., L the shift by one sample.
+    """
+    factor, shift = -theta, 1
+    while shift < len(values) and abs(factor) > LEAST_WEIGHT:
+        values[shift:] += factor * values[:-shift]
+        factor, shift = factor**2, 2 * shift
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from probation.noise.joint_noise import joint_root
 
@@ -47,5 +46,7 @@ def white_level(residual: FloatArray, tangent: FloatArray, carried: FloatArray |
         return float(2.0 * count * log_level + root.log_determinant + within + triangle[free] ** 2)
 
     ends = np.log(LEAST * min(known, max(rms, 1e-300))), np.log(MOST * max(known, rms))
+    from scipy.optimize import minimize_scalar  # noqa: PLC0415 - slow to load; only noise of the strain needs it
+
     found = minimize_scalar(criterion, bounds=ends, method="bounded", options={"xatol": FINE})
     return float(np.exp(found.x))

@@ -52,6 +52,16 @@ class SearchSettings:
         origin="chosen",
         used_in="diagnosis/search.py",
     )
+    worth_polishing: float = setting(
+        10.0,
+        (
+            "A cause in the race is refitted further while its log evidence falls short of a perfect one's by less "
+            "than so many times the best one's, plus the slack; of a strong gap that no single effect explains."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="diagnosis/search.py",
+    )
     race_gain: float = setting(
         14.0,
         "A cause is raced if its linearised gain is within so much of the best one's.",
