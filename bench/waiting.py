@@ -1,0 +1,134 @@
+"""How long does a user wait? Processor time, user and system, of whole programs.
+
+`python -m bench.waiting [ROW …]`: all rows, or those that are named; each several times in a process of its own, the
+least is taken. A run of the bench leaves it out: it takes two minutes. `bench.from_source` measures the build.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import probation
+from probation import Campaign, Law, Record
+from probation.effects.cause import Cause
+from probation.effects.record_view import views_of
+from probation.effects.registry import effect
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
+
+LAW = Law(unrelaxed_modulus=3000.0, tau_max=5.2, hardening_modulus=2.5)
+NOISE = 0.05
+"""Of the stress [MPa]."""
+
+RATES = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05)
+REPEATS = 3
+
+GOALS = {
+    "import": 0.4,
+    "help": 0.3,
+    "fit": 0.9,
+    "certify": 5.0,
+    "demo": 120.0,
+    "weak gap": 5.0,
+    "strong gap": 10.0,
+    "replicates": 30.0,
+}
+"""Seconds that were wanted on two idle cores; all cores count here."""
+
+DIAGNOSED = {
+    "weak gap": {"force_drift": 1.0},
+    "strong gap": {"rate_dependent_hardening": 2.0, "structural_softening": 2.0},
+    "replicates": {},
+}
+"""Effects by size, over the scale of their prior; none where nine specimens are alike but for scatter."""
+
+
+def file_of(folder: Path, name: str, rate: float, count: int) -> str:
+    """A ramp to a strain of 0.9 with noise, as a file."""
+    time = np.linspace(0.0, 0.9 / rate, count)
+    stress = probation.ramp_stress(LAW, rate, time) + NOISE * np.random.default_rng(count).standard_normal(count)
+    path = folder / f"{name}.csv"
+    columns = np.column_stack([time, rate * time, stress])
+    np.savetxt(path, columns, delimiter=",", header="time_s,true_strain,true_stress_MPa", comments="")
+    return str(path)
+
+
+def record(index: int, rate: float, count: int = 1000) -> Record:
+    """Every other test a ramp, the others with a hold and unloading; without stress."""
+    up, end = 0.6 / rate, 1.1 / rate
+    time = np.linspace(0.0, end, count)
+    turning = np.interp(time, [0.0, up, 1.5 * up, end], [0.0, 0.6, 0.6, 0.4])
+    strain = turning if index % 2 else 0.9 * time / end
+    return Record(f"r{index}", time, strain, 1e-6 * np.arange(count), control="strain-rate")
+
+
+def campaign(sizes: dict[str, float]) -> Campaign:
+    """Six records of 1000 samples with effects; without any nine records of three specimens a rate, which differ."""
+    rng = np.random.default_rng(1)
+    rates = RATES if sizes else RATES[1::2] * 3
+    planned = Campaign(name="waiting", records=tuple(record(i, rate) for i, rate in enumerate(rates)))
+    causes = [Cause(effect(name), effect(name).forms[0]) for name in sizes]
+    model = CampaignModel(DnlrLaw(LAW), views_of(planned, scheme="sa3"), causes)
+    values = [
+        (size * cause.form.amplitude.scale, *cause.form.typical[1:])
+        for cause, size in zip(causes, sizes.values(), strict=True)
+    ]
+    records = []
+    for each in planned.records:
+        differs = np.ones(3) if sizes else 1.0 + 0.03 * rng.standard_normal(3)
+        stress = model.predict(model.parameters(LAW.parameters * differs, *values))[each.id]
+        noisy = stress + NOISE * rng.standard_normal(len(stress))
+        records.append(replace(each, true_stress=noisy, specimen_id=None if sizes else each.id, sha256=""))
+    return replace(planned, records=tuple(records))
+
+
+def seconds(command: list[str]) -> float:
+    """Processor time of a program in a process of its own."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=os.environ | {"OMP_NUM_THREADS": "1"})
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
+
+
+def commands(folder: Path) -> dict[str, list[str]]:
+    """What each row runs."""
+    program = [sys.executable, "-m", "probation"]
+    one, two = file_of(folder, "slow", 0.001, 1000), file_of(folder, "fast", 0.01, 1000)
+    itself = [sys.executable, "-m", "bench.waiting", "--diagnose"]
+    return {
+        "import": [sys.executable, "-c", "import probation"],
+        "help": [*program, "--help"],
+        "fit": [*program, "fit", file_of(folder, "long", 0.003, 1500)],
+        "certify": [*program, "certify", one, two],
+        "demo": [*program, "demo", "--out", str(folder / "demo")],
+        **{name: [*itself, name] for name in DIAGNOSED},
+    }
+
+
+def main(wanted: list[str]) -> int:
+    """Print a line for each row; 1 if one takes longer than wanted."""
+    if wanted[:1] == ["--diagnose"]:
+        probation.diagnose(campaign(DIAGNOSED[wanted[1]]))
+        return 0
+    slow = False
+    with tempfile.TemporaryDirectory() as name:
+        for row, command in commands(Path(name)).items():
+            if wanted and row not in wanted:
+                continue
+            repeats = 1 if GOALS[row] > REPEATS else REPEATS
+            least = min(seconds(command) for _ in range(repeats))
+            slow |= least > GOALS[row]
+            print(f"{row:12} {least:6.2f} s of processor time (wanted: {GOALS[row]:g} s on two idle cores)", flush=True)
+    return int(slow)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
