@@ -231,6 +231,13 @@ def test_a_measured_rise_drives_self_heating():
     found = named(measured_warming(), "self_heating")
     assert found.best.forms == ("as_measured",)
     assert value(found, "softening_per_degC") == pytest.approx(0.07, rel=0.05)
+    # The work by the trapezoidal rule, half a degree per MPa of it.
+    fast = measured_warming().record("at-0.01")
+    work = np.trapezoid(fast.true_stress, fast.true_strain)
+    assert (
+        f"at-0.01 was measured to warm by {np.max(fast.temperature - fast.temperature[0]):.1f} °C; "
+        f"all its work as heat would be {0.5 * work:.1f} °C"
+    ) in found.best.checks.notes
 
 
 def test_a_measured_temperature_that_stays_acquits_self_heating():

@@ -14,6 +14,7 @@ import numpy as np
 
 from probation.detection.tail import chi_square_tail
 from probation.diagnosis.result import Checks
+from probation.effects.visible_temperature import measured_beside_work
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -54,6 +55,8 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
         # An amplitude at zero is an effect that is not there; a shape at its bound asks for another form.
         if low[index] or high[index]:
             notes.append(f"{name.rsplit('.', 1)[-1]} ended at its {'lower' if low[index] else 'upper'} bound")
+    if any(cause.effect.name == "self_heating" for cause in hypothesis.causes):
+        notes += [said for view in found.model.views if (said := measured_beside_work(view))]
     return Checks(left_out, p_value, remaining_p_value, tuple(notes))
 
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 DIFFERENT = 1.0
 """Difference of temperatures that is more than their scatter [°C]: a laboratory keeps its room to 2 °C (ISO 291)."""
 
+USUAL_WORK_TO_HEAT = 0.5
+"""Warming by work without any loss [°C/MPa]: one over density times heat capacity, polyethylene."""
+
 WORK_TO_HEAT = 1.0
 """Most warming that work can give [°C/MPa]: one over a density times heat capacity of 1 MJ/(m^3 °C), an elastomer's."""
 
@@ -44,14 +47,23 @@ def work_can_warm(view: RecordView) -> bool:
     if rise is None:
         return True
     seen = view.sampled(rise)
-    return bool(np.all(seen <= largest_rise_by_work(view) + DIFFERENT) and np.all(seen >= -DIFFERENT))
+    return bool(np.all(seen <= WORK_TO_HEAT * work_so_far(view) + DIFFERENT) and np.all(seen >= -DIFFERENT))
 
 
-def largest_rise_by_work(view: RecordView) -> FloatArray:
-    """All work so far as heat, nothing of it lost; shape (n_samples,) [°C]."""
+def work_so_far(view: RecordView) -> FloatArray:
+    """Largest work done on the specimen so far, shape (n_samples,) [MPa]."""
     strain = view.sampled(view.true_strain)
     work = np.append(0.0, np.cumsum(0.5 * (view.data[1:] + view.data[:-1]) * np.diff(strain)))
-    return WORK_TO_HEAT * np.maximum.accumulate(np.maximum(work, 0.0))
+    return np.asarray(np.maximum.accumulate(np.maximum(work, 0.0)))
+
+
+def measured_beside_work(view: RecordView) -> str:
+    """One sentence on a measured rise beside what the work could do; empty where nothing was measured."""
+    rise = view.measured_rise
+    if rise is None:
+        return ""
+    most = USUAL_WORK_TO_HEAT * float(work_so_far(view)[-1])
+    return f"{view.id} was measured to warm by {np.max(rise):.1f} °C; all its work as heat would be {most:.1f} °C"
 
 
 def warms_by_work(views: Sequence[RecordView]) -> bool:
