@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import probation
+from probation.comparison.faults import considered
+from probation.effects.catalogue.slack_strip import slack_intervals
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
 from probation.effects.visible import visible
@@ -286,3 +288,15 @@ def test_an_effect_that_was_asked_for_and_cannot_show_is_said_to_be_skipped():
         "mullins_softening: no record could show it; "
         "it shows in unloading and reloading below the largest strain so far"
     ]
+
+
+def test_a_comparison_asks_for_nothing_that_both_campaigns_have_alike():
+    """A strip goes slack in each; a hysteresis of the load cell may be new, where there is a way back to show it."""
+    slack = views_of(loops(strip))
+    assert slack_intervals(slack[0])
+    names = {each.name for each in considered(slack)}
+    assert "cell_hysteresis" in names
+    assert not names & {"slack_strip", "neck_triaxiality"}
+    time, strain = path(5e-3, [0.4])
+    ramp = views_of(campaign([record("ramp", time, strain, LAW.stress(time, strain), 0)]))
+    assert "cell_hysteresis" not in {each.name for each in considered(ramp)}

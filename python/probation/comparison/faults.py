@@ -11,6 +11,7 @@ from probation._complaint import suggestion
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.large_faults import crosshead_slack
 from probation.effects.registry import effects
+from probation.effects.visible import visible
 from probation.errors import InputError
 from probation.law.modification import Modification
 from probation.settings.comparison import COMPARISON
@@ -87,8 +88,8 @@ def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) 
     """What a change is explained by: the catalogue's faults of the rig, and another material.
 
     Left out are waves, steps and plateaus, which a diagnosis finds in either campaign by itself; the growth of the
-    volume, since both campaigns made their true stress in one way; and the temperature, which is another material to a
-    comparison.
+    volume, the triaxiality of a neck and a strip that goes slack, since both campaigns have these alike; and the
+    temperature, which is another material to a comparison.
 
     Parameters
     ----------
@@ -105,8 +106,8 @@ def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) 
     force = max(float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views)
     elongation = max(float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views)
     duration = max(view.duration for view in views)
-    left_out = {"temperature_drift", "volume_change", "force_saturation"}
-    rig = (each for each in effects() if each.kind == "rig" and each.name not in left_out)
+    left_out = {"temperature_drift", "volume_change", "neck_triaxiality", "slack_strip", "force_saturation"}
+    rig = (each for each in visible(effects(), views) if each.kind == "rig" and each.name not in left_out)
     sized = [
         _as_a_change(each, force, elongation, duration)
         for each in rig
