@@ -87,3 +87,22 @@ def test_a_law_that_gives_no_numbers_is_named_with_its_record_and_parameters():
     law = CallableLaw(lambda *_: np.full(160, np.nan), ("modulus_MPa",), (1000.0,), (0.0,), (1e5,))
     with pytest.raises(probation.InputError, match=r"record 'slow': .* at modulus_MPa = 1000; it raised function\("):
         probation.diagnose(campaign(), law=law, design=False)
+
+
+def test_a_parameter_on_which_nothing_depends_ends_no_description_of_what_is_left():
+    """A saturation that is never reached, say; what is left is one function of the strain."""
+    law = probation.CallableLaw(
+        lambda time, strain, parameters, modification: parameters[0] * strain,
+        ("modulus_MPa", "idle"),
+        (100.0, 1.0),
+        (0.0, 0.0),
+        (1e4, 10.0),
+    )
+    records = []
+    for seed, rate in enumerate((1e-3, 2e-3, 4e-3)):
+        strain = np.linspace(0.0, 0.5, 150)
+        stress = 100.0 * strain + np.sin(9.0 * strain) + 0.02 * np.random.default_rng(seed).standard_normal(150)
+        records.append(Record(id=f"r{seed}", time=strain / rate, true_strain=strain, true_stress=stress))
+    campaign = probation.Campaign(name="idle", records=tuple(records), specimens=probation.Specimens("none"))
+    found = probation.diagnose(campaign, law=law, effects=["force_gain"], design=False)
+    assert found.remainder.depends_on[0].variable == "strain"

@@ -402,6 +402,7 @@ class _Problem:
         normal = _regular(together.T @ together, self._precision, smooth=_is_smooth(term))
         solved = self._beside(term)
         size = np.sqrt(np.diag(normal))
+        size[size == 0.0] = 1.0  # a parameter that nothing depends on
         values, vectors = np.linalg.eigh(normal / np.outer(size, size))
         least = self._noise**2
         error = least + (1.0 - dependence.explained) * max(before_of[dependence.judged_on] - least, 0.0)
