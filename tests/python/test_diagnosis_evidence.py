@@ -10,10 +10,12 @@ from scipy.special import logsumexp
 from scipy.stats import truncnorm
 
 from campaigns import linear_problem as problem
+from probation.diagnosis.probabilities import log_prior
 from probation.effects.cause import Cause
 from probation.inference import evidence as module
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.evidence import evidence
+from probation.inference.form_error import form_columns
 from probation.settings.evidence import EVIDENCE
 
 COUNT = 60
@@ -136,7 +138,10 @@ def test_the_forms_error_makes_it_the_density_of_correlated_data():
     scores = []
     for error, weight in zip(EVIDENCE.form_errors, EVIDENCE.form_error_weights, strict=True):
         variance = np.concatenate(
-            [error**2 * energy * share for energy, share in zip(done, discrepancy.spectrum, strict=True)]
+            [
+                (EVIDENCE.form_rest * error) ** 2 * energy * share
+                for energy, share in zip(done, discrepancy.spectrum, strict=True)
+            ]
         )
         covariance = np.eye(len(y)) + (waves * variance) @ waves.T
         covariance += (design * [wide**2, scale**2]) @ design.T
@@ -144,6 +149,74 @@ def test_the_forms_error_makes_it_the_density_of_correlated_data():
         density = -0.5 * float(y @ np.linalg.solve(covariance, y)) - 0.5 * determinant
         scores.append(density + np.log(wide * np.sqrt(2.0 * np.pi)) + np.log(weight))
     assert evidence(found, base, discrepancy).log_evidence == pytest.approx(logsumexp(scores), abs=2e-3)
+
+
+def with_its_freedom(views, *effects):
+    """Evidence of effects with the freedom of their forms."""
+    law = problem.bar()
+    base = problem.solved(law, views)
+    found = problem.solved(law, views, [Cause(each, each.forms[0]) for each in effects])
+    discrepancy = Discrepancy.of(problem.whitened(base))
+    forms = form_columns(found, problem.whitener(views))
+    return evidence(found, base, discrepancy, forms=forms, unknown=False), found, forms, discrepancy, base
+
+
+def test_the_freedom_of_a_form_is_integrated_over_exactly():
+    """N(y; 0, I + J S J^T + B D B^T + s^2 F F^T) by its dense matrix, F the columns that the parameters cannot follow,
+    and the mixture over s."""
+    wide, scale = 1e3, 3.0
+    views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN)) for _ in range(2)])
+    judged, found, forms, discrepancy, base = with_its_freedom(views, bump(scale=scale))
+    y = np.concatenate([view.data for view in views]) / problem.SIGMA
+    design = np.tile(np.column_stack([80.0 * STRAIN, np.sin(np.pi * STRAIN)]) / problem.SIGMA, (2, 1))
+    free = forms - design @ np.linalg.lstsq(design, forms)[0]
+    done = discrepancy.energy(found.residual - base.residual)
+    scores = []
+    for error, weight in zip(EVIDENCE.form_errors, EVIDENCE.form_error_weights, strict=True):
+        factor = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
+        covariance = np.eye(len(y)) + factor @ factor.T + error**2 * free @ free.T
+        covariance += (design * [wide**2, scale**2]) @ design.T
+        _, determinant = np.linalg.slogdet(covariance)
+        density = -0.5 * float(y @ np.linalg.solve(covariance, y)) - 0.5 * determinant
+        scores.append(density + np.log(wide * np.sqrt(2.0 * np.pi)) + np.log(weight))
+    assert judged.log_evidence == pytest.approx(logsumexp(scores), abs=5e-3)
+
+
+def test_the_freedom_is_along_the_effects_own_coordinate_alike_in_all_records():
+    """Legendre's polynomials of the strain, times what the effect does; of the force where it follows the force."""
+    views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN)) for _ in range(2)])
+    _, found, forms, *_ = with_its_freedom(views, bump())
+    done = found.parameters[-1] * np.sin(np.pi * STRAIN) / problem.SIGMA
+    polynomials = np.polynomial.legendre.legvander(2.0 * STRAIN - 1.0, EVIDENCE.form_waves)[:, 1:]
+    assert_allclose(forms, np.tile(EVIDENCE.rig_form_error * done[:, None] * polynomials, (2, 1)), atol=1e-9)
+    of_the_force = replace(bump(), coordinate="force")
+    other = with_its_freedom(views, of_the_force)[2]
+    assert np.linalg.norm(other - forms) > 0.1 * np.linalg.norm(forms)
+
+
+def test_along_a_coordinate_of_one_value_a_form_has_no_freedom():
+    """The rate, where it is one and the same."""
+    views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN))])
+    assert with_its_freedom(views, replace(bump(), coordinate="strain_rate"))[2].shape[1] == 0
+
+
+def test_a_second_effect_must_beat_the_freedom_of_the_first():
+    """What the first leaves is 15 % of it along its own coordinate. Taken at its word, it would need the second."""
+    first = replace(bump(scale=20.0), kind="material")
+    second = replace(
+        problem.effect(
+            lambda view, values: values[0] * np.sin(3.0 * np.pi * view.true_strain),
+            problem.parameter("other_size", -50.0, 50.0, 2.0),
+            name="second",
+        ),
+        kind="material",
+    )
+    wrong = 20.0 * np.sin(np.pi * STRAIN) * (1.0 + 0.15 * np.polynomial.legendre.legval(2.0 * STRAIN - 1.0, [0, 0, 1]))
+    views = problem.views([noisy(100.0 * STRAIN + wrong, seed) for seed in range(2)])
+    alone, pair = with_its_freedom(views, first)[0], with_its_freedom(views, first, second)[0]
+    dearer = log_prior(("first",), 22) - log_prior(("first", "second"), 22)
+    assert pair.log_evidence_exact > alone.log_evidence_exact + dearer + 10.0
+    assert pair.log_evidence < alone.log_evidence + dearer
 
 
 def test_waves_of_a_discrepancy_are_orthonormal_and_share_out_all_of_its_energy():

@@ -380,6 +380,7 @@ def test_priors_of_phases_count_one_period():
         (lambda: EffectParameter("x", "", 0.0, 2.0, 0.0, ""), r"prior scale 0.0"),
         (lambda: EffectParameter("x", "", 0.0, 2.0, 1.0, "", log=True), r"lower bound 0.0"),
         (lambda: EffectParameter("x", "", 0.0, 2.0, 1.0, "", starts=(3.0,)), r"start 3.0"),
+        (lambda: replace(effect("damage"), coordinate="colour"), r"'colour', expected one of strain, largest_strain"),
         (lambda: Form("f", ()), r"expected an amplitude"),
         (lambda: Form("f", (EffectParameter("x", "", 0.0, 2.0, 1.0, ""),)), r"found no hook"),
     ],

@@ -13,7 +13,7 @@ import probation
 from probation.effects.catalogue.finite_extensibility import inverse_langevin
 from probation.effects.catalogue.force_strain_lag import delayed
 from probation.effects.cause import cause
-from probation.effects.maxwell_element import maxwell_element
+from probation.effects.maxwell_element import maxwell_element, maxwell_element_in_strain
 from probation.effects.record_view import views_of
 from probation.inference.callable_law import CallableLaw
 from probation.inference.modal_law import DnlrLaw
@@ -307,6 +307,32 @@ def test_delayed_hardening_follows_with_a_first_order_lag(form, values, part):
     late = grown * np.exp(2.0 * RATE * t) - shrunk * np.exp(-RATE * t) + (shrunk - grown) * np.exp(-t / lag)
     expected = 2.0 * (part * late + (1.0 - part) * views[0].haward_thackray_strain)
     np.testing.assert_allclose(found[100:], expected[100:], rtol=1e-3)
+
+
+def test_hardening_that_is_delayed_in_strain_waits_for_no_time():
+    """Relaxed: dy/de = (e^(2e) - e^(-e) - y) / c whatever the rate; a dwell changes nothing, nor does unloading."""
+    lag = 0.3
+    time = np.array([0.0, 200.0, 700.0, 900.0])
+    fine = np.linspace(0.0, 900.0, 1801)
+    strain = np.interp(fine, time, [0.0, 1.0, 1.0, 0.4])
+    record = Record("r", fine, strain, np.zeros(1801), noise=Noise(0.04, 0.0))
+    found, views = predicted(QUICK, record, "delayed_hardening", "in_strain", (lag,))
+    largest = np.maximum.accumulate(strain)
+    grown, shrunk = 1.0 / (1.0 + 2.0 * lag), 1.0 / (1.0 - lag)
+    late = grown * np.exp(2.0 * largest) - shrunk * np.exp(-largest) + (shrunk - grown) * np.exp(-largest / lag)
+    part = late[1:] / (np.exp(2.0 * largest[1:]) - np.exp(-largest[1:]))
+    np.testing.assert_allclose(found[1:], 2.0 * part * views[0].haward_thackray_strain[1:], rtol=2e-3, atol=2e-3)
+
+
+@pytest.mark.parametrize("relaxation_strain", [1e-5, 1e-3, 0.2, 50.0])
+def test_an_element_that_relaxes_with_strain_is_a_maxwell_element_with_the_strain_for_time(relaxation_strain):
+    """Also where the strain is thousands of relaxation strains long."""
+    random = np.random.default_rng(2)
+    strain = np.cumsum(random.uniform(1e-4, 1e-2, 300))
+    values = np.cumsum(random.standard_normal(300))
+    expected = maxwell_element(strain, values, relaxation_strain)
+    found = maxwell_element_in_strain(strain, values, relaxation_strain)
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
 @settings(max_examples=25, deadline=None)

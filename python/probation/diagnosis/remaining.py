@@ -38,7 +38,9 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
         Part of the errors of a form, as evidence takes them, that is let pass.
     """
     discrepancy = base.discrepancy
-    energy = (share * EVIDENCE.tolerated_form_error) ** 2 * discrepancy.energy(found.residual - base.refit.residual)
-    allowed = np.hstack([discrepancy.factor(energy), share * form_columns(found, base.whitener)])
+    error = share * EVIDENCE.tolerated_form_error
+    done = discrepancy.energy(found.residual - base.refit.residual)
+    rest = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
+    allowed = np.hstack([rest, error * form_columns(found, base.whitener)])
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()

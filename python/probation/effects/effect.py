@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 from scipy.special import log_ndtr, ndtr
 
+from probation.effects.coordinate import COORDINATES, Coordinate, CoordinateHook
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -240,6 +241,9 @@ class Effect:
         Functional forms that count as one cause.
     odds : float
         Of this effect beforehand, over those of a usual one: below 1 for what is rare.
+    coordinate : str or callable
+        What the effect follows, a name of `coordinate.COORDINATES` or ``coordinate(view, values)``, shape (n,): its
+        form may be wrong along it. The strain, if left out.
     """
 
     name: str
@@ -250,12 +254,18 @@ class Effect:
     kind: Kind
     forms: tuple[Form, ...]
     odds: float = 1.0
+    coordinate: Coordinate | CoordinateHook = "strain"
 
     def __post_init__(self) -> None:
         if not _SNAKE_CASE.fullmatch(self.name):
             raise InputError(f"effect: found the name {self.name!r}, expected snake_case")
         if self.kind not in ("material", "rig"):
             raise InputError(f"effect {self.name}: found the kind {self.kind!r}, expected 'material' or 'rig'")
+        if not callable(self.coordinate) and self.coordinate not in COORDINATES:
+            raise InputError(
+                f"effect {self.name}: found the coordinate {self.coordinate!r}, expected one of "
+                + ", ".join(COORDINATES)
+            )
         names = [form.name for form in self.forms]
         if not names or len(set(names)) < len(names):
             raise InputError(f"effect {self.name}: found the forms {names}, expected one or more, each once")

@@ -1,4 +1,4 @@
-"""A Maxwell element of unit modulus along any sampled history, exact between samples."""
+"""A Maxwell element of unit modulus along any sampled history, in time or in strain, exact between samples."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from probation import _core
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+
+LONGEST = 100.0
+"""Relaxation strains that are summed up at once."""
 
 
 def maxwell_element(time: FloatArray, values: FloatArray, relaxation_time: float) -> FloatArray:
@@ -32,6 +35,35 @@ def maxwell_element(time: FloatArray, values: FloatArray, relaxation_time: float
     solver = _core.Solver(_core.History(time, moved / size), _core.Scheme.sa2)
     solver.stress(law, _core.LawChange(), found)
     return size * found
+
+
+def maxwell_element_in_strain(strain: FloatArray, values: FloatArray, relaxation_strain: float) -> FloatArray:
+    r"""Solve :math:`dy = dv - y\,d\varepsilon/\varepsilon_c`, y(0) = 0, for v that is linear in the strain; shape (n,).
+
+    The evolution of a back stress by Armstrong and Frederick, along a strain that never decreases. Where it stands
+    still, y follows v.
+
+    Parameters
+    ----------
+    strain : ndarray, shape (n,)
+        Such as the largest so far.
+    values : ndarray, shape (n,)
+    relaxation_strain : float
+        Positive.
+    """
+    way = (strain - strain[0]) / relaxation_strain
+    steps = np.diff(way)
+    kept = np.divide(-np.expm1(-steps), steps, out=np.ones_like(steps), where=steps > 0.0)
+    found = np.zeros(len(values))
+    # y_n = sum of kept_i dv_i e^(way_i - way_n): in blocks, since e^way may exceed all numbers.
+    begin = 0
+    while begin < len(steps):
+        end = max(int(np.searchsorted(way, way[begin] + LONGEST, side="right")) - 1, begin + 1)
+        grown = np.exp(np.minimum(way[begin : end + 1] - way[begin], 2.0 * LONGEST))
+        added = np.cumsum(kept[begin:end] * np.diff(values)[begin:end] * grown[1:])
+        found[begin + 1 : end + 1] = (found[begin] + added) / grown[1:]
+        begin = end
+    return found
 
 
 @lru_cache(maxsize=1)

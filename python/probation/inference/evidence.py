@@ -2,16 +2,17 @@ r"""How probable the data are under an explanation: Laplace's integral, with all
 
 A catalogue's form of an effect is never quite nature's. Taken at their word, two explanations that leave 40 and 60
 MPa^2 of a gap of 10 000 would differ by hundreds of log units; taken as forms known to some per cent, both have found
-nearly all of it. So what an explanation leaves is let be noise plus a smooth discrepancy,
+nearly all of it. So what an explanation leaves is let be noise, the freedom of its form, and a smooth discrepancy,
 
-    y ~ N(J d, I + B (D + H) B^T),
+    y ~ N(J d, I + s^2 F F^T + B (D + H) B^T),
 
-y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior, B smooth
-waves over every record, H slow noise along them that whitening has left (`noise.nuisance_drift`), D = rho^2 lambda_r v
-the discrepancy's variance: rho the relative error of a form, lambda_r what the explanation does to record r, v the
-spectrum of smooth curves. rho is integrated out; errors of a form that are alike in all records (`form_columns`) stand
-among the parameters. "Unknown" is the same with nothing but a discrepancy, of any size (Kennedy & O'Hagan 2001;
-docs/diagnosis-method.md, sections 4 and 7).
+y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior. F are
+the effects' contributions times smooth functions of their own coordinates (`form_columns`), alike in all records; s is
+the relative error of a form. B are smooth waves over every record, H slow noise along them that whitening has left
+(`noise.nuisance_drift`), D = (s/4)^2 lambda_r v the variance of a discrepancy that is no function of the coordinate:
+lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is integrated out, so that a form
+that is right is not charged for a freedom that it does not need. "Unknown" is the same with nothing but a discrepancy,
+of any size (Kennedy & O'Hagan 2001; docs/diagnosis-method.md, sections 4 and 7).
 """
 
 from __future__ import annotations
@@ -75,27 +76,40 @@ def evidence(
         Of the base law without causes.
     discrepancy : Discrepancy
     forms : ndarray, shape (N, m), optional
-        Ways in which the forms may be wrong, of one standard deviation each; see `form_columns`.
+        Ways in which the forms may be wrong, by the relative size 1; see `form_columns`.
     unknown : bool
         Whether it is also judged jointly with an unknown effect; else its evidence is -inf.
     """
-    if forms is not None:
+    plain = Linearised.of(found, discrepancy)
+    free = plain
+    if forms is not None and forms.shape[1]:
         # What the parameters follow is theirs. Left in, it would let the prior draw a large effect back to nothing
         # while the errors of its form, which are part of the effect, stay as large as they were.
         forms = without(forms, span_of(found.jacobian))
-    problem = Linearised.of(found, discrepancy, forms)
+        free = Linearised.of(found, discrepancy, forms)
+    else:
+        forms = None
     done = discrepancy.energy(found.residual - base.residual)
     errors, weights = (EVIDENCE.form_errors, EVIDENCE.form_error_weights) if done.any() else ((0.0,), (1.0,))
-    scores = [
-        problem.log_integral(discrepancy.variances(error**2 * done)) + float(np.log(weight))
-        for error, weight in zip(errors, weights, strict=True)
-    ]
+
+    def with_error(error: float) -> tuple[Linearised, FloatArray]:
+        """The problem and the discrepancy's variances where the form is wrong by so much."""
+        variances = discrepancy.variances((EVIDENCE.form_rest * error) ** 2 * done)
+        return (free.with_form_error(error) if error > 0.0 else plain), variances
+
+    exact = plain.log_integral(discrepancy.variances(0.0 * done))
+    scores = []
+    for error, weight in zip(errors, weights, strict=True):
+        problem, variances = with_error(error)
+        scores.append((problem.log_integral(variances) if error > 0.0 else exact) + float(np.log(weight)))
     together = float(logsumexp(scores))
     posterior = np.exp(np.array(scores) - together)
     form_error = float(posterior @ np.array(errors))
-    covariance = problem.covariance(discrepancy.variances(form_error**2 * done))
-    beside = log_evidence_of_unknown(problem, found, discrepancy, forms) if unknown else -np.inf
-    plain = scores[0] - float(np.log(weights[0]))
-    if forms is not None:
-        plain = Linearised.of(found, discrepancy).log_integral(discrepancy.variances(0.0 * done))
-    return Evidence(together, form_error, beside, covariance, plain)
+    problem, variances = with_error(form_error)
+    covariance = problem.covariance(variances)
+    beside = (
+        log_evidence_of_unknown(problem, found, discrepancy, None if forms is None else form_error * forms)
+        if unknown
+        else -np.inf
+    )
+    return Evidence(together, form_error, beside, covariance, exact)

@@ -1,7 +1,8 @@
-"""How an effect's form may be wrong: what it does, times a slow function of strain, of the rate and of time.
+"""How an effect's form may be wrong: what it does, times a smooth function of the effect's own coordinate.
 
 Locking by Gent is not locking by Langevin, and nature's is neither; but both stiffen where the network is stretched. So
-an effect's contribution is let be larger here and smaller there by some tenths, in the same way in all records.
+an effect's contribution is let be larger here and smaller there along what the effect follows (`Effect.coordinate`), in
+the same way in all records. A second effect has to explain more than that (docs/diagnosis-method.md, section 4).
 """
 
 from __future__ import annotations
@@ -10,17 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.coordinate import coordinate_of, is_one_value
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
+    from probation.effects.cause import Cause
+    from probation.effects.effect import Values
     from probation.effects.record_view import RecordView
     from probation.inference.refit import Refit
     from probation.noise.whitener import Whitener
 
 
 def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
-    """Whitened stress of every modulation of every cause, each of one standard deviation; shape (N, m).
+    """Whitened stress of every freedom of every cause, of the relative size 1; shape (N, m).
 
     Parameters
     ----------
@@ -29,25 +35,21 @@ def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
         Of its records.
     """
     model = found.model
-    if not model.causes:
-        return np.zeros((len(found.residual), 0))
-    still = model.residual(found.parameters)
-    largest = max(float(np.max(view.true_strain)) for view in model.views)
-    modulations = np.vstack([_modulations(view, largest) for view in model.views])
-    columns = []
-    for cause, at in zip(model.causes, model.amplitudes, strict=True):
-        absent = found.parameters.copy()
-        absent[at] = 0.0
-        contribution = still - model.residual(absent)
-        size = EVIDENCE.material_form_error if cause.effect.kind == "material" else EVIDENCE.rig_form_error
-        columns.append(size * contribution[:, None] * modulations)
+    columns = [np.zeros((len(found.residual), 0))]
+    for cause, values in model.split(found.parameters)[1]:
+        contribution = model.contribution(found.parameters, cause)
+        size = 1.0 if cause.effect.kind == "material" else EVIDENCE.rig_form_error
+        columns.append(size * contribution[:, None] * _waves(cause, values, model.views))
     return whitener.columns(np.hstack(columns))
 
 
-def _modulations(view: RecordView, largest: float) -> FloatArray:
-    """Three polynomials of the strain, decades of the rate, and time; within about ±1; shape (n_samples, 5)."""
-    strain = np.clip(view.sampled(view.true_strain) / largest, 0.0, 1.0) if largest > 0.0 else view.sampled(view.time)
-    polynomials = np.polynomial.legendre.legvander(2.0 * strain - 1.0, 3)[:, 1:]
-    rate = np.clip(view.sampled(view.log_rate) / np.log(10.0), -2.0, 2.0) / 2.0
-    time = 2.0 * view.sampled(view.elapsed) / view.duration - 1.0
-    return np.column_stack([polynomials, rate, time])
+def _waves(cause: Cause, at: Values, views: Sequence[RecordView]) -> FloatArray:
+    """Legendre polynomials along the cause's coordinate over the records that it touches, shape (N, m)."""
+    coordinate = cause.effect.coordinate
+    values = [coordinate_of(view, coordinate, at) for view in views]
+    touched = np.concatenate([own for own, view in zip(values, views, strict=True) if cause.touches(view.id)])
+    low, high = float(touched.min()), float(touched.max())
+    if is_one_value(low, high, coordinate):
+        return np.zeros((sum(len(own) for own in values), 0))
+    scaled = np.clip(2.0 * (np.concatenate(values) - low) / (high - low) - 1.0, -1.0, 1.0)
+    return np.asarray(np.polynomial.legendre.legvander(scaled, EVIDENCE.form_waves)[:, 1:], dtype=np.float64)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,13 +34,14 @@ class Linearised:
     precision: FloatArray
     log_prior: float
     bound_factor: float
+    form_count: int
     free: NDArray[np.bool_]
     below: FloatArray
     above: FloatArray
 
     @classmethod
     def of(cls, found: Refit, discrepancy: Discrepancy, forms: FloatArray | None = None) -> Linearised:
-        """At a refit's optimum; `forms` (N, m) are columns of further, standard normal amplitudes."""
+        """At a refit's optimum; `forms` (N, m) are columns of further, standard normal amplitudes, which stand last."""
         model, coordinates = found.model, found.coordinates
         x = coordinates.of(found.parameters)
         jacobian, residual = found.jacobian, found.residual
@@ -76,10 +77,20 @@ class Linearised:
             - float(np.sum(normal_part[free]))
             - 0.5 * count * float(np.log(2.0 * np.pi)),
             bound_factor=_at_bounds(jacobian, precision, np.abs(gradient), free, below + above),
+            form_count=count,
             free=free,
             below=np.append(below[free], np.full(count, np.inf)),
             above=np.append(above[free], np.full(count, np.inf)),
         )
+
+    def with_form_error(self, error: float) -> Linearised:
+        """The same with amplitudes of the forms' columns of another standard deviation than 1."""
+        count = self.form_count
+        if count == 0:
+            return self
+        precision = self.precision.copy()
+        precision[-count:] = error**-2.0
+        return replace(self, precision=precision, log_prior=self.log_prior - count * float(np.log(error)))
 
     def log_integral(self, variances: FloatArray) -> float:
         """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""

@@ -150,8 +150,11 @@ class EvidenceSettings:
         used_in="inference/discrepancy.py",
     )
     form_errors: tuple[float, ...] = setting(
-        (0.0, 0.01, 0.02, 0.04, 0.08),
-        "Relative errors of an effect's form that are allowed for.",
+        (0.0, 0.04, 0.08, 0.16, 0.32),
+        (
+            "Relative errors of an effect's form along its own coordinate that are allowed for: standard deviations "
+            "of the coefficients of its freedom."
+        ),
         unit="-",
         origin="chosen",
         used_in="inference/evidence.py",
@@ -163,16 +166,23 @@ class EvidenceSettings:
         origin="chosen",
         used_in="inference/evidence.py",
     )
-    material_form_error: float = setting(
-        0.2,
-        "Relative deviation of a material effect's form per modulation: it has no formula.",
-        unit="-",
+    form_waves: int = setting(
+        4,
+        "Polynomials along an effect's own coordinate by which its form may be wrong.",
+        unit="polynomials",
         origin="chosen",
         used_in="inference/form_error.py",
     )
+    form_rest: float = setting(
+        0.25,
+        "Error of a form that is no function of its own coordinate, record by record, over that along it.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/evidence.py",
+    )
     rig_form_error: float = setting(
-        0.05,
-        "Relative deviation of a rig fault's form per modulation.",
+        0.25,
+        "Error of the form of a rig's fault over that of a material's effect, which has no formula.",
         unit="-",
         origin="chosen",
         used_in="inference/form_error.py",
@@ -275,8 +285,8 @@ class EvidenceSettings:
         used_in="diagnosis/held_out.py",
     )
     tolerated_form_error: float = setting(
-        0.05,
-        ("Relative error of an effect's form, record by record, that evidence takes for the effect's own."),
+        0.2,
+        ("Relative error of an effect's form along its own coordinate that evidence takes for the effect's own."),
         unit="-",
         origin="chosen",
         used_in="diagnosis/remaining.py",

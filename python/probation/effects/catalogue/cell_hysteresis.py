@@ -54,6 +54,7 @@ EFFECT = Effect(
     source="ISO 376 and ISO 7500-1 (relative reversibility error); Krasnosel'skii & Pokrovskii 1989 (play)",
     shows_in="unloading, where the force falls by a good part",
     kind="rig",
+    coordinate="force",
     forms=(
         Form("loop", (_SIZE,), recorded_stress=_loop, needs=unloads),
         Form("friction", (_SIZE,), recorded_stress=_friction, needs=unloads),

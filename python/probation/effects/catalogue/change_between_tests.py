@@ -62,6 +62,7 @@ EFFECT = Effect(
     source="Struik 1978, Physical Aging in Amorphous Polymers; Crank 1975, The Mathematics of Diffusion; ISO 291",
     shows_in="three specimens or more, in the order in which they were tested",
     kind="material",
+    coordinate="order",
     forms=(
         Form("steadily", (_LOSS,), modification=_steadily, needs=_several),
         Form("as_a_power", (_LOSS, _POWER), modification=_as_a_power, needs=_several),

@@ -41,6 +41,7 @@ EFFECT = Effect(
     source="Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Detrez et al. 2011, Polymer 52, 1998",
     shows_in="records reaching large strains; unloading shows it best: it stays",
     kind="material",
+    coordinate="largest_strain",
     forms=(
         Form(
             "saturating",

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.maxwell_element import maxwell_element
+from probation.effects.maxwell_element import maxwell_element, maxwell_element_in_strain
+from probation.law.kinematics import haward_thackray_strain
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -15,6 +16,12 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
+
+SMALL = 1e-9
+"""e_HT below which there is no hardening to speak of."""
+
+_LAGS = (0.03, 0.15, 0.6)
+"""Lags in strain from which searches begin: a lag of some tenths is not what a small one is."""
 
 _TIME = EffectParameter(
     name="build_up_time_s",
@@ -31,8 +38,12 @@ _TIME = EffectParameter(
 def _lag(view: RecordView, time_constant: float) -> FloatArray:
     """Part of e_HT that is not yet there when it builds up with a time constant; 0 where there is none to speak of."""
     strain = view.haward_thackray_strain
-    missing = maxwell_element(view.time, strain, time_constant)
-    return np.divide(missing, strain, out=np.zeros(len(view)), where=np.abs(strain) > 1e-9)
+    return _part_of(maxwell_element(view.time, strain, time_constant), strain)
+
+
+def _part_of(missing: FloatArray, strain: FloatArray) -> FloatArray:
+    """What is missing as a part of e_HT."""
+    return np.divide(missing, strain, out=np.zeros(len(strain)), where=np.abs(strain) > SMALL)
 
 
 def _whole(view: RecordView, values: Values) -> Modification | None:
@@ -47,6 +58,16 @@ def _part(view: RecordView, values: Values) -> Modification:
     return Modification(hardening_factor=1.0 - values[0] * _lag(view, values[1]))
 
 
+def _in_strain(view: RecordView, values: Values) -> Modification | None:
+    """All of G e_HT lags by a strain of a: what lacks is made up for by straining further, not by waiting."""
+    if values[0] <= 0.0:
+        return None
+    largest = view.largest_strain
+    strain = haward_thackray_strain(largest)
+    missing = maxwell_element_in_strain(largest, strain, values[0])
+    return Modification(hardening_factor=1.0 - _part_of(missing, strain))
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Fractions of the longest record."""
     longest = max(view.duration for view in views)
@@ -58,10 +79,13 @@ EFFECT = Effect(
     name="delayed_hardening",
     title="delayed hardening",
     physics=(
-        "The fibrillar network forms in time, not at once: the relaxed stress follows the strain with a lag.\n"
-        "Amplitude: the lag of all of it, or the part of it that lags."
+        "The fibrillar network forms in time, or with further strain, not at once: the relaxed stress lags.\n"
+        "Amplitude: the lag of all of it in time or in strain, or the part of it that lags in time."
     ),
-    source="André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015",
+    source=(
+        "André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015; in strain: Armstrong & "
+        "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1)"
+    ),
     shows_in="fast records, dwells after large strains, unloading",
     kind="material",
     forms=(
@@ -79,6 +103,17 @@ EFFECT = Effect(
             (EffectParameter("lagging_part", "", 0.0, 1.0, 0.3, "some tenths of the network"), _TIME),
             modification=_part,
             starts=_starts,
+        ),
+        Form(
+            "in_strain",
+            (
+                EffectParameter(
+                    "lag_strain", "", 0.0, 2.0, 0.2, "fibrils form within some tenths of strain after yield"
+                ),
+            ),
+            modification=_in_strain,
+            threshold=True,
+            starts=lambda _views, _residuals: [(lag,) for lag in _LAGS],
         ),
     ),
 )

@@ -31,6 +31,7 @@ EFFECT = Effect(
     source="ISO 7500-1 (calibration of force-measuring systems)",
     shows_in="long records; within one record at constant rate it resembles hardening",
     kind="rig",
+    coordinate="time",
     forms=(
         Form(
             "over_record",

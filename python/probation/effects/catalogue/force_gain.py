@@ -25,6 +25,7 @@ EFFECT = Effect(
     source="ISO 7500-1; ISO 527-1 (measurement of the section)",
     shows_in="one record beside others; never in all of them, unless E_u or G is held",
     kind="rig",
+    coordinate="force",
     forms=(
         Form(
             "factor",

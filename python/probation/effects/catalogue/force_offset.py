@@ -26,6 +26,7 @@ EFFECT = Effect(
     source="ISO 7500-1 (calibration of force-measuring systems)",
     shows_in="the start of a record, where the stress ought to be zero, and its stretched end",
     kind="rig",
+    coordinate="time",
     forms=(
         Form(
             "constant",

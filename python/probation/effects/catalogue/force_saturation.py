@@ -60,6 +60,7 @@ EFFECT = Effect(
     source="ASTM E1942 (data acquisition in mechanical testing)",
     shows_in="records whose force reaches a plateau, the same in all of them",
     kind="rig",
+    coordinate="force",
     forms=(
         Form(
             "clip",

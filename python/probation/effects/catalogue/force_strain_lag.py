@@ -46,6 +46,7 @@ EFFECT = Effect(
     source="ASTM E1942 (data acquisition in mechanical testing)",
     shows_in="fast records, rate jumps and reversals, where the stress changes quickly",
     kind="rig",
+    coordinate="strain_rate",
     forms=(
         Form(
             "delay",

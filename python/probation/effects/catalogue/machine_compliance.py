@@ -43,6 +43,7 @@ EFFECT = Effect(
     source="ASTM D5656 / ISO 527-1 (compliance correction)",
     shows_in="stiff materials: the onset, rate jumps, reversals; dwells show it as creep of the specimen",
     kind="rig",
+    coordinate="force",
     forms=(
         Form("crosshead", (_COMPLIANCE,), driving_strain=_crosshead),
         Form("true_strain", (_COMPLIANCE,), driving_strain=_true_strain, converts=False),

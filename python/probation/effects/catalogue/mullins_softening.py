@@ -65,6 +65,7 @@ EFFECT = Effect(
     ),
     shows_in="unloading and reloading below the largest strain so far",
     kind="material",
+    coordinate="strain_below_largest",
     forms=(
         Form("ogden_roxburgh", (_SOFTENING, _WIDTH), modification=_ogden_roxburgh, needs=unloads),
         Form("dorfmann_ogden", (_SOFTENING, _WIDTH), modification=_dorfmann_ogden, needs=unloads),

@@ -96,6 +96,7 @@ EFFECT = Effect(
     source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942",
     shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
     kind="rig",
+    coordinate="time",
     forms=(
         Form(
             "force",

@@ -35,6 +35,7 @@ EFFECT = Effect(
     source="ISO 527-1, section 9.4 (prestresses)",
     shows_in="the start of a record, for about the longest relaxation time",
     kind="rig",
+    coordinate="log_time",
     forms=(
         Form("fresh", (_AMPLITUDE,), modification=_fresh),
         Form(

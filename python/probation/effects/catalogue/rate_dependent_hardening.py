@@ -46,6 +46,7 @@ EFFECT = Effect(
     source="André et al., section 4; Wendlandt, Tervoort & Suter 2005, Polymer 46, 11786",
     shows_in="records at different rates reaching large strains",
     kind="material",
+    coordinate="strain_rate",
     forms=(
         Form("instant", (_EXPONENT,), modification=_instant),
         Form("path", (_EXPONENT,), modification=_path),

@@ -49,6 +49,7 @@ EFFECT = Effect(
     source="André et al., eqs. (10)-(12)",
     shows_in="records at different rates, or one whose rate changes (necking, jumps)",
     kind="material",
+    coordinate="strain_rate",
     forms=(
         Form("power", (_EXPONENT,), modification=_power),
         Form("weissenberg", (_EXPONENT, _CURVATURE), modification=_weissenberg),

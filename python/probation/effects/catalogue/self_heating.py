@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible_temperature import all_measured, warms_by_work
 from probation.effects.warming import SOFTENING_PER_DEGREE
 from probation.law.modification import Modification, SelfHeating
@@ -14,6 +15,7 @@ from probation.law.modification import Modification, SelfHeating
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
 _HEATING = EffectParameter(
@@ -73,6 +75,7 @@ _HARDENING_PART = EffectParameter(
     scale=0.05,
     reason="-d ln G / dT over the softening: G of polyethylene falls by about 0.5 % per degree",
 )
+_MEASURED = (_MEASURED_SOFTENING, _HARDENING_PART)
 
 
 def _warm(view: RecordView, values: Values) -> Modification:
@@ -95,6 +98,15 @@ def _not_all_measured(views: Sequence[RecordView]) -> bool:
     return not all_measured(views)
 
 
+def _warming(view: RecordView, values: Values) -> FloatArray:
+    """The measured rise [°C]; else what the recorded work brought, less what has cooled off, per heating [MPa]."""
+    if len(values) == len(_MEASURED) and view.measured_rise is not None:
+        return view.measured_rise
+    stress = view.smooth_nominal_data * view.stretch
+    work = np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(view.true_strain)))
+    return maxwell_element(view.time, work, 1.0 / values[1])
+
+
 EFFECT = Effect(
     name="self_heating",
     title="self-heating",
@@ -106,6 +118,7 @@ EFFECT = Effect(
     source="Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193",
     shows_in="fast records at large strains, against slow ones that stay cool; a measured temperature judges it",
     kind="material",
+    coordinate=_warming,
     forms=(
         Form(
             "adiabatic_to_cooled",
@@ -113,6 +126,6 @@ EFFECT = Effect(
             modification=_warm,
             needs=_not_all_measured,
         ),
-        Form("as_measured", (_MEASURED_SOFTENING, _HARDENING_PART), modification=_as_measured, needs=warms_by_work),
+        Form("as_measured", _MEASURED, modification=_as_measured, needs=warms_by_work),
     ),
 )

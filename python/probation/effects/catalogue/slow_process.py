@@ -49,6 +49,7 @@ EFFECT = Effect(
     source="Na et al. 2007, J. Phys. Chem. B 111, 13206; Boyd 1985, Polymer 26, 1123",
     shows_in="slow records and long dwells, against fast records",
     kind="material",
+    coordinate="log_time",
     forms=(
         Form(
             "maxwell",

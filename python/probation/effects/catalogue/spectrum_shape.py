@@ -26,6 +26,7 @@ EFFECT = Effect(
     source="André et al., eq. (5); Cunat 2001, Mech. Time-Depend. Mater. 5, 39",
     shows_in="every record with fast and slow parts: onset, rate jumps, dwells",
     kind="material",
+    coordinate="log_time",
     forms=(
         Form(
             "power",

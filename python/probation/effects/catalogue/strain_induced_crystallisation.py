@@ -75,6 +75,7 @@ EFFECT = Effect(
     ),
     shows_in="records reaching large strains, and their unloading",
     kind="material",
+    coordinate="largest_strain",
     forms=(
         Form(
             "filler",

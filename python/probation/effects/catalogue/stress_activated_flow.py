@@ -61,6 +61,7 @@ EFFECT = Effect(
     source="Eyring 1936, J. Chem. Phys. 4, 283; Klompen et al. 2005, Macromolecules 38, 6997; Norton 1929",
     shows_in="records whose stress covers a wide range: large strains, several rates, dwells",
     kind="material",
+    coordinate="stress",
     forms=(
         Form("eyring", (_AMPLITUDE,), modification=_eyring),
         Form("power", (_AMPLITUDE, _POWER), modification=_power),

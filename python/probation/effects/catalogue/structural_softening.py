@@ -50,6 +50,7 @@ EFFECT = Effect(
     source="Klompen, Engels, Govaert & Meijer 2005, Macromolecules 38, 6997; Hasan & Boyce 1993, Polymer 34, 5085",
     shows_in="the first tenths of strain of every record, and no second loading",
     kind="material",
+    coordinate="largest_strain",
     forms=(
         Form(
             "relaxation_time",

@@ -117,6 +117,7 @@ EFFECT = Effect(
     ),
     shows_in="records at different temperatures, declared or measured, where every record has one",
     kind="material",
+    coordinate="temperature",
     forms=(
         Form("arrhenius", (_SOFTENING, _HARDENING, _MODULUS), modification=_arrhenius, needs=_differs),
         Form("wlf", (_SOFTENING, _HARDENING, _MODULUS, _WLF), modification=_wlf, needs=_differs),

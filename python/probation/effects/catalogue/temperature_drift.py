@@ -54,6 +54,7 @@ EFFECT = Effect(
     source="Na et al. 2007, J. Phys. Chem. B 111, 13206; ISO 291 (standard atmospheres)",
     shows_in="long records, or records of different days, where their temperatures are not known",
     kind="rig",
+    coordinate="time",
     forms=(
         Form(
             "within_record",
