@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from probation.diagnosis.probabilities import TINY, log_prior
+from probation.effects.registry import effects
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.answer import read_answer
@@ -24,7 +25,7 @@ from probation_studies.blind.seal import open_truth, read_object
 
 POWERS = (1.0, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 SHYNESSES = (0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)
-EFFECTS = 22
+EFFECTS = len(effects())
 LEAST = 1e-4
 
 
