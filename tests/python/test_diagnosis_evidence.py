@@ -194,6 +194,15 @@ def test_the_freedom_is_along_the_effects_own_coordinate_alike_in_all_records():
     assert np.linalg.norm(other - forms) > 0.1 * np.linalg.norm(forms)
 
 
+def test_a_form_that_is_certainly_right_keeps_its_standard_errors():
+    """Not those of an inverse that a freedom of next to no size has cost its digits."""
+    views = problem.views([noisy(100.0 * STRAIN + 3e4 * np.sin(np.pi * STRAIN)) for _ in range(2)])
+    judged = with_its_freedom(views, bump(low=-1e5, high=1e5, scale=3e4))[0]
+    design = np.tile(np.column_stack([80.0 * STRAIN, np.sin(np.pi * STRAIN)]) / problem.SIGMA, (2, 1))
+    assert judged.form_error < 1e-3
+    assert_allclose(np.diag(judged.covariance), np.diag(np.linalg.inv(design.T @ design)), rtol=0.05)
+
+
 def test_along_a_coordinate_of_one_value_a_form_has_no_freedom():
     """The rate, where it is one and the same."""
     views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN))])

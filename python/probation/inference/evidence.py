@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from probation.inference.discrepancy import Discrepancy
     from probation.inference.refit import Refit
 
+NEGLIGIBLE = 1e-3
+"""Mean relative error of a form below which it is taken for exact."""
+
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
@@ -105,10 +108,12 @@ def evidence(
     together = float(logsumexp(scores))
     posterior = np.exp(np.array(scores) - together)
     form_error = float(posterior @ np.array(errors))
-    problem, variances = with_error(form_error)
+    # A freedom of no size to speak of would cost the covariance's inverse all its digits.
+    size = form_error if form_error >= NEGLIGIBLE else 0.0
+    problem, variances = with_error(size)
     covariance = problem.covariance(variances)
     beside = (
-        log_evidence_of_unknown(problem, found, discrepancy, None if forms is None else form_error * forms)
+        log_evidence_of_unknown(problem, found, discrepancy, None if forms is None or size == 0.0 else size * forms)
         if unknown
         else -np.inf
     )
