@@ -4,14 +4,16 @@ import itertools
 
 import numpy as np
 import pytest
+from bench import waiting
 
 import probation
 from probation.diagnosis.search import Search
-from probation.effects.registry import effects
+from probation.effects.cause import Cause
+from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.candidate import cause_key
-from probation.inference.refit import SETTLED, refit
+from probation.inference.refit import MOST_STEPS, SETTLED, refit
 
 NOISE, SAMPLES = 0.04, 120
 CONSIDERED = ("damage", "structural_softening", "force_offset", "strain_offset")
@@ -68,3 +70,21 @@ def test_no_effect_that_is_added_leaves_more_and_no_part_of_the_leader_beats_it(
             again = refit(search.base.problem.with_model(model), start)
             (judged,) = search._judged([again])
             assert judged.evidence.log_evidence <= leader.evidence.log_evidence
+
+
+def test_specimens_do_not_hold_what_a_strong_gap_leaves():
+    """Their deviations cost little beside a gap of forty times the noise; a refit must not end where they hold it."""
+    made = waiting.campaign(waiting.DIAGNOSED["strong gap"])
+    base = base_fit(made, plain_fit(made))
+    assert base.scatter.any
+    cause = Cause(effect("damage"), effect("damage").forms[0])
+    model = base.model.with_causes([cause])
+    start = model.parameters(base.parameters, (0.3, *cause.form.typical[1:]))
+
+    def left(parameters):
+        return np.sqrt(np.mean(model.residual(parameters) ** 2))
+
+    anywhere = refit(base.problem.with_model(model), start)
+    assert left(anywhere.parameters) > 3.0 * left(start)
+    [found] = Search(base, effects(("damage",)), 1)._solved([(model, start)], MOST_STEPS)
+    assert left(found.parameters) < 1.3 * left(start)

@@ -20,6 +20,7 @@ from probation.inference.refit import MOST_STEPS, SETTLED, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
+from probation.noise.whitener import Whitener
 from probation.parallel import in_parallel
 from probation.settings.search import SEARCH
 
@@ -308,12 +309,33 @@ class Search:
                 self.skipping.hypothesis(model.causes, self.budget.why)
                 return None
             try:
-                return refit(self.base.problem.with_model(model), start, most_steps=steps)
+                return self._refit(model, start, steps)
             except UNSOLVABLE as error:
                 self.skipping.hypothesis(model.causes, error)
                 return None
 
         return [each for each in in_parallel(one, list(enumerate(jobs)), self.threads) if each is not None]
+
+    def _refit(self, model: CampaignModel, start: FloatArray, steps: int) -> Refit:
+        """From one start; where specimens differ, not to where their deviations have to hold a gap.
+
+        Beside a strong gap deviations of many standard deviations cost little, and the misfit counts only along what
+        they do not explain. A refit that leaves more than it began with, of specimens that were alike, begins anew
+        where a refit for such specimens ends, and stays there if it would leave more again.
+        """
+        problem = self.base.problem.with_model(model)
+        found = refit(problem, start, most_steps=steps)
+        if not self.base.scatter.any or not self._leaves_more(model, start, found.parameters):
+            return found
+        alike = refit(problem.with_noises(self.base.alike.noises), start, most_steps=steps).parameters
+        found = refit(problem, alike, most_steps=steps)
+        return refit(problem, alike, most_steps=0) if self._leaves_more(model, alike, found.parameters) else found
+
+    def _leaves_more(self, model: CampaignModel, start: FloatArray, end: FloatArray) -> bool:
+        """Whether the records are missed by more at the end, as specimens that are alike count it."""
+        alike = Whitener(self.base.alike.noises)
+        before, after = (float(np.linalg.norm(alike.residual(model.residual(at)))) for at in (start, end))
+        return after > SEARCH.most_left_to_specimens * before
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""
@@ -322,7 +344,8 @@ class Search:
             if self.budget.spent():
                 break
             least = _least_of_each(known)
-            jobs, before = [], []
+            jobs: list[tuple[CampaignModel, FloatArray]] = []
+            before: list[Refit] = []
             for each in refits:
                 if len(each.model.causes) != count:
                     continue
@@ -332,7 +355,8 @@ class Search:
                 if each.chi_square > part.chi_square + SETTLED:
                     jobs.append((each.model, _with_others_absent(each, part)))
                     before.append(each)
-            lower = {id(each.model): each for each in self._solved(jobs, MOST_STEPS)}
+            # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
+            lower = {id(each.model): each for each in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
             better = {
                 id(each): lower[id(each.model)]
                 for each in before

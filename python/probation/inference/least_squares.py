@@ -211,7 +211,8 @@ def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float)
     """The problem at x; None where the objective is not below `cost`, or it, or its derivative, cannot be had."""
     try:
         residual = objective.residual(x)
-        lower = float(residual @ residual) + prior.penalty(x)
+        with np.errstate(over="ignore"):  # a step that went too far
+            lower = float(residual @ residual) + prior.penalty(x)
         if not lower < cost:
             return None
         residual, jacobian = objective.tangent(x)
