@@ -69,14 +69,14 @@ def diagnosed(planted):
 
 
 def named(planted, name):
-    """The diagnosis, in which this effect must close nearly all of the gap: forms that are not the catalogue's leave
-    a little, of which other effects may take their part.
+    """The diagnosis, in which this effect must close nearly all of the gap alone: forms that are not the catalogue's
+    leave a little, of which other effects may take their part.
     """
     found = diagnosed(planted)
     first = found.effects[0]
     assert (first.name, first.named) == (name, True), found.headline
     assert first.probability > 0.9
-    assert first.share > 0.9
+    assert first.alone > 0.9
     return found
 
 

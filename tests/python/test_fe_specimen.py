@@ -96,7 +96,7 @@ def test_the_command_leaves_campaigns_and_reports_the_triaxiality_gap(tmp_path, 
     options = [*coarse, "--centre-strain", "0.3", "--noise", "0.5", "--no-control"]
     assert main(["--out", str(tmp_path), *options, "--plot", str(tmp_path / "s.png")]) == 0
     printed = capsys.readouterr().out
-    assert "triaxiality gap [MPa]" in printed
+    assert "triaxiality" in printed
     assert "The law is" in printed
     assert "volume_change" in printed
     campaign = probation.Campaign.load(tmp_path / "neck")

@@ -75,8 +75,9 @@ class OwnForce:
             for part in PARTS:
                 there = self.stress + part * step
                 beyond = stress(there)
-                if np.linalg.norm(beyond - there) < np.linalg.norm(left):
-                    break
+                with np.errstate(over="ignore", invalid="ignore"):  # too long a step
+                    if np.linalg.norm(beyond - there) < np.linalg.norm(left):
+                        break
             self.stress, self._next = there, beyond
             left = beyond - there
         if np.max(np.abs(left)) > GOOD_ENOUGH * self._size:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import warnings
 from contextlib import contextmanager
 from html import escape
 from itertools import pairwise
@@ -122,7 +123,9 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     curves = {(at, of): line for at, axes in enumerate(figure.axes) for of, line in enumerate(_curves(axes))}
     for (at, of), line in curves.items():
         line.set_gid(f"curve-{at}-{of}")
-    with house_style():
+    with house_style(), warnings.catch_warnings():
+        # Of a narrow figure whose labels leave no room: it is drawn without, and a wide one stands beside it.
+        warnings.filterwarnings("ignore", "constrained_layout not applied")
         mpl.rcParams["svg.hashsalt"] = printable(label)
         figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     for line in curves.values():
