@@ -334,7 +334,8 @@ class Search:
     def _leaves_more(self, model: CampaignModel, start: FloatArray, end: FloatArray) -> bool:
         """Whether the records are missed by more at the end, as specimens that are alike count it."""
         alike = Whitener(self.base.alike.noises)
-        before, after = (float(np.linalg.norm(alike.residual(model.residual(at)))) for at in (start, end))
+        with np.errstate(over="ignore"):
+            before, after = (float(np.linalg.norm(alike.residual(model.residual(at)))) for at in (start, end))
         return after > SEARCH.most_left_to_specimens * before
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
