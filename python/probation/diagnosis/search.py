@@ -12,7 +12,7 @@ from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
-from probation.inference.base_fit import with_joint_noise
+from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_columns
@@ -20,7 +20,6 @@ from probation.inference.refit import MOST_STEPS, SETTLED, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
-from probation.noise.whitener import Whitener
 from probation.parallel import in_parallel
 from probation.settings.search import SEARCH
 
@@ -323,20 +322,15 @@ class Search:
         they do not explain. A refit that leaves more than it began with, of specimens that were alike, begins anew
         where a refit for such specimens ends, and stays there if it would leave more again.
         """
-        problem = self.base.problem.with_model(model)
+        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         found = refit(problem, start, most_steps=steps)
-        if not self.base.scatter.any or not self._leaves_more(model, start, found.parameters):
+        if not self.base.scatter.any or not specimens_hold_the_gap(model, noises, start, found.parameters):
             return found
-        alike = refit(problem.with_noises(self.base.alike.noises), start, most_steps=steps).parameters
+        alike = refit(problem.with_noises(noises), start, most_steps=steps).parameters
         found = refit(problem, alike, most_steps=steps)
-        return refit(problem, alike, most_steps=0) if self._leaves_more(model, alike, found.parameters) else found
-
-    def _leaves_more(self, model: CampaignModel, start: FloatArray, end: FloatArray) -> bool:
-        """Whether the records are missed by more at the end, as specimens that are alike count it."""
-        alike = Whitener(self.base.alike.noises)
-        with np.errstate(over="ignore"):
-            before, after = (float(np.linalg.norm(alike.residual(model.residual(at)))) for at in (start, end))
-        return after > SEARCH.most_left_to_specimens * before
+        if specimens_hold_the_gap(model, noises, alike, found.parameters):
+            return refit(problem, alike, most_steps=0)
+        return found
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""

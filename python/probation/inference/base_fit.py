@@ -247,7 +247,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     if scatter.any:
         plain, scattered = found, with_scatter(residuals, columns, scatter)
         found, noises, residuals = _settled(model, plain.parameters, scattered)
-        if _ran_away(plain.parameters, found.parameters, scatter):
+        if specimens_hold_the_gap(model, alike.noises, plain.parameters, found.parameters):
             noises = _noises(scattered)
             found = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
             residuals = _at(scattered, found)
@@ -274,14 +274,26 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     )
 
 
-def _ran_away(plain: FloatArray, found: FloatArray, scatter: Scatter) -> bool:
-    """Whether the parameters moved by more than specimens differ, once these were let differ.
+def specimens_hold_the_gap(
+    model: CampaignModel, alike: Sequence[NoiseModel], before: FloatArray, after: FloatArray
+) -> bool:
+    """Whether the records are missed by more after a refit in which specimens may differ.
 
-    Then the law misses the records for another reason. The misfit counts only along what no deviation of a specimen
-    explains; the parameters follow that to values without meaning, and no search for an effect can begin there.
+    Then the law misses the records for another reason. Deviations of many standard deviations cost little beside a
+    strong gap, and the misfit counts only along what they do not explain: the parameters follow that to values without
+    meaning, and no search for an effect can begin there.
+
+    Parameters
+    ----------
+    model : CampaignModel
+    alike : sequence of NoiseModel
+        By which the misfit is counted: of specimens that are alike.
+    before, after : ndarray, shape (n_parameters,)
     """
-    size = NOISE.farthest_move * max(scatter.deviations) * np.abs(plain)
-    return bool((np.abs(found - plain) > size).any())
+    whitener = Whitener(tuple(alike))
+    with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+        least, left = (float(np.linalg.norm(whitener.residual(model.residual(at)))) for at in (before, after))
+    return left > NOISE.most_left_to_specimens * least
 
 
 def _settled(

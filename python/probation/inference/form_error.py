@@ -2,7 +2,9 @@
 
 Locking by Gent is not locking by Langevin, and nature's is neither; but both stiffen where the network is stretched. So
 an effect's contribution is let be larger here and smaller there along what the effect follows (`Effect.coordinate`), in
-the same way in all records. A second effect has to explain more than that (docs/diagnosis-method.md, section 4).
+the same way in all records. That is in proportion to what of it the law's own parameters cannot follow: of an effect
+that acts much like another modulus little shows, and little may be wrong. A second effect has to explain more than that
+(docs/diagnosis-method.md, section 4).
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.coordinate import coordinate_of, is_one_value
+from probation.noise.span import span_of, without
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -36,11 +39,13 @@ def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
     """
     model = found.model
     columns = [np.zeros((len(found.residual), 0))]
+    law = span_of(found.jacobian[:, : model.base_count])
     for cause, values in model.split(found.parameters)[1]:
-        contribution = model.contribution(found.parameters, cause)
+        contribution = whitener.columns(model.contribution(found.parameters, cause)[:, None])
+        seen = without(contribution, law)
         size = 1.0 if cause.effect.kind == "material" else EVIDENCE.rig_form_error
-        columns.append(size * contribution[:, None] * _waves(cause, values, model.views))
-    return whitener.columns(np.hstack(columns))
+        columns.append(size * seen * _waves(cause, values, model.views))
+    return np.hstack(columns)
 
 
 def _waves(cause: Cause, at: Values, views: Sequence[RecordView]) -> FloatArray:

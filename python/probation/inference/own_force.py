@@ -41,6 +41,9 @@ GOOD_ENOUGH = 1e-5
 ROUGHLY = 1e-3
 """The same of a step that others follow."""
 
+HOPELESS = 1e6
+"""What is left, of the largest force, beyond which no further step leads back."""
+
 PROBE = 1e-5
 """Change of the force over which the tangent is differenced, of the largest force."""
 
@@ -70,6 +73,8 @@ class OwnForce:
         for _ in range(MOST_STEPS):
             if np.max(np.abs(left)) <= SETTLED * self._size:
                 return
+            if not np.max(np.abs(left)) < HOPELESS * self._size:
+                break
             step = self.answer(left, ROUGHLY)
             # Where the law has a kink a whole step may overshoot.
             for part in PARTS:
@@ -80,7 +85,7 @@ class OwnForce:
                         break
             self.stress, self._next = there, beyond
             left = beyond - there
-        if np.max(np.abs(left)) > GOOD_ENOUGH * self._size:
+        if not np.max(np.abs(left)) <= GOOD_ENOUGH * self._size:
             raise ConvergenceError("the force that the frame and the specimen share was not found")
 
     def answer(self, change: FloatArray, left: float = SETTLED) -> FloatArray:

@@ -293,11 +293,11 @@ class NoiseSettings:
         origin="chosen",
         used_in="noise/own_deviations.py",
     )
-    farthest_move: float = setting(
-        5.0,
+    most_left_to_specimens: float = setting(
+        1.25,
         (
-            "Standard deviations of the specimens' scatter by which the base law's parameters may move once specimens "
-            "may differ; beyond, it misses the records for another reason and stays where it was."
+            "Misfit after a refit in which specimens may differ over that before, specimens counted as alike, beyond "
+            "which their deviations hold what the law misses; the refit is given up."
         ),
         unit="-",
         origin="chosen",

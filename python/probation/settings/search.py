@@ -177,16 +177,6 @@ class SearchSettings:
         origin="chosen",
         used_in="diagnosis/search.py",
     )
-    most_left_to_specimens: float = setting(
-        1.25,
-        (
-            "Misfit after a refit over that before, specimens counted as alike, beyond which their deviations hold "
-            "what the law misses."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
     most_effects: int = setting(
         3,
         "Effects of one explanation at most.",
