@@ -61,6 +61,74 @@ def test_a_fault_is_told_with_its_record_and_its_size(march, fault, size):
     assert told["covered"]
 
 
+LAW = Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)
+
+
+def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0, grip=False):
+    """Tests on a rig whose crosshead travels in vain first and whose frame gives way."""
+    rng = np.random.default_rng(seed)
+    records = []
+    for name, rate in {"slow": 0.002, "fast": 0.01, **({"grip": 0.005} if grip else {})}.items():
+        time = np.linspace(0.0, 0.35 / rate, 300)
+        elongation = 0.42 * time / time[-1] if name == "grip" else np.expm1(rate * time)
+        force = factor * LAW.stress(time, np.log1p(elongation), "exact") / (1.0 + elongation)
+        early = np.linspace(0.0, 1.0, 60, endpoint=False)
+        late = 0.21 * time[1] / elongation[1]
+        time = np.concatenate([late * early, late + time])
+        travel = np.concatenate([slack * early, slack + elongation + compliance * force])
+        force = np.concatenate([0.0 * early, force])
+        stress = force * (1.0 + travel) + 0.04 * rng.standard_normal(len(time))
+        records.append(Record(name, time, np.log1p(travel), stress, specimen_id=specimen_id))
+    return Campaign("rig", tuple(records))
+
+
+@pytest.fixture(scope="module")
+def sound():
+    return Reference.of(of_a_rig(1))
+
+
+def test_a_rig_that_shows_twice_the_strain_has_slack_and_a_positive_compliance():
+    """Slack of a quarter of the travel, then the frame; the strain beyond the reference's was never the specimen's."""
+    reference = Reference.of(of_a_rig(1, grip=True))
+    found = compare(of_a_rig(2, slack=0.21, compliance=0.0061, grip=True), reference, threads=2)
+    assert {"machine_compliance", "strain_offset"} <= set(found.best.effects), found.summary()
+    sizes = {each.name: each.value for each in found.best.parameters}
+    assert sizes["slack_strain"] == pytest.approx(0.21, rel=0.03)
+    assert sizes["compliance_per_MPa"] == pytest.approx(0.0061, rel=0.03)
+
+
+def test_signs_that_physics_forbids_are_no_change(sound):
+    """The reference's rig has the slack, not the one that is asked about."""
+    found = compare(of_a_rig(2), Reference.of(of_a_rig(1, slack=0.02)), threads=1)
+    assert found.verdict != "nothing_changed"
+    lowest = {"slack_strain": 0.0, "compliance_per_MPa": 0.0}
+    for each in found.explanations:
+        for size in each.parameters:
+            assert min(size.value, *size.interval95) >= lowest.get(size.name, -np.inf)
+
+
+def test_a_spent_budget_gives_an_answer_and_says_what_was_not_tried(sound):
+    found = compare(of_a_rig(2, slack=0.05), sound, threads=1, budget=1e-6)
+    assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
+    assert any("budget" in each.why for each in found.skipped)
+    assert json.loads(found.to_json())["skipped"]
+    assert "left out" in found.summary()
+    with pytest.raises(InputError, match="budget: found 0"):
+        compare(of_a_rig(2), sound, budget=0.0)
+
+
+def test_other_specimens_may_differ_and_the_same_one_may_not():
+    """3 % more force: the usual scatter of specimens, but on one specimen a gain of the force."""
+    reference = Reference.of(of_a_rig(1, specimen_id="A1"))
+    same = compare(of_a_rig(2, specimen_id="A1", factor=1.03), reference, threads=1)
+    other = compare(of_a_rig(2, specimen_id="A2", factor=1.03), reference, threads=1)
+    assert same.verdict == "changed"
+    assert not same.scatter.any
+    assert other.verdict == "nothing_changed"
+    assert other.scatter.source == "assumed"
+    assert "specimens differ" in other.summary()
+
+
 def test_a_gain_in_all_records_is_told_as_such_and_not_in_one(march):
     later = made_up(21)
     for name in GRID:

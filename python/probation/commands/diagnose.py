@@ -160,7 +160,14 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
     campaign, reference = campaign_from(options), campaign_at(options.against, options)
     with shown(f"{campaign.name} against {reference.name}"):
         answer = compare(
-            campaign, reference, options.scheme, pairs=pairs or None, effects=names, threads=options.threads
+            campaign,
+            reference,
+            options.scheme,
+            pairs=pairs or None,
+            effects=names,
+            seed=options.seed,
+            threads=options.threads,
+            budget=options.budget,
         )
     deliver(answer.summary(), usual_outputs(answer, options))
     return 0

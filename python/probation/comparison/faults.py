@@ -17,7 +17,7 @@ from probation.law.modification import Modification
 from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from probation.effects.record_view import RecordView
 
@@ -43,48 +43,28 @@ MATERIAL = Effect(
     ),
     source="ISO 527-1, section 10 (number of test specimens)",
     shows_in="every record",
-    kind="material",
+    kind="rig",  # its form is known: the law's own
     forms=(
         Form(
             "constants",
             (_logarithm("unrelaxed_modulus"), _logarithm("relaxation_time"), _logarithm("hardening_modulus")),
             modification=_other_material,
+            placements=("all",),
         ),
     ),
 )
 
 
-def _sized(form: Form, scale: float, *, bounded: bool = False) -> Form:
-    """The same form with another prior of its amplitude, of either sign if `bounded`."""
-    known = form.amplitude
-    low, high = (-COMPARISON.widest * scale, COMPARISON.widest * scale) if bounded else (known.lower, known.upper)
-    amplitude = replace(known, lower=low, upper=high, scale=min(scale, max(-low, high)), starts=())
-    return replace(form, parameters=(amplitude, *form.parameters[1:]))
+LEFT_OUT = ("temperature_drift", "volume_change", "force_saturation")
 
 
-def _as_a_change(known: Effect, force: float, elongation: float, duration: float) -> Effect:
-    """A fault of the rig as it may come, or go, between two campaigns of that largest nominal stress and elongation."""
-    forms = {form.name: form for form in known.forms}
-    if known.name == "machine_compliance":
-        forms = {
-            "crosshead": _sized(known.form("crosshead"), COMPARISON.travel_fault * elongation / force, bounded=True)
-        }
-    elif known.name == "force_drift":
-        # Within one record both forms are the same.
-        over_record = _sized(known.form("over_record"), COMPARISON.force_fault * force, bounded=True)
-        in_time = _sized(known.form("in_time"), COMPARISON.force_fault * force / duration, bounded=True)
-        forms = {"over_record": replace(over_record, placements=("one",)), "in_time": in_time}
-    elif known.name in ("force_offset", "prestress"):
-        forms = {name: _sized(form, COMPARISON.force_fault * force, bounded=True) for name, form in forms.items()}
-    else:
-        forms = {name: _sized(form, COMPARISON.wider_priors * form.amplitude.scale) for name, form in forms.items()}
-    if known.name == "strain_offset":
-        # What the crosshead travels in vain is an elongation, and so is not quite a constant true strain.
-        forms["slack"] = replace(forms["slack"], driving_strain=crosshead_slack)
-    return replace(known, forms=tuple(forms.values()))
+def _of_crosshead(known: Effect) -> Effect:
+    """Slack is an elongation that the crosshead travels in vain, and so not quite a constant true strain."""
+    forms = (replace(form, driving_strain=crosshead_slack) if form.name == "slack" else form for form in known.forms)
+    return replace(known, forms=tuple(forms))
 
 
-def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) -> tuple[Effect, ...]:
+def considered(names: Iterable[str] | None = None) -> tuple[Effect, ...]:
     """What a change is explained by: the catalogue's faults of the rig, and another material.
 
     Left out are waves, steps and plateaus, which a diagnosis finds in either campaign by itself; the growth of the
@@ -93,8 +73,6 @@ def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) 
 
     Parameters
     ----------
-    views : sequence of RecordView
-        Of the records: faults are as large as these make them.
     names : iterable of str, optional
         Only these.
 
@@ -103,17 +81,9 @@ def considered(views: Sequence[RecordView], names: Iterable[str] | None = None) 
     InputError
         For a name that is none of them, suggesting the nearest.
     """
-    force = max(float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views)
-    elongation = max(float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views)
-    duration = max(view.duration for view in views)
-    left_out = {"temperature_drift", "volume_change", "neck_triaxiality", "slack_strip", "force_saturation"}
-    rig = (each for each in visible(effects(), views) if each.kind == "rig" and each.name not in left_out)
-    sized = [
-        _as_a_change(each, force, elongation, duration)
-        for each in rig
-        if all(form.sharp is None for form in each.forms)
-    ]
-    known = {each.name: each for each in (*sized, MATERIAL)}
+    rig = [each for each in effects() if each.kind == "rig" and each.name not in LEFT_OUT]
+    smooth = [each for each in rig if all(form.sharp is None for form in each.forms)]
+    known = {each.name: each for each in (*map(_of_crosshead, smooth), MATERIAL)}
     if names is None:
         return tuple(known.values())
     for name in (chosen := list(names)):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.comparison.strain_path import branches, progress
+from probation.comparison.strain_path import branches, direction, progress
 from probation.inference.wrapped_law import WrappedLaw
 from probation.settings.comparison import COMPARISON
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-    from probation.inference.modal_law import DnlrLaw
+    from probation.inference.protocol import GapLaw
     from probation.law.modification import Modification
 
 
@@ -33,6 +33,11 @@ GRADED, SHRINK = 3, 0.7
 
 BEYOND = 1e-9
 """Rounding, by which a way may be longer than the reference's."""
+
+TINY = 1e-300
+
+BEYOND_ORDERS = 3
+"""A constant, a line and a parabola."""
 
 ENDS = 3
 """Samples at the ends of a branch that are taken as they are: a corner, or a relaxed start, is no smooth curve."""
@@ -51,6 +56,8 @@ class Branch:
         See `strain_path.progress`.
     missing : ndarray, shape (n,) [MPa]
         Data minus law; smoothed, but where it is sharp.
+    direction : float
+        Of straining: +1, -1, or 0 in a dwell.
     frame : ndarray, shape (n, k)
         Orthonormal curves that the smoothing follows: the reference's own noise along them stays in `missing`.
     sharp : ndarray of bool, shape (n,)
@@ -59,6 +66,7 @@ class Branch:
 
     progress: FloatArray
     missing: FloatArray
+    direction: float
     frame: FloatArray
     sharp: NDArray[np.bool_]
 
@@ -79,7 +87,9 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
         smooth = frame @ (frame.T @ left[part])
         kept = sharp[part].copy()
         kept[:ENDS] = kept[-ENDS:] = True
-        found.append(Branch(progress(view, part), np.where(kept, left[part], smooth), frame, sharp[part]))
+        found.append(
+            Branch(progress(view, part), np.where(kept, left[part], smooth), direction(view, part), frame, sharp[part])
+        )
     return tuple(found)
 
 
@@ -105,7 +115,7 @@ class MeasuredLaw(WrappedLaw):
 
     Parameters
     ----------
-    law : DnlrLaw
+    law : GapLaw
         With nothing to identify.
     references : dict of str to sequence of (Branch, ...)
         By record id: the branches of each reference of that record.
@@ -115,9 +125,13 @@ class MeasuredLaw(WrappedLaw):
     Beyond the end of a reference its last value is kept.
     """
 
-    def __init__(self, law: DnlrLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]]) -> None:
+    def __init__(self, law: GapLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]]) -> None:
         super().__init__(law)
         self.references = dict(references)
+
+    def around(self, law: GapLaw) -> MeasuredLaw:
+        """The same around another law."""
+        return MeasuredLaw(law, self.references)
 
     def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
@@ -126,7 +140,7 @@ class MeasuredLaw(WrappedLaw):
     def sensitivity(
         self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
-        """True stress (n,) [MPa] and no derivatives (n, 0); as in `GapLaw`."""
+        """True stress (n,) [MPa] and the law's derivatives; as in `GapLaw`."""
         stress, slopes = self.law.sensitivity(view, parameters, modification)
         return stress + self.carried_over(view), slopes
 
@@ -135,18 +149,34 @@ class MeasuredLaw(WrappedLaw):
         references = self.references[view.id]
         total = np.zeros(len(view))
         for each in references:
-            for part, branch in zip(branches(view), each, strict=False):
+            for part, branch in _paired(view, each):
                 total[part] += np.interp(progress(view, part), branch.progress, branch.missing)
         return total / len(references)
 
-    def undecided(self, view: RecordView) -> NDArray[np.bool_]:
-        """Instants at which a reference has something sharp, or nothing: beyond its end; shape (n,)."""
+    def sharp(self, view: RecordView) -> NDArray[np.bool_]:
+        """Instants at which a reference has something sharp; shape (n,)."""
         found = np.zeros(len(view), dtype=bool)
         for each in self.references[view.id]:
-            for part, branch in zip(branches(view), each, strict=False):
-                here = progress(view, part)
-                found[part] |= np.interp(here, branch.progress, branch.sharp) > 0.0
-                found[part] |= here > branch.progress[-1] * (1.0 + BEYOND)
+            for part, branch in _paired(view, each):
+                found[part] |= np.interp(progress(view, part), branch.progress, branch.sharp) > 0.0
+        return found
+
+    def beyond(self, view: RecordView) -> list[FloatArray]:
+        """What the law may leave beyond the end of each reference, whose last value is kept there; each (n, k) [MPa].
+
+        A parabola as large as what it leaves before the end. Not more: under a large fault of the travel these are the
+        samples whose strain the specimen did not reach.
+        """
+        found = []
+        for each in self.references[view.id]:
+            columns = np.zeros((len(view), BEYOND_ORDERS * len(each)))
+            for index, (part, branch) in enumerate(_paired(view, each)):
+                end = max(float(branch.progress[-1]), TINY)
+                far = np.maximum(progress(view, part) / end - 1.0 - BEYOND, 0.0)[:, None]
+                size = float(np.max(np.abs(branch.missing))) / len(self.references[view.id])
+                own = slice(BEYOND_ORDERS * index, BEYOND_ORDERS * (index + 1))
+                columns[part, own] = size * (far > 0.0) * far ** np.arange(BEYOND_ORDERS)
+            found.append(columns[:, columns.any(axis=0)])
         return found
 
     def frames(self, view: RecordView) -> list[FloatArray]:
@@ -154,7 +184,7 @@ class MeasuredLaw(WrappedLaw):
         found = []
         for each in self.references[view.id]:
             columns = []
-            for part, branch in zip(branches(view), each, strict=False):
+            for part, branch in _paired(view, each):
                 own = np.zeros((len(view), branch.frame.shape[1]))
                 here = progress(view, part)
                 for index, curve in enumerate(branch.frame.T):
@@ -162,3 +192,12 @@ class MeasuredLaw(WrappedLaw):
                 columns.append(own)
             found.append(np.hstack(columns))
         return found
+
+
+def _paired(view: RecordView, reference: Sequence[Branch]) -> list[tuple[slice, Branch]]:
+    """Branches of a record, and those of its reference that they are; a rest at the start need not be in both."""
+    own = branches(view)
+    resting = direction(view, own[0]) == 0.0
+    if resting != (reference[0].direction == 0.0):
+        own, reference = (own[1:], reference) if resting else (own, reference[1:])
+    return list(zip(own, reference, strict=False))

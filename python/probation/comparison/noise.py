@@ -24,17 +24,15 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.comparison.measured_law import MeasuredLaw
     from probation.effects.record_view import RecordView
-    from probation.inference.modal_law import DnlrLaw
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
     from probation.records.record import Record
     from probation.smoothing.excitation import Excitation
 
 
-def own_residual(view: RecordView, law: DnlrLaw) -> RecordResidual:
-    """A record by itself, all that is slow in it set aside: what is left is its noise."""
-    left = law.stress(view, law.start) - view.data
-    frames = []
+def own_residual(view: RecordView, residual: FloatArray) -> RecordResidual:
+    """A record by itself, all that is slow in a residual (n,) [MPa] set aside: what is left is its noise."""
+    left, frames = residual.copy(), []
     for part in branches(view):
         frame = followed(view.time[part])
         left[part] -= frame @ (frame.T @ left[part])
@@ -77,8 +75,6 @@ def change_noise(
     law : MeasuredLaw
     references : sequence of NoiseModel
         Of each reference of that record.
-    excitation : Excitation
-        The record's: a smoothed strain's noise makes stress.
     missed : ndarray of bool, shape (n,)
         Samples whose strain the smoother did not follow.
     """
@@ -87,11 +83,15 @@ def change_noise(
         float(np.sqrt(np.mean(noise.long_run**2))) / len(followed) * frame
         for frame, noise in zip(followed, references, strict=True)
     ]
-    columns.append(_undecided(view, law, missed))
+    columns += law.beyond(view)
     strain = propagated_noise(law, view, law.start)
     if strain is not None:
         columns.append(np.sqrt(1.0 + 1.0 / len(followed)) * strain)
-    return replace(own, carried=np.hstack([own.carried, *columns]), outliers=())
+    undecided = _undecided(view, law, missed)
+    free = np.zeros((len(view), len(undecided)))
+    free[undecided, np.arange(len(undecided))] = float(np.max(np.abs(view.data)))
+    slow = free if own.drift is None else np.hstack([own.drift, free])
+    return replace(own, carried=np.hstack([own.carried, *columns]), drift=slow, outliers=tuple(undecided))
 
 
 def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:
@@ -105,12 +105,10 @@ def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.boo
     return np.asarray(np.convolve(far, np.ones(2 * ENDS + 1), mode="same") > 0.0)
 
 
-def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) -> FloatArray:
-    """Single samples, of any size: next to turns and the start, where a smoother or the reference does not follow."""
-    at = set(np.flatnonzero(law.undecided(view) | missed).tolist())
+def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) -> list[int]:
+    """Single samples next to turns and the start, where a smoother or the reference does not follow: of any size."""
+    at = set(np.flatnonzero(law.sharp(view) | missed).tolist())
     for part in branches(view):
         first = part.start if part.start == 0 else part.start - ENDS
         at.update(range(max(first, 0), min(part.start + ENDS, len(view))))
-    columns = np.zeros((len(view), len(at)))
-    columns[sorted(at), np.arange(len(at))] = float(np.max(np.abs(view.data)))
-    return columns
+    return sorted(at)

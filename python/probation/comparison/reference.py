@@ -67,10 +67,11 @@ class Reference:
         found = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
         law = DnlrLaw(found.law, held=found.law.parameter_names)
         views = views_of(whole, scheme=chosen)
-        residuals = [own_residual(view, law) for view in views]
+        left = [view.data - law.stress(view, law.start) for view in views]
+        residuals = [own_residual(view, own) for view, own in zip(views, left, strict=True)]
         noises = record_noises(residuals)
         branches = {}
-        for view, rough in zip(views, residuals, strict=True):
+        for view, rough, own in zip(views, residuals, left, strict=True):
             sharp = np.abs(rough.residual) > COMPARISON.sharp_reference * np.median(np.abs(rough.residual))
-            branches[view.id] = reference_branches(view, view.data - law.stress(view, law.start), sharp)
+            branches[view.id] = reference_branches(view, own, sharp)
         return cls(campaign, chosen, law, branches, {noise.name: noise for noise in noises})

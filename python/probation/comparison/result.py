@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
+    from probation.diagnosis.skipped import Skipped
+    from probation.inference.scatter import Scatter
 
 Verdict = Literal["nothing_changed", "changed", "unknown_change"]
 
@@ -96,6 +98,10 @@ class Comparison(Summarised, Plotted, Stored):
     rms_MPa, noise_MPa : dict of str to float
         Of each record's change, and of its noise.
     curves : dict of str to ChangeCurves
+    skipped : tuple of Skipped
+        What was left out, and why.
+    scatter : Scatter
+        How far specimens may differ without a change.
     warnings : tuple of str
     """
 
@@ -111,6 +117,8 @@ class Comparison(Summarised, Plotted, Stored):
     rms_MPa: Mapping[str, float]  # noqa: N815 - as it leaves the program
     noise_MPa: Mapping[str, float]  # noqa: N815
     curves: Mapping[str, ChangeCurves]
+    skipped: tuple[Skipped, ...]
+    scatter: Scatter
     warnings: tuple[str, ...] = ()
 
     @property
@@ -131,5 +139,7 @@ class Comparison(Summarised, Plotted, Stored):
             },
             "changes": [asdict(each) for each in self.explanations],
             "answer_set": [{"effects": each.effects, "records": each.records} for each in self.answer_set],
+            "skipped": [each.to_dict() for each in self.skipped],
+            "scatter": self.scatter.to_dict(),
             "warnings": list(self.warnings),
         }

@@ -19,12 +19,17 @@ def branches(view: RecordView) -> list[slice]:
     return [slice(first, last + 1) for first, last in pairwise(borders)]
 
 
+def direction(view: RecordView, part: slice) -> float:
+    """Of straining on a branch: +1, -1, or 0 in a dwell."""
+    return float(np.sign(view.direction[part.start]))
+
+
 def progress(view: RecordView, part: slice) -> FloatArray:
     """How far the specimen has come on a branch, not decreasing; shape (n_part,).
 
     Strain from the first branch's zero, or from the turn where another begins [-]; time in a dwell [s].
     """
-    sign = float(np.sign(view.direction[part.start]))
+    sign = direction(view, part)
     if sign == 0.0:
         return np.asarray(view.time[part] - view.time[part.start])
     strain = view.true_strain[part]

@@ -156,7 +156,7 @@ def _searched(
     search = Search(base, considered, threads, progress, skipping, budget)
     found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
     leading = search.ranked()
-    if not leading or base.noise_is_known:
+    if not leading:
         return base, found
     base = with_joint_noise(search.base, leading[0].refit)
     return base, search.reconsidered(base)

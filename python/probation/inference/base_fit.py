@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -47,6 +47,17 @@ if TYPE_CHECKING:
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
+NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseModel, ...]]"
+
+
+def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
+    """Every record's noise, its drift included."""
+    noises = estimate_noise(residuals)
+    drift = estimate_drift(Whitened.of(residuals, noises))
+    alike = like_an_effect(drift)
+    return tuple(
+        with_drift(noise, alike, drift - alike, record.time) for noise, record in zip(noises, residuals, strict=True)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +88,8 @@ class BaseFit:
         that knows fewer records.
     held_out : tuple of RecordResidual
         The records that were not fitted, as these parameters predict them.
-    noise_is_known : bool
-        Whether the noise was had without the law, so that no explanation changes it.
+    noises_of : callable
+        Estimates the noise of the records from what a fit leaves of them.
     """
 
     law: GapLaw
@@ -92,7 +103,7 @@ class BaseFit:
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
     reference: FloatArray | None = None
-    noise_is_known: bool = False
+    noises_of: NoiseEstimator = fitted_noises
 
     @property
     def model(self) -> CampaignModel:
@@ -152,7 +163,7 @@ class BaseFit:
 
         What their specimens may differ by is part of it: nothing of it is known before the test.
         """
-        return tuple(noise.with_specimen_as_noise() for noise in _noises(self.held_out)) if self.held_out else ()
+        return tuple(noise.with_specimen_as_noise() for noise in fitted_noises(self.held_out)) if self.held_out else ()
 
     @cached_property
     def discrepancy(self) -> Discrepancy:
@@ -248,7 +259,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         plain, scattered = found, with_scatter(residuals, columns, scatter)
         found, noises, residuals = _settled(model, plain.parameters, scattered)
         if specimens_hold_the_gap(model, alike.noises, plain.parameters, found.parameters):
-            noises = _noises(scattered)
+            noises = fitted_noises(scattered)
             found = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
             residuals = _at(scattered, found)
     parameters = found.parameters
@@ -301,7 +312,7 @@ def _settled(
 ) -> tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]:
     """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
     for _ in range(ROUNDS):
-        noises = _noises(residuals)
+        noises = fitted_noises(residuals)
         found = refit(Problem(model, Whitener(noises)), parameters, most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
@@ -326,7 +337,7 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
         scatter = scatter_of(base.specimens, base.law, records, base.whitened.noises, columns)
         records = with_scatter(records, columns, scatter)
         base = replace(base, scatter=scatter)
-    noises = _noises(records)
+    noises = base.noises_of(records)
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
     steps = 0 if base.scatter.any else 12
     found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
@@ -340,13 +351,3 @@ def _at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidua
     return [
         replace(each, residual=raw[part], tangent=jacobian[part]) for each, part in zip(residuals, parts, strict=True)
     ]
-
-
-def _noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
-    """Every record's noise, its drift included."""
-    noises = estimate_noise(residuals)
-    drift = estimate_drift(Whitened.of(residuals, noises))
-    alike = like_an_effect(drift)
-    return tuple(
-        with_drift(noise, alike, drift - alike, record.time) for noise, record in zip(noises, residuals, strict=True)
-    )

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
+from probation.inference.wrapped_law import WrappedLaw
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -31,7 +32,7 @@ _STEP = 1e-6
 
 def deviation_names(law: GapLaw) -> tuple[str, ...]:
     """What specimens may differ in: the law's parameters, held ones too, the section and the start of the strain."""
-    return (*_whole(law).parameter_names, AREA, START)
+    return (*_whole(law, law.start)[0].parameter_names, AREA, START)
 
 
 def kind_of_deviation(name: str) -> str:
@@ -51,10 +52,8 @@ def deviation_columns(model: CampaignModel, parameters: FloatArray) -> list[Floa
         With the causes that act.
     parameters : ndarray, shape (n_parameters,)
     """
-    law = model.law
-    whole = CampaignModel(_whole(law), model.views, model.causes)
-    own = parameters[: model.base_count]
-    base = law.law_at(own).parameters if isinstance(law, DnlrLaw) else own
+    law, base = _whole(model.law, parameters[: model.base_count])
+    whole = CampaignModel(law, model.views, model.causes)
     values = np.append(base, parameters[model.base_count :])
     residual, slopes = whole.residual_and_jacobian(values)
     stress = residual + whole.data
@@ -69,6 +68,11 @@ def _late(true_strain: FloatArray, stride: int) -> FloatArray:
     return true_strain - _STEP * np.minimum(np.arange(len(true_strain)) / stride, 1.0)
 
 
-def _whole(law: GapLaw) -> GapLaw:
-    """The law with no parameter held: specimens differ in what is held, too."""
-    return DnlrLaw(law.law) if isinstance(law, DnlrLaw) else law
+def _whole(law: GapLaw, parameters: FloatArray) -> tuple[GapLaw, FloatArray]:
+    """The law with no parameter held, and all its parameters: specimens differ in what is held, too."""
+    if isinstance(law, WrappedLaw):
+        inner, values = _whole(law.law, parameters)
+        return law.around(inner), values
+    if isinstance(law, DnlrLaw):
+        return DnlrLaw(law.law), law.law_at(parameters).parameters
+    return law, parameters

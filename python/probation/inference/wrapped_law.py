@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -19,6 +19,10 @@ class WrappedLaw:
 
     def __init__(self, law: GapLaw) -> None:
         self.law = law
+
+    def around(self, law: GapLaw) -> Self:
+        """The same around another law."""
+        return type(self)(law)
 
     @property
     def parameter_names(self) -> tuple[str, ...]:

@@ -6,6 +6,8 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from probation.comparison.headline import named, percent, sized
+from probation.report.skipped_words import MOST as MOST_SKIPPED
+from probation.report.skipped_words import skipped_lines
 from probation.wording import WIDTH
 
 if TYPE_CHECKING:
@@ -30,5 +32,8 @@ def comparison_summary(found: Comparison) -> str:
             f"{found.noise_MPa[name]:.3g} MPa"
         )
         lines.append(f"  {text}")
+    if found.scatter.any:
+        lines.append(f"  {found.scatter.text}.")
+    lines += [f"  left out: {each}" for each in skipped_lines(found.skipped, MOST_SKIPPED)]
     lines += [f"  warning: {each}" for each in found.warnings]
     return "\n".join(lines)

@@ -264,7 +264,7 @@ def _looked_for(found: Diagnosis) -> Section:
             "Left out, because the law cannot be solved with it or for want of time; a cause that stands here can be "
             "neither named nor excluded:"
         )
-        parts.append(Table(("left out",), tuple((each,) for each in skipped_lines(found)), left=1))
+        parts.append(Table(("left out",), tuple((each,) for each in skipped_lines(found.skipped)), left=1))
     return Section("What was looked for", tuple(parts))
 
 

@@ -50,7 +50,7 @@ def summary(found: Diagnosis) -> str:
         parts.append(found.remainder.description)
     if found.next_test is not None:
         parts.append(next_test_text(found))
-    parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found, MOST_SKIPPED)))
+    parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found.skipped, MOST_SKIPPED)))
     parts.append("\n".join(_sentence(f"warning: {warning}") for warning in found.warnings))
     return "\n\n".join(part for part in parts if part)
 

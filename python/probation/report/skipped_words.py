@@ -1,4 +1,4 @@
-"""What a diagnosis left out, in words."""
+"""What a diagnosis or a comparison left out, in words."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 from probation.diagnosis.headline import titles
 
 if TYPE_CHECKING:
-    from probation.diagnosis.result import Diagnosis
+    from collections.abc import Sequence
+
     from probation.diagnosis.skipped import Skipped
 
 MOST = 4
 """Entries on a terminal."""
 
 
-def skipped_lines(found: Diagnosis, most: int | None = None) -> list[str]:
+def skipped_lines(skipped: Sequence[Skipped], most: int | None = None) -> list[str]:
     """One phrase for everything that was left out; at most so many."""
-    lines = [_text(each) for each in found.skipped]
+    lines = [_text(each) for each in skipped]
     if most is None or len(lines) <= most:
         return lines
     return [*lines[:most], f"… and {len(lines) - most} more (--json and --report list them)"]

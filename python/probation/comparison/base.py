@@ -1,0 +1,129 @@
+"""The measured base of a comparison: a law put right on reference records, and the noise of both."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.comparison.measured_law import MeasuredLaw
+from probation.comparison.noise import change_noise, missed_by_smoother
+from probation.effects.record_view import views_of
+from probation.inference.base_fit import BaseFit, fitted_noises
+from probation.inference.deviations import deviation_columns
+from probation.inference.model import CampaignModel
+from probation.inference.problem import Problem
+from probation.inference.refit import refit
+from probation.inference.scatter import scatter_of, with_scatter
+from probation.inference.view_residual import residual_of
+from probation.noise.whitener import Whitener
+from probation.noise.whitening import Whitened
+from probation.records.specimens import Specimens
+from probation.smoothing.excitation import excite
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from probation.comparison.reference import Reference
+    from probation.effects.record_view import RecordView
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
+    from probation.records.campaign import Campaign
+    from probation.records.record import Record
+    from probation.smoothing.excitation import Excitation
+
+ALIKE = Specimens("none")
+
+
+@dataclass(frozen=True, eq=False)
+class _Pair:
+    """A record and what its references are."""
+
+    record: Record
+    view: RecordView
+    excitation: Excitation
+    noises: tuple[NoiseModel, ...]
+    specimens: frozenset[str | None]
+
+    @property
+    def differs(self) -> bool:
+        """Whether it is of a specimen that is none of the references'."""
+        known = self.record.specimen_id is not None and None not in self.specimens
+        return known and self.record.specimen_id not in self.specimens
+
+    @property
+    def spread(self) -> float:
+        """Standard deviation of the difference of specimens, over that of one: the references scatter, too."""
+        return float(np.sqrt(1.0 + 1.0 / len(self.specimens))) if self.differs else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Noises:
+    """The noise of what records have beyond their references, by what a fit leaves of them."""
+
+    law: MeasuredLaw
+    pairs: tuple[_Pair, ...]
+
+    def __call__(self, residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
+        own = fitted_noises(residuals)
+        found = []
+        for pair, noise, each in zip(self.pairs, own, residuals, strict=True):
+            missed = missed_by_smoother(pair.record, pair.excitation)
+            made = change_noise(pair.view, noise, self.law, pair.noises, missed)
+            if each.specimen is not None:
+                made = replace(made, specimen=pair.spread * each.specimen, specimen_id=pair.record.specimen_id)
+            found.append(made)
+        return tuple(found)
+
+
+def measured_base(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> BaseFit:
+    """The base fit of a law that has nothing to fit: what the references measured.
+
+    Specimens may differ (docs/diagnosis-method.md, section 10) where a record and its references name other ones.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        The records that have references, all to be explained.
+    reference : Reference
+    together : dict of str to tuple of str
+        Reference records of each record.
+    """
+    law = MeasuredLaw(
+        reference.law, {name: [reference.branches[other] for other in others] for name, others in together.items()}
+    )
+    excitations = {record.id: excite(record) for record in campaign.records}
+    views = views_of(campaign, excitations=excitations, scheme=reference.scheme)
+    model = CampaignModel(law, views).quietened(law.start)
+    pairs = tuple(
+        _Pair(
+            record,
+            view,
+            excitations[record.id],
+            tuple(reference.noises[other] for other in together[record.id]),
+            frozenset(reference.campaign.record(other).specimen_id for other in together[record.id]),
+        )
+        for record, view in zip(campaign.records, model.views, strict=True)
+    )
+    noises_of = _Noises(law, pairs)
+    raw, slopes = model.residual_and_jacobian(law.start)
+    residuals = [residual_of(view, raw[part], slopes[part]) for view, part in model.parts]
+    noises = noises_of(residuals)
+    alike = Whitened.of(residuals, noises)
+    specimens = campaign.specimens if any(pair.differs for pair in pairs) else ALIKE
+    columns = [] if specimens.alike else deviation_columns(model, law.start)
+    scatter = scatter_of(specimens, law, residuals, noises, columns)
+    if scatter.any:
+        residuals = with_scatter(residuals, columns, scatter)
+        noises = noises_of(residuals)
+    return BaseFit(
+        law=law,
+        views=model.views,
+        refit=refit(Problem(model, Whitener(noises)), law.start, most_steps=0),
+        whitened=Whitened.of(residuals, noises),
+        specimens=specimens,
+        scatter=scatter,
+        alike=alike,
+        noises_of=noises_of,
+    )
