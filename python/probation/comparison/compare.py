@@ -20,6 +20,7 @@ from probation.diagnosis.causes import causes_of
 from probation.diagnosis.probabilities import leading
 from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.skipped import Skipping
+from probation.effects.visible import visible
 from probation.inference.thinning import thin
 from probation.parallel import usual_threads
 from probation.settings.comparison import COMPARISON
@@ -96,8 +97,10 @@ def compare(
     together = pair(campaign, reference.campaign, pairs)
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
-    changes = considered(effects)
-    base = measured_base(kept, reference, together).screened(changes, workers, skipping.screened)
+    known = considered(effects)
+    base = measured_base(kept, reference, together)
+    changes = visible(known, base.model.views)
+    base = base.screened(changes, workers, skipping.screened)
     test = GapTester(base.whitened, base.columns.by_effect(), seed=seed)()
     causes = causes_of(
         base,

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.headline import titles
+from probation.comparison.faults import MATERIAL
+from probation.diagnosis.headline import title
+from probation.wording import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,4 +29,5 @@ def _text(each: Skipped) -> str:
     if not each.effects:
         return each.why
     more = f" ({each.count} forms and places)" if each.count > 1 else ""
-    return f"{titles(each.effects)}{more}: {each.why}"
+    names = (MATERIAL.title if name == MATERIAL.name else title(name) for name in each.effects)
+    return f"{listed(list(names), 'and')}{more}: {each.why}"
