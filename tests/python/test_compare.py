@@ -64,13 +64,13 @@ def test_a_fault_is_told_with_its_record_and_its_size(march, fault, size):
 LAW = Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)
 
 
-def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0):
+def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0, grip=False):
     """Tests on a rig whose crosshead travels in vain first and whose frame gives way."""
     rng = np.random.default_rng(seed)
     records = []
-    for name, rate in {"slow": 0.002, "fast": 0.01}.items():
+    for name, rate in {"slow": 0.002, "fast": 0.01, **({"grip": 0.005} if grip else {})}.items():
         time = np.linspace(0.0, 0.35 / rate, 300)
-        elongation = np.expm1(rate * time)
+        elongation = 0.42 * time / time[-1] if name == "grip" else np.expm1(rate * time)
         force = factor * LAW.stress(time, np.log1p(elongation), "exact") / (1.0 + elongation)
         early = np.linspace(0.0, 1.0, 60, endpoint=False)
         late = 0.21 * time[1] / elongation[1]
@@ -85,6 +85,16 @@ def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0):
 @pytest.fixture(scope="module")
 def sound():
     return Reference.of(of_a_rig(1))
+
+
+def test_a_rig_that_shows_twice_the_strain_has_slack_and_a_positive_compliance():
+    """Slack of a quarter of the travel, then the frame; the strain beyond the reference's was never the specimen's."""
+    reference = Reference.of(of_a_rig(1, grip=True))
+    found = compare(of_a_rig(2, slack=0.21, compliance=0.0061, grip=True), reference, threads=2)
+    assert {"machine_compliance", "strain_offset"} <= set(found.best.effects), found.summary()
+    sizes = {each.name: each.value for each in found.best.parameters}
+    assert sizes["slack_strain"] == pytest.approx(0.21, rel=0.03)
+    assert sizes["compliance_per_MPa"] == pytest.approx(0.0061, rel=0.03)
 
 
 def test_signs_that_physics_forbids_are_no_change(sound):

@@ -11,7 +11,6 @@ from probation._complaint import suggestion
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.large_faults import crosshead_slack
 from probation.effects.registry import effects
-from probation.effects.visible import visible
 from probation.errors import InputError
 from probation.law.modification import Modification
 from probation.settings.comparison import COMPARISON
@@ -55,7 +54,7 @@ MATERIAL = Effect(
 )
 
 
-LEFT_OUT = ("temperature_drift", "volume_change", "force_saturation")
+LEFT_OUT = ("temperature_drift", "volume_change", "neck_triaxiality", "slack_strip", "force_saturation")
 
 
 def _of_crosshead(known: Effect) -> Effect:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import compress, product
 from typing import TYPE_CHECKING
 
@@ -219,11 +219,7 @@ class Search:
         chosen = _first_of_each_effect(
             [each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions
         )
-        refits = self._refitted(leading.refit, chosen)
-        shared = {cause.records for cause in leading.causes if cause.form.threshold}
-        beside = [each for each in ranked if each.cause.form.threshold and each.cause.records in shared]
-        refits += self._refitted(_halved(leading.refit), beside)
-        self.found += self._judged(refits)
+        self.found += self._judged(self._refitted(leading.refit, chosen))
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
@@ -426,14 +422,6 @@ def _with_others_absent(whole: Refit, part: Refit) -> FloatArray:
     return whole.model.parameters(base, *(known.get(cause_key(cause), (0.0, *own[1:])) for cause, own in others))
 
 
-def _halved(found: Refit) -> Refit:
-    """The same with half of what sets in beyond a threshold: slack that stood in for compliance, too, hides it."""
-    parameters = found.parameters.copy()
-    for cause, at in zip(found.model.causes, found.model.amplitudes, strict=True):
-        parameters[at] *= 0.5 if cause.form.threshold else 1.0
-    return replace(found, parameters=parameters)
-
-
 def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
     """The best start of every form and placement; of placements in one record the best few."""
     found: list[Candidate] = []
@@ -479,10 +467,10 @@ def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: 
 
 
 def _first_of_each_effect(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
-    """The best start of each of the best effects; in all records and in one, small and beyond a threshold apart."""
-    found: dict[tuple[str, bool, bool], Candidate] = {}
+    """The best start of each of the best effects; in all records and in one count apart."""
+    found: dict[tuple[str, bool], Candidate] = {}
     for each in candidates:
-        key = each.cause.effect.name, each.cause.records is None, each.cause.form.threshold
-        if key not in found and len({(name, everywhere) for name, everywhere, _ in (*found, key)}) <= count:
-            found[key] = each
+        found.setdefault((each.cause.effect.name, each.cause.records is None), each)
+        if len(found) == count:
+            break
     return list(found.values())

@@ -280,7 +280,10 @@ class CampaignModel:
             return Specimen(found.stress, None)
         slopes = under(found.stress, sensitivity=True).sensitivity
         assert slopes is not None
-        return Specimen(found.stress, np.column_stack([found.answer(slope) for slope in slopes.T]))
+        answers = np.empty_like(slopes)  # of no column, where all of the law is held
+        for column, slope in enumerate(slopes.T):
+            answers[:, column] = found.answer(slope)
+        return Specimen(found.stress, answers)
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""
