@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.comparison.measured_law import MeasuredLaw
-from probation.comparison.noise import change_noise, missed_by_smoother
+from probation.comparison.noise import change_noise, missed_by_smoother, own_residual, record_noises
 from probation.effects.record_view import views_of
-from probation.inference.base_fit import BaseFit, fitted_noises
+from probation.inference.base_fit import BaseFit
 from probation.inference.deviations import deviation_columns
 from probation.inference.model import CampaignModel
 from probation.inference.problem import Problem
@@ -60,21 +60,19 @@ class _Pair:
 
 @dataclass(frozen=True, eq=False)
 class _Noises:
-    """The noise of what records have beyond their references, by what a fit leaves of them."""
+    """The noise of what records have beyond their references: had without an explanation, which changes none of it."""
 
-    law: MeasuredLaw
     pairs: tuple[_Pair, ...]
+    noises: tuple[NoiseModel, ...]
 
     def __call__(self, residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
-        own = fitted_noises(residuals)
-        found = []
-        for pair, noise, each in zip(self.pairs, own, residuals, strict=True):
-            missed = missed_by_smoother(pair.record, pair.excitation)
-            made = change_noise(pair.view, noise, self.law, pair.noises, missed)
-            if each.specimen is not None:
-                made = replace(made, specimen=pair.spread * each.specimen, specimen_id=pair.record.specimen_id)
-            found.append(made)
-        return tuple(found)
+        """With the scatter of the specimens that the residuals have."""
+        return tuple(
+            noise
+            if each.specimen is None
+            else replace(noise, specimen=pair.spread * each.specimen, specimen_id=pair.record.specimen_id)
+            for pair, noise, each in zip(self.pairs, self.noises, residuals, strict=True)
+        )
 
 
 def measured_base(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> BaseFit:
@@ -106,8 +104,13 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
         )
         for record, view in zip(campaign.records, model.views, strict=True)
     )
-    noises_of = _Noises(law, pairs)
     raw, slopes = model.residual_and_jacobian(law.start)
+    own = record_noises([own_residual(view, view.data - reference.law.stress(view, law.start)) for view in views])
+    made = (
+        change_noise(pair.view, noise, law, pair.noises, missed_by_smoother(pair.record, pair.excitation))
+        for pair, noise in zip(pairs, own, strict=True)
+    )
+    noises_of = _Noises(pairs, tuple(made))
     residuals = [residual_of(view, raw[part], slopes[part]) for view, part in model.parts]
     noises = noises_of(residuals)
     alike = Whitened.of(residuals, noises)
@@ -126,4 +129,5 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
         scatter=scatter,
         alike=alike,
         noises_of=noises_of,
+        periodic=False,  # teeth of a spindle are in both campaigns, at other strains
     )

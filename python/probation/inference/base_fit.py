@@ -90,6 +90,8 @@ class BaseFit:
         The records that were not fitted, as these parameters predict them.
     noises_of : callable
         Estimates the noise of the records from what a fit leaves of them.
+    periodic : bool
+        Whether an unknown effect may be periodic in the strain.
     """
 
     law: GapLaw
@@ -104,6 +106,7 @@ class BaseFit:
     held_out: tuple[RecordResidual, ...] = ()
     reference: FloatArray | None = None
     noises_of: NoiseEstimator = fitted_noises
+    periodic: bool = True
 
     @property
     def model(self) -> CampaignModel:
@@ -168,7 +171,7 @@ class BaseFit:
     @cached_property
     def discrepancy(self) -> Discrepancy:
         """Smooth waves over the identify records, along which a form may be wrong."""
-        return Discrepancy.of(self.whitened, self.columns.smooth)
+        return Discrepancy.of(self.whitened, self.columns.smooth, periodic=self.periodic)
 
     @cached_property
     def columns(self) -> WhitenedColumns:

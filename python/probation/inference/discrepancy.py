@@ -59,7 +59,7 @@ class Discrepancy:
     log_strain_periodic_share: float
 
     @classmethod
-    def of(cls, whitened: Whitened, signals: FloatArray | None = None) -> Discrepancy:
+    def of(cls, whitened: Whitened, signals: FloatArray | None = None, *, periodic: bool = True) -> Discrepancy:
         """Of the identify records.
 
         Parameters
@@ -67,6 +67,8 @@ class Discrepancy:
         whitened : Whitened
         signals : ndarray, shape (N, n_signals), optional
             Whitened signals of effects, of which the slow noise is known to hold little.
+        periodic : bool
+            Whether to look for what is periodic in the strain.
         """
         columns, spectrum, places, at = [], [], [], 0
         for record, noise in zip(whitened.records, whitened.noises, strict=True):
@@ -80,7 +82,8 @@ class Discrepancy:
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         drift = nuisance_drift(whitened, columns, signals)
-        strain_periodic, log_strain_periodic_share = strain_periodic_waves(whitened)
+        nothing = np.zeros((len(whitened), 0)), 0.0
+        strain_periodic, log_strain_periodic_share = strain_periodic_waves(whitened) if periodic else nothing
         return cls(
             columns=tuple(columns),
             spectrum=tuple(spectrum),
