@@ -43,8 +43,7 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     "transients left out of the noise's estimate": {"noise.transient_ratio": NEVER},
     "quiet parts of a record": {"noise.quiet_samples": NEVER},
     "noise that changes along a record": {"noise.clustered_size": NEVER, "noise.burst_ratio": NEVER},
-    "level of the lower frequencies": {"noise.agreement_level": 0.0, "noise.level_errors": NEVER},
-    "noise of the other records of a rig": {"noise.unlike_others": NEVER},
+    "agreement of the low frequencies with the noise": {"noise.agreement_level": 0.0},
     "outliers left out": {"noise.outlier_distance": NEVER},
     "errors of an effect's form": {
         "evidence.form_errors": (0.0,),

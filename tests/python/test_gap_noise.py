@@ -191,28 +191,3 @@ def test_shapes_that_disagree_are_named():
         replace(record, residual=record.residual[:-1])
     with pytest.raises(InputError, match=r"slow: tangent has the shape \(99, 3\); expected \(100, columns\)"):
         replace(record, tangent=record.tangent[:-1])
-
-
-def rough_jointly(size, scatter=1.0, others=2):
-    """Records of white noise; the last with teeth, twelve in all, and neighbouring samples that scatter otherwise."""
-    records = gap_noise.records("white", rng(4))[: others + 1]
-    last = records[-1]
-    teeth = (12.0 * np.arange(len(last)) / len(last)) % 1.0 - 0.5
-    return [*records[:-1], replace(last, residual=scatter * last.residual + size * gap_noise.SIGMA * teeth)]
-
-
-def test_teeth_on_one_record_are_not_its_noise_where_neighbouring_samples_scatter_as_in_the_others():
-    alone = estimate_noise(rough_jointly(100.0)[-1:])[0]
-    beside = estimate_noise(rough_jointly(100.0))[-1]
-    assert alone.sigma > 3.0 * gap_noise.SIGMA
-    assert beside.sigma == pytest.approx(gap_noise.SIGMA, rel=0.15)
-    assert "other records" in beside.source
-
-
-def test_a_record_that_is_noisier_from_sample_to_sample_keeps_its_noise():
-    found = estimate_noise(rough_jointly(0.0, scatter=5.0))[-1]
-    assert found.sigma == pytest.approx(5.0 * gap_noise.SIGMA, rel=0.15)
-
-
-def test_one_other_record_is_no_majority():
-    assert "other records" not in estimate_noise(rough_jointly(100.0, others=1))[-1].source

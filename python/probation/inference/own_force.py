@@ -38,8 +38,12 @@ SETTLED = 1e-8
 GOOD_ENOUGH = 1e-5
 """What may be left at the end; beyond it there is no prediction: the start is a measurement."""
 
-ROUGHLY = 1e-3
-"""The same of a step that others follow."""
+ROUGHEST, FINEST = 0.1, 1e-3
+"""What a step that others follow may leave of what it is to remove: the first, and any of them (Eisenstat & Walker
+1996, choice 2)."""
+
+PATIENCE = 4
+"""Steps in which half of what was left must go; more than a force that is found takes for it."""
 
 HOPELESS = 1e6
 """What is left, of the largest force, beyond which no further step leads back."""
@@ -70,21 +74,26 @@ class OwnForce:
         self._size = max(float(np.max(np.abs(start))), 1e-300)
         self._next = stress(start)
         left = self._next - start
+        norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
         for _ in range(MOST_STEPS):
             if np.max(np.abs(left)) <= SETTLED * self._size:
                 return
-            if not np.max(np.abs(left)) < HOPELESS * self._size:
+            stuck = len(norms) > PATIENCE and norms[-1] > 0.5 * norms[-1 - PATIENCE]
+            if stuck or not np.max(np.abs(left)) < HOPELESS * self._size:
                 break
-            step = self.answer(left, ROUGHLY)
+            step = self.answer(left, part_left)
             # Where the law has a kink a whole step may overshoot.
             for part in PARTS:
                 there = self.stress + part * step
                 beyond = stress(there)
                 with np.errstate(over="ignore", invalid="ignore"):  # too long a step
-                    if np.linalg.norm(beyond - there) < np.linalg.norm(left):
-                        break
+                    left = beyond - there
+                    norm = float(np.linalg.norm(left))
+                if norm < norms[-1]:
+                    break
             self.stress, self._next = there, beyond
-            left = beyond - there
+            norms.append(norm)
+            part_left = min(max((norm / norms[-2]) ** 2, FINEST), ROUGHEST)
         if not np.max(np.abs(left)) <= GOOD_ENOUGH * self._size:
             raise ConvergenceError("the force that the frame and the specimen share was not found")
 

@@ -226,12 +226,6 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     )
 
 
-def matched_level(periodogram: Periodogram, model: Arma) -> float:
-    """Innovation with which a model of this shape has a periodogram's power."""
-    shape = _table(np.array([model.phi]), np.array([model.theta]))[0, 0]
-    return float(np.sqrt(_level(periodogram.binned(), shape)))
-
-
 def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:
     """Least deviance over phi and theta, on ever finer grids, and where it is."""
     steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(MOST_THETA)]) / (GRID - 1)

@@ -12,10 +12,9 @@ import numpy as np
 
 from probation.noise.arma import Arma
 from probation.noise.evidence import NoiseEvidence, noise_evidence
-from probation.noise.low_frequencies import KnownSpectrum, fit_spectra
 from probation.noise.model import NoiseModel
 from probation.noise.quantisation import quantisation_noise
-from probation.noise.same_rig import of_one_rig
+from probation.noise.spectra import KnownSpectrum, fit_spectra
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -32,10 +31,8 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     force noise), or in bursts. (2) The base tangent and piecewise polynomials of degree 5 on 12 segments are projected
     out; Whittle's likelihood gives an ARMA(1,1) of what is left. Bias of any amplitude that is smooth over a segment is
     gone with them; so are the low frequencies. (3) They come back, from the 12th half period of a record on, if they
-    agree with that ARMA(1,1) in every record, or else in those records where the others predict them: then noise and
-    only noise is there, and it is fitted with them. (4) Where the lowest band of the fit holds more than the fit says
-    (1/f), its own level counts. Quiet segments and replicates override (2) and (3). (5) A record whose noise would be
-    many times that of all others, though its neighbouring samples scatter as theirs, is given theirs.
+    agree with that ARMA(1,1) in every record: then noise and only noise is there, and it is fitted with them. Quiet
+    segments and replicates override (2) and (3).
 
     Parameters
     ----------
@@ -51,7 +48,7 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     prepared = [noise_evidence(record) for record in records]
     seen = [each for each in prepared if each.rough is not None]
     fits = iter(fit_spectra(seen, pool) if seen else ())
-    return of_one_rig([_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared])
+    return tuple(_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared)
 
 
 def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:

@@ -226,28 +226,14 @@ class NoiseSettings:
         ),
         unit="-",
         origin="chosen",
-        used_in="noise/low_frequencies.py",
-    )
-    level_errors: float = setting(
-        3.0,
-        "Standard errors by which a level must differ to be taken down.",
-        unit="standard errors",
-        origin="chosen",
-        used_in="noise/low_frequencies.py",
-    )
-    records_that_agree: float = setting(
-        0.75,
-        ("Part of the records that must agree with each other for their lower frequencies to be taken for noise."),
-        unit="-",
-        origin="chosen",
-        used_in="noise/low_frequencies.py",
+        used_in="noise/spectra.py",
     )
     lowest_coefficients: int = setting(
         12,
         "Coefficients next to the bias's own, where it would show first.",
         unit="coefficients",
         origin="chosen",
-        used_in="noise/low_frequencies.py",
+        used_in="noise/spectra.py",
     )
     prediction_error: float = setting(
         0.4,
@@ -257,17 +243,7 @@ class NoiseSettings:
         ),
         unit="-",
         origin="chosen",
-        used_in="noise/low_frequencies.py",
-    )
-    low_band: int = setting(
-        60,
-        (
-            "Coefficients of a record at the low end of what was fitted, whose level overrules the fit's "
-            "where it is higher."
-        ),
-        unit="coefficients",
-        origin="chosen",
-        used_in="noise/low_frequencies.py",
+        used_in="noise/spectra.py",
     )
     nuisance_drift_size: float = setting(
         0.6,
@@ -316,27 +292,6 @@ class NoiseSettings:
         unit="values",
         origin="chosen",
         used_in="noise/quantisation.py",
-    )
-    fewest_other_records: int = setting(
-        2,
-        "Other records that must agree.",
-        unit="records",
-        origin="chosen",
-        used_in="noise/same_rig.py",
-    )
-    neighbours_alike: float = setting(
-        1.5,
-        "Factor within which neighbouring samples scatter alike.",
-        unit="-",
-        origin="chosen",
-        used_in="noise/same_rig.py",
-    )
-    unlike_others: float = setting(
-        3.0,
-        ("Factor by which a record's noise is larger than that of all others, where it is not believed."),
-        unit="-",
-        origin="chosen",
-        used_in="noise/same_rig.py",
     )
     transient_segments: int = setting(
         4,

@@ -1,0 +1,70 @@
+"""Spectra of the noise: low frequencies count where every record agrees with its high ones; else a bias may be there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtrc
+
+from probation.noise.arma import Arma, ArmaFit, Periodogram, fit_arma
+from probation.settings.noise import NOISE
+
+if TYPE_CHECKING:
+    from probation.noise.evidence import NoiseEvidence
+
+
+@dataclass(frozen=True)
+class KnownSpectrum:
+    """Spectrum of one record's noise, with the variances of the logarithm of its level and of its shape."""
+
+    arma: Arma
+    level_variance: float
+    shape_variance: float
+
+
+def fit_spectra(prepared: list[NoiseEvidence], pool: bool) -> list[KnownSpectrum]:
+    """ARMA(1,1) of the rough part of the residuals; of the whole residuals where every record agrees with it."""
+    rough = [each.rough for each in prepared if each.rough is not None]
+    wholes = [own if each.whole is None else each.whole for each, own in zip(prepared, rough, strict=True)]
+    bottom = min(float(part.frequency.min()) for part in wholes)
+    groups = _groups(rough, bottom, pool)
+    if all(_agrees(wholes[i], rough[i], found, at) for group, found in groups for at, i in enumerate(group)):
+        groups = _groups(wholes, bottom, pool)
+    known = {
+        index: KnownSpectrum(found.models[at], found.level_variance[at], found.shape_variance)
+        for group, found in groups
+        for at, index in enumerate(group)
+    }
+    return [known[index] for index in range(len(prepared))]
+
+
+def _groups(parts: list[Periodogram], bottom: float, pool: bool) -> list[tuple[list[int], ArmaFit]]:
+    """One fit for all records where a shape of the spectrum for each earns no more than chance would, else one each."""
+    everyone = list(range(len(parts)))
+    if pool or len(parts) == 1:
+        shared = fit_arma(parts, bottom)
+        if len(parts) == 1:
+            return [(everyone, shared)]
+    alone = [fit_arma([part], bottom) for part in parts]
+    extra = 2.0 * (len(parts) - 1)  # chi-square: mean + 3 standard deviations
+    if pool and shared.deviance - sum(each.deviance for each in alone) <= extra + 3.0 * np.sqrt(2.0 * extra):
+        return [(everyone, shared)]
+    return [([index], each) for index, each in enumerate(alone)]
+
+
+def _agrees(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
+    """Whether a record's power below the rough part's frequencies, all of it and the lowest, is what the fit predicts.
+
+    A bias shows first at the lowest frequencies. Power beyond the prediction is allowed for 1.5 standard errors of the
+    logarithm of the predicted spectrum.
+    """
+    allowed = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
+    below = np.flatnonzero(whole.frequency < own.frequency.min())
+    for part in (below[: NOISE.lowest_coefficients], below):
+        weight = whole.weight[part]
+        power = float(np.sum(weight * whole.power[part] / found.models[at].spectrum(whole.frequency[part]))) / allowed
+        if part.size and float(chdtrc(float(np.sum(weight)), power)) < NOISE.agreement_level:
+            return False
+    return True
