@@ -319,18 +319,27 @@ class Search:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
         Beside a strong gap deviations of many standard deviations cost little, and the misfit counts only along what
-        they do not explain. A refit that leaves more than it began with, of specimens that were alike, begins anew
-        where a refit for such specimens ends, and stays there if it would leave more again.
+        they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
+        of specimens that differ would leave more. Elsewhere a refit of specimens that differ comes first.
         """
         problem, noises = self.base.problem.with_model(model), self.base.alike.noises
-        found = refit(problem, start, most_steps=steps)
-        if not self.base.scatter.any or not specimens_hold_the_gap(model, noises, start, found.parameters):
-            return found
+        if not self.base.scatter.any:
+            return refit(problem, start, most_steps=steps)
+        with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+            misfit = float(np.sum(problem.residual(start) ** 2))
+        if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
+            found = refit(problem, start, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, start, found.parameters):
+                return found
         alike = refit(problem.with_noises(noises), start, most_steps=steps).parameters
-        found = refit(problem, alike, most_steps=steps)
-        if specimens_hold_the_gap(model, noises, alike, found.parameters):
-            return refit(problem, alike, most_steps=0)
-        return found
+        begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
+        if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
+            if begun.steps < SEARCH.steps_apart:
+                return begun
+            found = refit(problem, begun.parameters, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, alike, found.parameters):
+                return found
+        return refit(problem, alike, most_steps=0)
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""

@@ -38,11 +38,11 @@ SETTLED = 1e-8
 GOOD_ENOUGH = 1e-5
 """What may be left at the end; beyond it there is no prediction: the start is a measurement."""
 
-ROUGHEST, FINEST = 0.1, 1e-3
+ROUGHEST, FINEST = 0.3, 1e-3
 """What a step that others follow may leave of what it is to remove: the first, and any of them (Eisenstat & Walker
 1996, choice 2)."""
 
-PATIENCE = 4
+PATIENCE = 3
 """Steps in which half of what was left must go; more than a force that is found takes for it."""
 
 HOPELESS = 1e6

@@ -78,8 +78,18 @@ class SearchSettings:
     )
     strong_gap: float = setting(
         100.0,
-        "Linearised gain from which on a gap is strong.",
+        "Linearised gain, or misfit beyond its expectation, from which on a gap is strong.",
         unit="log evidence",
+        origin="chosen",
+        used_in="diagnosis/search.py",
+    )
+    steps_apart: int = setting(
+        2,
+        (
+            "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
+            "shows whether their deviations hold a strong gap."
+        ),
+        unit="steps",
         origin="chosen",
         used_in="diagnosis/search.py",
     )
