@@ -1,4 +1,4 @@
-"""Spectra of the noise: low frequencies count where every record agrees with its high ones; else a bias may be there."""
+"""Spectra of the noise: low frequencies count where every record agrees with its high ones; else a bias may hide."""
 
 from __future__ import annotations
 
