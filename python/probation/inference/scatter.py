@@ -215,6 +215,8 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
     scale = np.sqrt((NOISE.scatter_prior_freedom - 2.0) / NOISE.scatter_prior_freedom)
 
     def log_density(logs: FloatArray) -> float:
+        if float(np.max(logs)) > np.log(NOISE.largest_scatter):
+            return -np.inf
         squares = np.exp(2.0 * logs)
         covariance = np.eye(len(seen)) + np.tensordot(squares, parts, axes=1)
         try:

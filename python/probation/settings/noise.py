@@ -345,6 +345,16 @@ class NoiseSettings:
         origin="chosen",
         used_in="inference/scatter.py",
     )
+    largest_scatter: float = setting(
+        3.0,
+        (
+            "Scatter of specimens over the assumed one, beyond which it is none: that replicates of one batch differ "
+            "by 6 % in E_u or 3 % in the section has another reason."
+        ),
+        unit="-",
+        origin="chosen",
+        used_in="inference/scatter.py",
+    )
     scatter_prior_freedom: int = setting(
         4,
         ("Of the half-Student prior of a standard deviation (Gelman 2006): the fewest that have a variance."),
