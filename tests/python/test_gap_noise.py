@@ -176,10 +176,10 @@ def test_smooth_strain_noise_is_whitened_with_the_rest():
     """Covariance C + A A^T, by dense algebra: W (C + A A^T) W^T = 1."""
     record = gap_noise.records("white", rng(14), count=200)[0]
     slope = 5.0 * np.exp(record.true_strain)  # MPa per unit of strain
-    carried = 0.02 * slope[:, None] * waves(200, 12)
-    noise = estimate_noise([replace(record, carried=carried)])[0]
+    propagated = 0.02 * slope[:, None] * waves(200, 12)
+    noise = estimate_noise([replace(record, propagated=propagated)])[0]
     whitener = noise.whiten(np.eye(200))
-    covariance = np.diag((noise.arma.innovation * noise.profile) ** 2) + carried @ carried.T
+    covariance = np.diag((noise.arma.innovation * noise.profile) ** 2) + propagated @ propagated.T
     assert noise.arma.phi == 0.0
     assert_allclose(whitener @ covariance @ whitener.T, np.eye(200), atol=1e-8)
     assert noise.simulate(rng(15), 4000).std(axis=0) == pytest.approx(noise.deviation, rel=0.08)

@@ -58,15 +58,18 @@ def errors(answer):
 def test_whitening_is_the_inverse_root_of_the_covariance(directions, correlation):
     """Sigma = s^2 rho^|i - j| + C C^T, written out; the strain errors are C^T Sigma^-1 r."""
     random = np.random.default_rng(1)
-    carried = random.normal(size=(60, directions))
+    propagated = random.normal(size=(60, directions))
     arma = Arma(phi=correlation, innovation=0.3 * np.sqrt(1.0 - correlation**2))
-    noise = NoiseModel.stationary("x", arma, 60).with_carried(carried)
+    noise = NoiseModel.stationary("x", arma, 60).with_propagated(propagated)
     order = np.arange(60)
-    sigma = 0.09 * (correlation ** np.abs(order[:, None] - order) if correlation else np.eye(60)) + carried @ carried.T
+    sigma = (
+        0.09 * (correlation ** np.abs(order[:, None] - order) if correlation else np.eye(60))
+        + propagated @ propagated.T
+    )
     root = noise.whiten(np.eye(60))
     assert_allclose(root.T @ root, np.linalg.inv(sigma), atol=1e-9)
     residual = random.normal(size=60)
-    expected = carried.T @ np.linalg.solve(sigma, residual)
+    expected = propagated.T @ np.linalg.solve(sigma, residual)
     assert_allclose(noise.strain_errors(residual), expected, rtol=1e-8, atol=1e-9)
     assert noise.correlation == pytest.approx(correlation)
     assert noise.log_determinant == pytest.approx(np.linalg.slogdet(sigma)[1])
@@ -76,27 +79,27 @@ def test_whitening_is_the_inverse_root_of_the_covariance(directions, correlation
 def test_the_level_of_stress_noise_beside_strain_noise_of_known_size_is_that_of_restricted_likelihood(directions):
     """A tenth of the criterion's own curvature: the search's step; and the truth within what 50 samples know."""
     random = np.random.default_rng(4)
-    tangent, carried = random.normal(size=(50, 2)), 0.5 * random.normal(size=(50, directions))
-    residual = 0.3 * random.normal(size=50) + carried @ random.normal(size=directions)
+    tangent, propagated = random.normal(size=(50, 2)), 0.5 * random.normal(size=(50, directions))
+    residual = 0.3 * random.normal(size=50) + propagated @ random.normal(size=directions)
 
     def criterion(level):
-        sigma = level**2 * np.eye(50) + carried @ carried.T
+        sigma = level**2 * np.eye(50) + propagated @ propagated.T
         inverse = np.linalg.inv(sigma)
         information = tangent.T @ inverse @ tangent
         left = inverse - inverse @ tangent @ np.linalg.solve(information, tangent.T @ inverse)
         return np.linalg.slogdet(sigma)[1] + np.linalg.slogdet(information)[1] + residual @ left @ residual
 
-    found = white_level(residual, tangent, carried, 0.5)
+    found = white_level(residual, tangent, propagated, 0.5)
     assert criterion(found) <= min(criterion(0.97 * found), criterion(1.03 * found))
     assert 0.1 < found < 0.7
 
 
 @pytest.mark.parametrize("method", ["raw", "spline"])
-def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(method):
+def test_propagated_noise_is_the_covariance_of_the_stress_that_strain_errors_make(method):
     """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
-    carried = StrainNoise.of(excitation, "sa3").carried(LAW)
+    propagated = StrainNoise.of(excitation, "sa3").propagated(LAW)
     strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
     columns = []
     for at in range(100):
@@ -116,7 +119,7 @@ def test_carried_noise_is_the_covariance_of_the_stress_that_strain_errors_make(m
         ]
         columns.append((sides[0] - sides[1]) / 2e-6)
     expected = 1e-8 * np.array(columns).T @ np.array(columns)
-    assert_allclose(carried @ carried.T, expected, atol=1e-4 * np.abs(expected).max())
+    assert_allclose(propagated @ propagated.T, expected, atol=1e-4 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("method", ["raw", "spline"])

@@ -91,7 +91,7 @@ def change_noise(
     free = np.zeros((len(view), len(undecided)))
     free[undecided, np.arange(len(undecided))] = float(np.max(np.abs(view.data)))
     slow = free if own.drift is None else np.hstack([own.drift, free])
-    return replace(own, carried=np.hstack([own.carried, *columns]), drift=slow, outliers=tuple(undecided))
+    return replace(own, propagated=np.hstack([own.propagated, *columns]), drift=slow, outliers=tuple(undecided))
 
 
 def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.bool_]:

@@ -224,7 +224,7 @@ def plan(
     views = views_of(campaign, excitations=excitations, scheme=SCHEME)
     model = CampaignModel(DnlrLaw(law, held), views)
     noises = [
-        replace(white, carried=propagated(excitations[view.id], law, SCHEME))
+        replace(white, propagated=propagated(excitations[view.id], law, SCHEME))
         for view, white in zip(views, white_noise(views, list(stress_noise.values())), strict=True)
     ]
     # How well its parameters will be known.

@@ -114,4 +114,4 @@ def propagated(excitation: Excitation, law: Law, scheme: SchemeName) -> FloatArr
     """Factor A of the stress covariance A A^T that the noise of the strain makes, (n_samples, n_directions) [MPa]."""
     if not excitation.strain_noise:
         return np.zeros((len(excitation.time), 0))
-    return StrainNoise.of(excitation, scheme).carried(law)
+    return StrainNoise.of(excitation, scheme).propagated(law)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
-    """The same with a residual of base parameters that were fitted beside the places that disturb the fit most.
+    """The same with a residual of base parameters that were fitted without the places that disturb the fit most.
 
     Places are taken one by one, as long as what all others leave becomes that much more like noise.
 

@@ -46,7 +46,7 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
     """Bumps at one strain that several records share, the least probable first.
 
     What each record's residual holds of a bump, slow waves and its own refit projected out, is added up over the
-    records and held against what they hold elsewhere beside it (Student's t): a noise whose level or colour is taken
+    records and compared with what they hold elsewhere (Student's t): a noise whose level or colour is taken
     wrongly is the same everywhere, but what a material does at one strain it does in every test.
 
     Parameters
@@ -113,9 +113,9 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
     squares, count, freedom = 0.0, 0, 0.0
     for share in shares.values():
         norm = np.sqrt(np.diag(share.alike)[share.seen])
-        beside = (share.along - along[at] / alike[at, at] * share.alike[:, at])[share.seen] / norm
+        rest = (share.along - along[at] / alike[at, at] * share.alike[:, at])[share.seen] / norm
         cosines = share.alike[np.ix_(share.seen, share.seen)] / np.outer(norm, norm)
-        squares += float(beside @ beside)
+        squares += float(rest @ rest)
         count += len(norm)
         freedom += len(norm) ** 2 / float(np.sum(cosines**2))
     loud = max(float(np.sqrt(squares / count)), 1.0)

@@ -44,7 +44,7 @@ class EffectShare:
         Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
         in which its effects can be added (Shapley 1953). 0 for an effect that is not in it.
     alone, beside : float or None
-        What it closes alone, and beside all others of the best explanation; None if it is not in it.
+        What it closes alone, and in addition to all others of the best explanation; None if it is not in it.
     records : tuple of str
         Ids of those that it touches.
     named : bool

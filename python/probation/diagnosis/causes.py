@@ -74,7 +74,7 @@ class Causes:
         return self.weighed[0].hypothesis
 
     def with_unknown_beside(self) -> Causes:
-        """The best explanation led by itself with an unknown effect beside, which keeps its checks."""
+        """The best explanation with its checks, also where it leads only together with an unknown effect."""
         known = self.weighed[0].effects
         kept = dict(self.checks)
         if known in kept:

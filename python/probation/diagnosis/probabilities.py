@@ -196,11 +196,11 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
 
 def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Where a gap is left after the best explanation, most of its probability goes to it jointly with an unknown."""
-    best, beside = weighed[0], with_unknown(weighed[0].effects)
+    best, extended = weighed[0], with_unknown(weighed[0].effects)
     moved = EVIDENCE.left_to_an_unknown * best.probability
-    known = next((each.probability for each in weighed if each.effects == beside), 0.0)
-    changed = [replace(best, probability=best.probability - moved), Weighed(beside, known + moved, best.hypothesis)]
-    return normalised([*changed, *(each for each in weighed[1:] if each.effects != beside)])
+    known = next((each.probability for each in weighed if each.effects == extended), 0.0)
+    changed = [replace(best, probability=best.probability - moved), Weighed(extended, known + moved, best.hypothesis)]
+    return normalised([*changed, *(each for each in weighed[1:] if each.effects != extended)])
 
 
 def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
@@ -248,7 +248,7 @@ def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) 
 
 
 def _log_odds(hypothesis: Hypothesis) -> float:
-    """Log odds of its effects beside those of usual ones, each effect once."""
+    """Log odds of its effects relative to those of usual ones, each effect once."""
     odds = {cause.effect.name: cause.effect.odds for cause in hypothesis.causes}
     return sum(log(each) for each in odds.values())
 

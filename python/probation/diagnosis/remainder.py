@@ -40,7 +40,7 @@ PARTS = 8
 """Contiguous parts of a record that are left out one by one where whole records cannot be."""
 
 ROUNDS = 3
-"""Times that the law is linearised, each beside the best function of the round before: a gap bends its parameters."""
+"""Linearisations of the law, each jointly with the best function of the one before: a gap biases its parameters."""
 
 CERTAIN = 4.0
 """Standard errors of the noise's mean square by which what is left must exceed it."""
@@ -174,7 +174,7 @@ class FreeFunction:
     dependence : Dependence
     term : _Term
     found : Refit
-        The explanation beside which it stands.
+        The explanation that leaves it.
     parameters : ndarray, shape (p,)
         Of law and explanation, refitted.
     coefficients : ndarray, shape (size,)
@@ -311,9 +311,9 @@ def _terms(variables: Sequence[Variable], problem: _Problem) -> Iterator[_Term]:
 
 
 class _Problem:
-    """What is left beside what refitted parameters follow, linearised at some parameters.
+    """What refitted parameters cannot follow, linearised at some parameters.
 
-    Samples are weighed by the noise's standard deviation alone: beside a gap the noise's slow part is not known.
+    Samples are weighed by the noise's standard deviation alone: where a gap is, the noise's slow part is not known.
     """
 
     def __init__(
@@ -344,7 +344,7 @@ class _Problem:
         }
 
     def with_function(self, term: _Term) -> FloatArray:
-        """Parameters of the explanation refitted beside a function, to first order."""
+        """Parameters of the explanation refitted jointly with a function, to first order."""
         solved = self._beside(term)[: self._count]
         coordinates = self._found.coordinates
         moved = np.clip(coordinates.of(self._parameters) + solved, coordinates.bounds.lower, coordinates.bounds.upper)

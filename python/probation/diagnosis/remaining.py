@@ -43,4 +43,4 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
     rest = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
     allowed = np.hstack([rest, error * form_columns(found, base.whitener)])
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
-    return GapTester(base.whitened.beside(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
+    return GapTester(base.whitened.with_residual(both[:, 0], both[:, 1:]), size=2000, seed=seed)()

@@ -74,7 +74,7 @@ class CauseParameter:
 
 @dataclass(frozen=True)
 class Checks:
-    """What speaks for or against an explanation beside its probability.
+    """What speaks for or against an explanation in addition to its probability.
 
     Attributes
     ----------
@@ -239,7 +239,7 @@ class Diagnosis(Result, Stored):
     held_out : dict of str to HeldOutGap
         Of every record that was only predicted.
     size : GapSize
-        Of the gap where it is largest beside the stress.
+        Of the gap where it is largest relative to the stress.
     scatter : Scatter or None
         How far specimens differ: estimated, assumed or stated.
     hangs_on_scatter : bool

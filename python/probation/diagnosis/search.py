@@ -194,7 +194,7 @@ class Search:
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis) -> None:
-        """One more cause beside those of a hypothesis."""
+        """One more cause jointly with those of a hypothesis."""
         if self.budget.spent():
             self.skipping.part(f"a further effect beside {' and '.join(leading.effects)}", self.budget.why)
             return
@@ -223,7 +223,7 @@ class Search:
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
-        left = self.base.whitened.beside(before.residual, before.jacobian)
+        left = self.base.whitened.with_residual(before.residual, before.jacobian)
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left, size=500)}
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)

@@ -42,7 +42,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     whitened, names = base.whitened, base.law.parameter_names
     left = whitened
     if all(cause.form.sharp is None for cause in best.causes):
-        left = whitened.beside(best.refit.residual, best.refit.jacobian)
+        left = whitened.with_residual(best.refit.residual, best.refit.jacobian)
     for line in find_lines(left):
         if line.p_value < DETECTION.signature_level:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"

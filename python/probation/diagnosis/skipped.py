@@ -71,7 +71,7 @@ class Skipping:
     def entries(self, found: Sequence[Hypothesis]) -> tuple[Skipped, ...]:
         """What was left out, without the hypotheses that were solved from another start.
 
-        A combination is not listed beside an effect of it that is.
+        A combination is not listed where one of its effects is.
 
         Parameters
         ----------

@@ -97,7 +97,7 @@ class EffectParameter:
         return float(np.exp(coordinate)) if self.log else float(coordinate)
 
     def step(self, value: float) -> float:
-        """Step of a difference quotient around a value: small beside the prior, large beside rounding."""
+        """Step of a difference quotient around a value: small against the prior, large against rounding."""
         if self.log:
             return 1e-5 * value
         return 1e-4 * self.scale if np.isfinite(self.scale) else 1e-5 * (self.upper - self.lower)

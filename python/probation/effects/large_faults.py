@@ -43,7 +43,7 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
     ----------
     effects : iterable of Effect
     views : sequence of RecordView
-        Of the records: a fault is large beside their forces and elongations.
+        Of the records: a fault is large relative to their forces and elongations.
     """
     size = _Size.of(views)
     return tuple(

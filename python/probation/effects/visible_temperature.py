@@ -58,7 +58,7 @@ def work_so_far(view: RecordView) -> FloatArray:
 
 
 def measured_beside_work(view: RecordView) -> str:
-    """One sentence on a measured rise beside what the work could do; empty where nothing was measured."""
+    """One sentence that compares a measured rise with what the work could do; empty where nothing was measured."""
     rise = view.measured_rise
     if rise is None:
         return ""

@@ -74,7 +74,7 @@ def bias_of(
     time: FloatArray,
     true_strain: FloatArray,
     long_run: float | FloatArray,
-    carried: FloatArray | None = None,
+    propagated: FloatArray | None = None,
 ) -> Bias:
     """Size and place of the low-frequency part.
 
@@ -84,7 +84,7 @@ def bias_of(
     long_run : float or ndarray, shape (n_times,)
         What sqrt(m) times the mean of m neighbouring samples of the noise scatters by [MPa]: of white noise its
         standard deviation.
-    carried : ndarray, shape (n_times, n_directions), or None
+    propagated : ndarray, shape (n_times, n_directions), or None
         Strain noise as stress [MPa], as in `NoiseModel`.
     """
     low = low_frequency(residual)
@@ -95,8 +95,8 @@ def bias_of(
     if not short:  # near an end the parabola is held by one side only
         deviation[: window // 2] *= 2.0
         deviation[-(window // 2) :] *= 2.0
-        if carried is not None and carried.shape[1]:
-            deviation = np.hypot(deviation, np.linalg.norm(moving_parabola(carried, window), axis=1))
+        if propagated is not None and propagated.shape[1]:
+            deviation = np.hypot(deviation, np.linalg.norm(moving_parabola(propagated, window), axis=1))
     threshold = CERTIFICATE.bias_significant * deviation
     stands_out = np.abs(low) > threshold
     at = int(np.argmax(np.where(stands_out, np.abs(low), 0.0) if stands_out.any() else np.abs(low)))

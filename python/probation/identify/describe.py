@@ -151,7 +151,7 @@ def _record_fit(view: RecordView, law: Law, noise: NoiseModel) -> RecordFit:
     if not noise.plain and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
         deviation = float(np.sqrt(np.mean(residual**2)))
     long_run = deviation if noise.plain else noise.long_run
-    bias = bias_of(residual, record.time, record.true_strain, long_run, noise.carried)
+    bias = bias_of(residual, record.time, record.true_strain, long_run, noise.propagated)
     return RecordFit(
         record.id,
         record.time,

@@ -36,10 +36,10 @@ def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatA
         Standard errors without strain noise.
     """
     if noise.strain is None:  # as many directions as samples: a few draws tell whether they are worth it
-        carried = noise.probed(law, 8)
-        moved = np.sqrt(np.mean((gain @ carried) ** 2, axis=1))
+        propagated = noise.probed(law, 8)
+        moved = np.sqrt(np.mean((gain @ propagated) ** 2, axis=1))
     else:
-        moved = np.linalg.norm(gain @ noise.carried(law), axis=1)
+        moved = np.linalg.norm(gain @ noise.propagated(law), axis=1)
     share: FloatArray = np.divide(moved, error, out=np.full_like(moved, np.inf), where=error > 0.0)
     return share
 
@@ -64,14 +64,14 @@ def resampled(view: RecordView, law: Law, gain: FloatArray, method: ExcitationMe
 def strain_noise_warnings(views: Sequence[RecordView], law: Law) -> list[str]:
     """Where strain noise, propagated to the stress by the hardening, is not small beside the rest of the residual."""
     return [
-        f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {carried:.2g} MPa at the "
+        f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {propagated:.2g} MPa at the "
         f"largest strain; the standard errors, that of {SYMBOLS['hardening_modulus']} above all, do not include it"
         for each in views
-        if (carried := carried_at_end(each, law)) > CERTIFICATE.strain_noise_matters * left_over(each, law)
+        if (propagated := propagated_at_end(each, law)) > CERTIFICATE.strain_noise_matters * left_over(each, law)
     ]
 
 
-def carried_at_end(view: RecordView, law: Law) -> float:
+def propagated_at_end(view: RecordView, law: Law) -> float:
     """Stress that the noise of one strain sample makes through the hardening at the largest strain [MPa]."""
     end = float(np.max(np.abs(view.record.true_strain)))
     slope = law.hardening_modulus * (2.0 * np.exp(2.0 * end) + np.exp(-end))  # G d e_HT / d e, eq. (3)

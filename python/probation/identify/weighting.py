@@ -15,7 +15,7 @@ import numpy as np
 from probation.identify.bias import low_frequency
 from probation.identify.covariance import Covariance, covariance, noise_widening
 from probation.identify.search import by_least_squares, first_guess
-from probation.identify.strain_noise import carried_at_end, left_over, resampled, share_of_error
+from probation.identify.strain_noise import left_over, propagated_at_end, resampled, share_of_error
 from probation.inference.residual_noise import with_residual_noise
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.settings.certificate import CERTIFICATE
@@ -155,7 +155,7 @@ def _strain_noises(
     for view, gain in zip(problem.views, gains, strict=True):
         if len(view.record) > LARGEST:
             found.append(None)
-            if carried_at_end(view, law) > 0.3 * CERTIFICATE.strain_noise_matters * left_over(view, law):
+            if propagated_at_end(view, law) > 0.3 * CERTIFICATE.strain_noise_matters * left_over(view, law):
                 moved = resampled(view, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue

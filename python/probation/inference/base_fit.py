@@ -248,7 +248,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
                 raw[part],
                 jacobian[part],
                 given_noise=view.record.noise.stress_MPa,
-                carried=propagated_noise(law, view, parameters),
+                propagated=propagated_noise(law, view, parameters),
             )
             for view, part in model.parts
         ]

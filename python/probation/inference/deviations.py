@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from probation.inference.protocol import GapLaw
 
 AREA, START = "area", "strain_offset"
-"""What differs beside the law's parameters: the section, and the strain at which the specimen begins to be strained."""
+"""What else differs from specimen to specimen: the section, and the strain at which the specimen is first loaded."""
 
 _KNOWN = {
     "unrelaxed_modulus_MPa": "unrelaxed_modulus",

@@ -112,9 +112,9 @@ def evidence(
     size = form_error if form_error >= NEGLIGIBLE else 0.0
     problem, variances = with_error(size)
     covariance = problem.covariance(variances)
-    beside = (
+    with_unknown = (
         log_evidence_of_unknown(problem, found, discrepancy, None if forms is None or size == 0.0 else size * forms)
         if unknown
         else -np.inf
     )
-    return Evidence(together, form_error, beside, covariance, exact)
+    return Evidence(together, form_error, with_unknown, covariance, exact)

@@ -164,7 +164,7 @@ class Gap:
 
     @property
     def size(self) -> GapSize:
-        """Of the record in which it is largest beside the stress, among the fitted ones and those that are missed.
+        """Of the record in which it is largest relative to the stress, among the fitted ones and those that are missed.
 
         Where there is no gap it is that of a fitted record, and what a gap might have that was not seen.
         """
@@ -217,7 +217,7 @@ def find_gap(
     base : BaseFit
         With the signals of these effects, `BaseFit.screened`.
     effects : sequence of Effect
-        Directions in which a gap is looked for, beside smooth waves and what is sharp.
+        Further directions in which a gap is looked for: smooth waves, lines and steps are always among them.
     predicted : bool
         Whether to test the predictions, too.
     threads, seed : int
@@ -271,8 +271,8 @@ def _drifting(noise: NoiseModel) -> NoiseModel:
 
 def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:
     """A record's own noise: without what parameters and specimens do to its prediction."""
-    carried = np.zeros((len(record), 0)) if record.carried is None else record.carried
-    return replace(noise, carried=carried, specimen=None)
+    propagated = np.zeros((len(record), 0)) if record.propagated is None else record.propagated
+    return replace(noise, propagated=propagated, specimen=None)
 
 
 def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseModel, ...]]:
@@ -285,7 +285,7 @@ def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseM
     root = directions * np.sqrt(np.maximum(spread, 0.0))
     records = tuple(replace(each, tangent=np.zeros((len(each), root.shape[0]))) for each in base.held_out)
     noises = tuple(
-        replace(noise, carried=np.hstack([noise.carried, each.tangent @ root]))
+        replace(noise, propagated=np.hstack([noise.propagated, each.tangent @ root]))
         for each, noise in zip(base.held_out, base.held_out_noises, strict=True)
     )
     return records, noises
@@ -296,13 +296,13 @@ def _size(error: FloatArray, noise: NoiseModel, stress: float) -> GapSize:
     count = len(error)
     floor = noise.deviation**2
     gap = float(np.mean(error**2 - floor))
-    rough = float(np.mean(floor - np.sum(noise.carried**2, axis=1)))
+    rough = float(np.mean(floor - np.sum(noise.propagated**2, axis=1)))
     level = noise.level_variance + noise.shape_variance
     # Of the noise's own mean square, of its level, and of its product with the gap.
     variance = rough**2 * (2.0 * noise.square_inflation / count + level)
     variance += 4.0 * max(gap, 0.0) * rough * noise.slow_inflation / count
-    variance += 2.0 * float(np.sum((noise.carried.T @ noise.carried) ** 2)) / count**2
-    variance += 4.0 * float(np.sum((noise.carried.T @ error) ** 2)) / count**2
+    variance += 2.0 * float(np.sum((noise.propagated.T @ noise.propagated) ** 2)) / count**2
+    variance += 4.0 * float(np.sum((noise.propagated.T @ error) ** 2)) / count**2
     low, high = (np.sqrt(max(gap + side * TWO_SIDED * np.sqrt(variance), 0.0)) for side in (-1.0, 1.0))
     return GapSize(noise.name, float(np.sqrt(max(gap, 0.0))), (float(low), float(high)), stress)
 

@@ -248,7 +248,7 @@ class CampaignModel:
             stress = _as_recorded(view, here, specimen.stress)
             residual[rows] = view.sampled(stress) - view.data
             assert specimen.sensitivity is not None
-            jacobian[rows, : self.base_count] = view.sampled(_carried(view, here, specimen))
+            jacobian[rows, : self.base_count] = view.sampled(_recorded_sensitivity(view, here, specimen))
             column = self.base_count
             for index, (each, values) in enumerate(causes):
                 for position in range(len(values)):
@@ -363,16 +363,16 @@ def _as_recorded(view: RecordView, causes: CauseValues, stress: FloatArray) -> F
     return stress
 
 
-def _carried(view: RecordView, causes: CauseValues, specimen: Specimen) -> FloatArray:
+def _recorded_sensitivity(view: RecordView, causes: CauseValues, specimen: Specimen) -> FloatArray:
     """Sensitivities through the force channel, shape (n, n_base)."""
     slopes = specimen.sensitivity
     assert slopes is not None
     if all(each.form.recorded_stress is None for each, _ in causes):
         return slopes
-    carried = np.empty_like(slopes)
+    recorded = np.empty_like(slopes)
     for k, slope in enumerate(slopes.T):
         step = _PROBE / max(float(np.max(np.abs(slope))), 1e-300)
         up = _as_recorded(view, causes, specimen.stress + step * slope)
         down = _as_recorded(view, causes, specimen.stress - step * slope)
-        carried[:, k] = (up - down) / (2.0 * step)
-    return carried
+        recorded[:, k] = (up - down) / (2.0 * step)
+    return recorded

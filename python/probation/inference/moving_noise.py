@@ -43,7 +43,7 @@ class MovingNoise:
             while len(self._made) >= KEPT:
                 del self._made[next(iter(self._made))]
             noises = (
-                noise if own is None else noise.with_carried(own.carried(law))
+                noise if own is None else noise.with_propagated(own.propagated(law))
                 for noise, own in zip(self.still.noises, self.strain, strict=True)
             )
             self._made[key] = Whitener(tuple(noises))

@@ -1,4 +1,4 @@
-"""The force in a test whose own force hands strain back: a frame that gives way beside the specimen.
+"""The force in a test whose frame is elastic: the force takes a part of the strain away from the specimen.
 
 The recorded force would do as well were it not for its noise: a large compliance makes of it a strain of the specimen,
 which is stiffer than the frame by far, so that the prediction has the noise many times over, and most of it at the
@@ -30,7 +30,7 @@ PARTS = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Parts of a step that are tried; the last is taken as it is."""
 
 LOOK = 8
-"""Directions after which it is looked whether they are enough."""
+"""Directions between two tests of whether they are enough."""
 
 SETTLED = 1e-8
 """Step at which the force is found, and what a step may leave of what it is to remove; of the largest force."""

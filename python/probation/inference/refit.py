@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 15
 SETTLED = 0.02
-"""A step that would lower the objective by less than this ends a search: little beside what noise does to it."""
+"""A step that would lower the objective by less than this ends a search: it is small against what noise does to it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,7 +31,7 @@ def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequen
     """The problem with every record's noise: that of its stress from its residual, that of its strain as it is known.
 
     The estimate is `noise.estimate_noise`, as in a diagnosis. It is kept where the residual is white by it; else a bias
-    hides the noise, and stress noise is white, of the size that the residual has beside the strain's. The noise of a
+    hides the noise, and stress noise is white, of the size that the residual has besides the strain's. The noise of a
     strain taken as measured is as rough as that of the stress: the residual tells the size of both together.
 
     Parameters
@@ -49,7 +49,7 @@ def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequen
             raw[rows],
             jacobian[rows],
             given_noise=view.record.noise.stress_MPa,
-            carried=None if own is None else own.carried(problem.law_at(parameters)),
+            propagated=None if own is None else own.propagated(problem.law_at(parameters)),
         )
         for (view, rows), own in zip(problem.model.parts, strain, strict=True)
     ]
@@ -60,16 +60,16 @@ def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequen
     for index, (each, own) in enumerate(zip(residuals, strain, strict=True)):
         known = problem.views[index].stress_noise
         if own is not None and own.strain is None:
-            left = _white(each, known).with_carried(each.carried).whiten(each.residual)
+            left = _white(each, known).with_propagated(each.propagated).whiten(each.residual)
             factor = float(np.sqrt(left @ left / max(len(left) - each.tangent.shape[1], 1)))
             noises.append(_white(each, factor * known))
             strains[index] = replace(own, deviation=factor * own.deviation)
             continue
         model = estimated.get(index)
         if model is None or not is_white(model.whiten(without_outliers(each.residual, model.outliers))):
-            level = white_level(each.residual, each.tangent, each.carried, known)
+            level = white_level(each.residual, each.tangent, each.propagated, known)
             model = _white(each, max(level, each.given_noise or 0.0))
-        noises.append(model.with_carried(None))
+        noises.append(model.with_propagated(None))
     return problem.with_noises(noises, strains)
 
 

@@ -55,7 +55,7 @@ def screen(
 ) -> list[Column]:
     """Columns of every effect, form, placement and start, on top of the model as it is.
 
-    Effects that the law cannot follow, or not beside those of the model, are left out; see
+    Effects that the law cannot follow, alone or together with those of the model, are left out; see
     `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show, and those with
     which it cannot be solved.
 

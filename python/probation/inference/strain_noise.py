@@ -61,7 +61,7 @@ class StrainNoise:
             return cls(solver, _deviation(excitation), None, None)
         return cls(solver, _deviation(excitation), *_directions(excitation, operator, rate))
 
-    def carried(self, law: Law) -> FloatArray:
+    def propagated(self, law: Law) -> FloatArray:
         """Stress made by each unit error, shape (n_times, n_directions) [MPa]."""
         key = law.parameters.tobytes()
         if key not in self._made:
@@ -77,7 +77,7 @@ class StrainNoise:
     def leading(self, law: Law) -> FloatArray:
         """The same; of a strain as measured the error of its first sample alone, shape (n_times, 1) [MPa]."""
         if self.strain is not None:
-            return self.carried(law)
+            return self.propagated(law)
         first = np.zeros((len(self.solver.history), 1))
         first[0] = 1.0
         return self.deviation * self._tangents(law, first, None)

@@ -43,7 +43,7 @@ def log_evidence_of_unknown(
         Ways in which its forms may be wrong.
     """
     nothing = np.zeros(len(discrepancy))
-    problem = _where_it_is(linearised)
+    problem = _around_the_optimum(linearised)
     count = len(discrepancy.spectrum)
     waves = problem.waves_of_residual
     left = np.array(
@@ -64,9 +64,9 @@ def log_evidence_of_unknown(
     return float(logsumexp(scores)) + linearised.log_integral(nothing) - problem.log_integral(nothing)
 
 
-def _where_it_is(problem: Linearised) -> Linearised:
+def _around_the_optimum(problem: Linearised) -> Linearised:
     """The same with priors as broad as they are, but around the optimum."""
-    # An unknown effect must earn by what it describes, not by making a large effect beside it small.
+    # An unknown effect gains by what it describes, not by making a large effect in the same model small.
     return replace(problem, away=np.zeros_like(problem.away))
 
 
@@ -84,13 +84,13 @@ def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, col
     # What the law's own parameters, of flat priors, can follow is free; left in, it would cost digits.
     columns = without(columns, span_of(found.jacobian[:, : found.model.base_count]))
     together = columns if forms is None else np.hstack([forms, columns])
-    beside = _where_it_is(Linearised.of(found, discrepancy, together))
-    nothing = np.zeros(len(beside.waves_of_residual))
+    jointly = _around_the_optimum(Linearised.of(found, discrepancy, together))
+    nothing = np.zeros(len(jointly.waves_of_residual))
     scores = []
     for size in SIZES:
-        precision = beside.precision.copy()
+        precision = jointly.precision.copy()
         precision[-count:] = 1.0 / size
-        sized = replace(beside, precision=precision, log_prior=beside.log_prior - 0.5 * count * float(np.log(size)))
+        sized = replace(jointly, precision=precision, log_prior=jointly.log_prior - 0.5 * count * float(np.log(size)))
         scores.append(sized.log_integral(nothing))
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 

@@ -19,7 +19,7 @@ def residual_of(
     tangent: FloatArray,
     *,
     given_noise: float | None = None,
-    carried: FloatArray | None = None,
+    propagated: FloatArray | None = None,
 ) -> RecordResidual:
     """One record at one fit.
 
@@ -29,7 +29,7 @@ def residual_of(
     residual : ndarray, shape (n_samples,) [MPa]
         Model minus data.
     tangent : ndarray, shape (n_samples, p)
-    given_noise, carried
+    given_noise, propagated
         As in `RecordResidual`.
     """
     # With its sign, 0 in a dwell.
@@ -44,6 +44,6 @@ def residual_of(
         jumps=tuple(jump // view.stride for jump in view.jumps),
         measured=view.data,
         given_noise=given_noise,
-        carried=carried,
+        propagated=propagated,
         specimen_id=view.specimen_id,
     )

@@ -268,7 +268,7 @@ def _deviance(binned: list[Periodogram], shape: FloatArray) -> FloatArray:
 
 
 def _shape_variance(binned: list[Periodogram], best: tuple[float, float]) -> float:
-    """Variance of log S(0) by Fisher's information of (phi, theta), levels profiled out; 2 % beside white noise."""
+    """Variance of log S(0) by Fisher's information of (phi, theta), levels profiled out; 2 % added for white noise."""
     phi, theta = best
 
     def slopes(frequency: FloatArray) -> FloatArray:

@@ -66,7 +66,7 @@ def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
         float(arma.deviation),
         each.white,
         each.quantum,
-        _carried(each.record),
+        _propagated(each.record),
         known.level_variance,
         known.shape_variance,
         each.outliers,
@@ -91,7 +91,7 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
         level,
         each.white,
         each.quantum,
-        _carried(record),
+        _propagated(record),
         0.0 if record.given_noise else 5.0 / len(record),
         0.0,
         each.outliers,
@@ -101,5 +101,5 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
     )
 
 
-def _carried(record: RecordResidual) -> FloatArray:
-    return np.zeros((len(record), 0)) if record.carried is None else record.carried
+def _propagated(record: RecordResidual) -> FloatArray:
+    return np.zeros((len(record), 0)) if record.propagated is None else record.propagated

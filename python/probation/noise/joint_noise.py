@@ -38,7 +38,7 @@ class Root(Protocol):
 
 
 def joint_root(more: FloatArray) -> Root:
-    """For noise U (n, k) beside white noise: by its few directions, else by Cholesky's factor."""
+    """For noise U (n, k) added to white noise: by its few directions, else by Cholesky's factor."""
     return _Few(more) if 3 * more.shape[1] < len(more) else _Full(more)
 
 

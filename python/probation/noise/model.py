@@ -20,7 +20,7 @@ Growth = Literal["constant", "force", "local"]
 
 @dataclass(frozen=True, eq=False)
 class NoiseModel:
-    """x = profile * ARMA(1,1) + carried * N(0, 1) + drift * N(0, 1); docs/diagnosis-method.md, section 1.
+    """x = profile * ARMA(1,1) + propagated * N(0, 1) + drift * N(0, 1); docs/diagnosis-method.md, section 1.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class NoiseModel:
         By robust differences [MPa]; below `sigma` where the noise is correlated or comes in bursts.
     quantum : float
         Step of the readings [MPa or as the force over its area], 0 if there is none.
-    carried : ndarray, shape (n, k) [MPa]
+    propagated : ndarray, shape (n, k) [MPa]
         Stress noise that independent unit errors of the strain make; k may be 0.
     level_variance, shape_variance : float
         Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
@@ -66,7 +66,7 @@ class NoiseModel:
     sigma: float
     white: float
     quantum: float
-    carried: FloatArray
+    propagated: FloatArray
     level_variance: float
     shape_variance: float
     outliers: tuple[int, ...]
@@ -87,7 +87,7 @@ class NoiseModel:
             sigma=arma.deviation,
             white=arma.innovation,
             quantum=0.0,
-            carried=np.zeros((count, 0)),
+            propagated=np.zeros((count, 0)),
             level_variance=0.0,
             shape_variance=0.0,
             outliers=(),
@@ -111,17 +111,17 @@ class NoiseModel:
     @property
     def carries_strain(self) -> bool:
         """Whether it has strain noise, as the law propagates it."""
-        return bool(self.carried.shape[1])
+        return bool(self.propagated.shape[1])
 
-    def with_carried(self, carried: FloatArray | None) -> NoiseModel:
+    def with_propagated(self, propagated: FloatArray | None) -> NoiseModel:
         """The same with other propagated strain noise, shape (n, k) [MPa]; None for none."""
-        return replace(self, carried=np.zeros((len(self), 0)) if carried is None else carried)
+        return replace(self, propagated=np.zeros((len(self), 0)) if propagated is None else propagated)
 
     @property
     def deviation(self) -> FloatArray:
         """Standard deviation of a sample, shape (n,) [MPa]."""
         rough = self.arma.deviation * self.profile
-        return np.asarray(np.sqrt(rough**2 + np.sum(self.carried**2, axis=1)), dtype=np.float64)
+        return np.asarray(np.sqrt(rough**2 + np.sum(self.propagated**2, axis=1)), dtype=np.float64)
 
     @property
     def long_run(self) -> FloatArray:
@@ -152,9 +152,9 @@ class NoiseModel:
         return rough + self._root.log_determinant
 
     def strain_errors(self, residual: FloatArray) -> FloatArray:
-        """Likeliest strain errors of a residual (n,), in standard deviations: C^T Sigma^-1 r, C = `carried`; (k,)."""
+        """Likeliest strain errors of a residual (n,), in standard deviations: C^T Sigma^-1 r; (k,)."""
         white = self._root.whiten_transposed(self.whiten(residual))
-        return np.asarray(self.arma.whiten(self.carried / self.profile[:, None]).T @ white)
+        return np.asarray(self.arma.whiten(self.propagated / self.profile[:, None]).T @ white)
 
     def simulate(self, rng: np.random.Generator, size: int = 1) -> FloatArray:
         """Draws of the noise, shape (size, n) [MPa]."""
@@ -173,7 +173,7 @@ class NoiseModel:
         """The same with deviations of the specimen as noise of the record, as a prediction has it."""
         if self.specimen is None:
             return self
-        return replace(self, carried=np.hstack([self.carried, self.specimen]), specimen=None)
+        return replace(self, propagated=np.hstack([self.propagated, self.specimen]), specimen=None)
 
     def scaled(self, factor: float) -> NoiseModel:
         """The same noise with `factor` times the standard deviation."""
@@ -182,16 +182,16 @@ class NoiseModel:
             arma=replace(self.arma, innovation=self.arma.innovation * factor),
             sigma=self.sigma * factor,
             white=self.white * factor,
-            carried=self.carried * factor,
+            propagated=self.propagated * factor,
             drift=None if self.drift is None else self.drift * factor,
             nuisance_drift=None if self.nuisance_drift is None else self.nuisance_drift * factor,
         )
 
     @property
     def _slow(self) -> FloatArray:
-        return np.hstack([self.carried, *(each for each in (self.drift, self.specimen) if each is not None)])
+        return np.hstack([self.propagated, *(each for each in (self.drift, self.specimen) if each is not None)])
 
     @cached_property
     def _root(self) -> Root:
-        """Of the whitened slow noise beside white noise."""
+        """Of the whitened slow noise together with white noise."""
         return joint_root(self.arma.whiten(self._slow / self.profile[:, None]))

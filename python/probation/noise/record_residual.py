@@ -33,7 +33,7 @@ class RecordResidual:
         The data, whose own grid shows the quantisation.
     given_noise : float, optional
         Standard deviation of the stress noise [MPa] as the user states it; never narrows what the data show.
-    carried : ndarray, shape (n, k) [MPa], optional
+    propagated : ndarray, shape (n, k) [MPa], optional
         A with A A^T = J_eps Sigma_eps J_eps^T: the noise of a smoothed strain, or of the first sample of a raw one,
         as stress (`inference.propagated`). What is rougher shows in the residual and is measured there.
     specimen : ndarray, shape (n, k) [MPa], optional
@@ -62,7 +62,7 @@ class RecordResidual:
     jumps: tuple[int, ...] = ()
     measured: FloatArray | None = None
     given_noise: float | None = None
-    carried: FloatArray | None = None
+    propagated: FloatArray | None = None
     specimen: FloatArray | None = None
     specimen_id: str | None = None
     quiet: tuple[slice, ...] = ()
@@ -77,7 +77,7 @@ class RecordResidual:
         for name in ("measured", "replicate"):
             if getattr(self, name) is not None:
                 as_samples(getattr(self, name), f"{self.name}: {name}", count)
-        for name in ("tangent", "carried", "specimen"):
+        for name in ("tangent", "propagated", "specimen"):
             matrix = getattr(self, name)
             if matrix is None:
                 continue

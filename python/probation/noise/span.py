@@ -36,5 +36,5 @@ def orthonormal(columns: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def without(columns: FloatArray, span: FloatArray) -> FloatArray:
-    """What is left of columns (n,) or (n, m) beside an orthonormal basis (n, p)."""
+    """Columns (n,) or (n, m) with an orthonormal basis (n, p) projected out."""
     return np.asarray(columns - span @ (span.T @ columns), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""The size of white stress noise beside propagated strain noise, by restricted maximum likelihood (Harville 1977)."""
+"""White stress noise jointly with propagated strain noise: size by restricted maximum likelihood (Harville 1977)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ LEAST, MOST = 0.1, 2.0
 """Ends of the search, over the noise as it is known and over the residual's own size."""
 
 FINE = 0.01
-"""Of the level's logarithm: little beside what so many samples know of it."""
+"""Of the level's logarithm: small against its standard error."""
 
 
-def white_level(residual: FloatArray, tangent: FloatArray, carried: FloatArray | None, known: float) -> float:
+def white_level(residual: FloatArray, tangent: FloatArray, propagated: FloatArray | None, known: float) -> float:
     """Standard deviation of the white part of a residual [MPa].
 
     Parameters
@@ -26,7 +26,7 @@ def white_level(residual: FloatArray, tangent: FloatArray, carried: FloatArray |
     residual : ndarray, shape (n,) [MPa]
     tangent : ndarray, shape (n, p)
         What a fit has taken out of the residual.
-    carried : ndarray, shape (n, k), or None
+    propagated : ndarray, shape (n, k), or None
         Strain noise as stress [MPa], whose size is known.
     known : float
         About the level [MPa]: where the search begins.
@@ -35,12 +35,12 @@ def white_level(residual: FloatArray, tangent: FloatArray, carried: FloatArray |
     columns = np.column_stack([tangent / np.where(size > 0.0, size, 1.0), residual])
     count, free = tangent.shape
     rms = float(np.sqrt(residual @ residual / max(count - free, 1)))
-    if carried is None or not carried.shape[1]:
+    if propagated is None or not propagated.shape[1]:
         return rms
 
     def criterion(log_level: float) -> float:
         level = float(np.exp(log_level))
-        root = joint_root(carried / level)
+        root = joint_root(propagated / level)
         triangle = np.abs(np.diag(np.linalg.qr(root.whiten(columns) / level, mode="r")))
         within = 2.0 * float(np.log(np.maximum(triangle[:free], 1e-300)).sum())
         return float(2.0 * count * log_level + root.log_determinant + within + triangle[free] ** 2)

@@ -57,7 +57,7 @@ class Whitened:
         span = span_of(whitener.columns(np.vstack([record.tangent for record in records])))
         return cls(tuple(records), whitener.noises, whitener.slices, without(residual, span), span)
 
-    def beside(self, residual: FloatArray, jacobian: FloatArray) -> Whitened:
+    def with_residual(self, residual: FloatArray, jacobian: FloatArray) -> Whitened:
         """The same records at another fit: its whitened residual (N,) and Jacobian (N, p), projected."""
         span = span_of(jacobian)
         return replace(self, residual=without(residual, span), span=span)

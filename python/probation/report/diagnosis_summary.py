@@ -83,7 +83,7 @@ def specimens_text(found: Diagnosis) -> str:
 
 
 def size_text(found: Diagnosis) -> str:
-    """How large the gap is beside the stress, and whether that matters; empty where nothing is known of it."""
+    """How large the gap is relative to the stress, and whether that matters; empty where nothing is known of it."""
     size = found.size
     if size is None:
         return ""

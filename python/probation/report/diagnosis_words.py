@@ -155,7 +155,7 @@ def _suffix(unit: str) -> str:
 
 
 def checks_text(each: Explanation) -> list[str]:
-    """What speaks for or against an explanation beside its probability, one phrase each."""
+    """What speaks for or against an explanation in addition to its probability, one phrase each."""
     checks = each.checks
     if checks is None:
         return []
