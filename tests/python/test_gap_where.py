@@ -7,7 +7,7 @@ import pytest
 
 from campaigns import gap_noise
 from probation.detection.lines_and_steps import find_lines, find_steps
-from probation.detection.signatures import parameter_drift, sequential_estimates
+from probation.detection.signatures import parameter_drift
 from probation.detection.where import contribution_regions, locate
 from probation.noise.regions import runs
 from probation.noise.whitening import Whitened
@@ -147,14 +147,6 @@ def test_parameters_that_hold_still_show_no_drift():
             values += [drift.heterogeneity_p_value, *drift.slope_p_value.values()]
     assert np.mean(np.array(values) < 0.05) < 0.15
     assert 0.35 < np.mean(values) < 0.65
-
-
-def test_sequential_estimates_are_flat_on_noise_and_not_beside_a_late_gap():
-    quiet = sequential_estimates(campaign(9), NAMES, size=500)
-    assert min(each.p_value for each in quiet) > 0.01 / len(quiet)
-    late = {0: 0.3 * np.maximum(np.linspace(-1.0, 1.0, COUNT), 0.0)}
-    loud = sequential_estimates(campaign(9, late), NAMES, size=500)
-    assert min(each.p_value for each in loud if each.record == "slow") < 1e-4
 
 
 def test_where_an_effect_acts_is_not_smeared_by_the_refit():

@@ -28,9 +28,6 @@ EXPERIMENT_1 = (0.005, 5.207)
 
 _HELD_MODULUS = 3220.0  # MPa, as in Tables 3 and 4
 
-PRINTED_R_SQUARED = {"weissenberg": 0.976, "exponential": 1.0}
-"""As the paper gives them for (11) and (12)."""
-
 
 @dataclass(frozen=True)
 class AlphaRatio:

@@ -1,4 +1,4 @@
-"""Parameters that will not hold still: refits per record, and estimates on ever more of a record."""
+"""Parameters that change from record to record: refits per record, and whether they follow a covariate."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import stdtr
 
-from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
+from probation.detection.tail import chi_square_tail, normal_tail
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
-
-CHECKPOINTS = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,29 +43,6 @@ class Drift:
     slope_p_value: Mapping[str, float]
     scatter_p_value: Mapping[str, float]
     slope: Mapping[str, float]
-
-
-@dataclass(frozen=True, eq=False)
-class Sequential:
-    """Estimates of one parameter on ever more of a record (Beck); flat if the law is right.
-
-    Attributes
-    ----------
-    record, parameter : str
-    time : ndarray, shape (k,) [s]
-        Up to which samples were taken.
-    change, se : ndarray, shape (k,)
-        From the estimate on the whole record, and its standard error by noise alone; nan where not yet determined.
-    p_value : float
-        That it is flat: the largest change in standard errors against its distribution under noise.
-    """
-
-    record: str
-    parameter: str
-    time: FloatArray
-    change: FloatArray
-    se: FloatArray
-    p_value: float
 
 
 def parameter_drift(
@@ -135,67 +110,6 @@ def parameter_drift(
                 slopes,
             )
         )
-    return tuple(found)
-
-
-def sequential_estimates(
-    whitened: Whitened, names: Sequence[str], *, size: int = 2000, seed: int = 0
-) -> tuple[Sequential, ...]:
-    """Estimates on the first k samples of each record alone, in linearised form, and whether they are flat (Beck).
-
-    Parameters
-    ----------
-    whitened : Whitened
-    names : sequence of str
-        Of the tangent's columns.
-    size : int
-        Draws of the noise for the largest change's distribution.
-    seed : int
-    """
-    rng = np.random.default_rng(seed)
-    found = []
-    for index, (record, noise) in enumerate(zip(whitened.records, whitened.noises, strict=True)):
-        tangent = noise.whiten(record.tangent)
-        scale = np.linalg.norm(tangent, axis=0)
-        scale[scale == 0.0] = 1.0
-        tangent = tangent / scale
-        residual = noise.whiten(whitened.clean(index))
-        ends = np.unique(np.linspace(len(record) / CHECKPOINTS, len(record), CHECKPOINTS).round().astype(int))
-        starts = np.concatenate([[0], ends[:-1]])
-        cells = [tangent[first:stop] for first, stop in zip(starts, ends, strict=True)]
-        pieces = np.array([cell.T @ cell for cell in cells])
-        information = np.cumsum(pieces, axis=0)
-        scores = np.cumsum(
-            [-cell.T @ residual[first:stop] for cell, first, stop in zip(cells, starts, ends, strict=True)], axis=0
-        )
-        fine = np.linalg.cond(information) < 1e8
-        if not fine[-1]:
-            continue
-        usable = np.flatnonzero(fine)
-        inverse = np.linalg.inv(information[usable])
-        variance = np.diagonal(inverse - inverse[-1], axis1=1, axis2=2)
-        error = np.sqrt(np.maximum(variance, 1e-300))
-        change = np.einsum("kij,kj->ki", inverse, scores[usable])
-        change = change - change[-1]
-        values, vectors = np.linalg.eigh(pieces)
-        root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
-        noise_scores = np.einsum("kij,skj->ski", root, rng.standard_normal((size, len(cells), tangent.shape[1])))
-        drawn = np.einsum("kij,skj->ski", inverse, np.cumsum(noise_scores, axis=1)[:, usable])
-        drawn = drawn - drawn[:, -1:]
-        level = 0.5 * float(np.sqrt(noise.level_variance + noise.shape_variance))
-        sized = np.exp(level * rng.standard_normal(size))[:, None]
-        # A checkpoint near the end has next to no room to differ: its ratio is left out.
-        roomy = variance > 1e-6 * np.diagonal(inverse, axis1=1, axis2=2)
-        for column, name in enumerate(names):
-            take = roomy[:, column]
-            if not take.any():
-                continue
-            ratio = np.max(np.abs(change[take, column] / error[take, column]))
-            null = np.max(np.abs(drawn[:, take, column] / error[take, column]), axis=1) * sized[:, 0]
-            p_value = float(family_p_value(normal_tail(float(ratio), level), normal_tail(null, level)))
-            moved, deviation = np.full(len(ends), np.nan), np.full(len(ends), np.nan)
-            moved[usable], deviation[usable] = change[:, column] / scale[column], error[:, column] / scale[column]
-            found.append(Sequential(record.name, name, record.time[ends - 1], moved, deviation, p_value))
     return tuple(found)
 
 

@@ -38,10 +38,6 @@ class SmoothBasis:
     columns: FloatArray
     order: NDArray[np.intp]
 
-    def up_to(self, order: int) -> FloatArray:
-        """The columns of lower order than `order`."""
-        return self.columns[:, self.order < order]
-
 
 def waves(count: int, most: int, time: FloatArray | None = None) -> FloatArray:
     """Cosine waves, shape (count, min(most, count)): orthonormal (DCT-II) by sample, or of the same size in time."""

@@ -54,15 +54,6 @@ def explanation_of(effects: Sequence[str], found: Diagnosis) -> Explanation | No
     return next((each for each in found.explanations if each.effects == tuple(effects)), None)
 
 
-def set_names(sets: Iterable[Sequence[str]], found: Diagnosis) -> list[str]:
-    """Names of an answer set, or of what a test separates."""
-    names = []
-    for effects in sets:
-        each = explanation_of(effects, found)
-        names.append(name_of(effects) if each is None else explanation_name(each, found))
-    return names
-
-
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)

@@ -48,8 +48,6 @@ PAPER = {
 }
 """Table 1 as printed: E_u [MPa], tau_max [s], G [MPa]."""
 
-PRINTED = {"1": (-3.5, 3.6, -0.2), "2": (0.0, 0.0, 0.0), "3": (-0.3, -0.25, 0.0), "4": (-0.2, -0.25, 0.0)}
-"""Its relative errors as printed [%]; slips: identifications 3, 4 are +0.25 % in tau_max, G of 3 is -0.23 %."""
 
 WAVE = 1.5
 """Largest bias in Figure 2 [MPa], at a strain of `WAVE_AT`."""
