@@ -31,6 +31,9 @@ NEAR_ZERO = 0.02
 VARIES = 1.05
 """A rate that varies by less than this factor is constant."""
 
+UNCERTAIN = 20.0
+"""Standard errors of the rate over their median beyond which a sample does not count in the range of the rate."""
+
 CORRELATED = 1.2
 """Inflation from which on noise is said to be correlated."""
 
@@ -110,8 +113,9 @@ class RecordExcitation(Plotted):
     @property
     def verdict(self) -> str:
         """One line: the rate, how well it is known, its jumps."""
-        rate = self.excitation.rate
-        low, high = float(rate.min()), float(rate.max())
+        rate, error = self.excitation.rate, self.excitation.rate_se
+        known = rate[error <= UNCERTAIN * float(np.median(error))]  # a start's few samples are known poorly
+        low, high = float(known.min()), float(known.max())
         if low > 0.0 and high < VARIES * low:
             said = f"strain rate {float(np.median(rate)):.3g} 1/s"
         elif low > 0.0:
@@ -121,10 +125,10 @@ class RecordExcitation(Plotted):
         if not rate.any():
             return f"{self.id}: strain rate zero"
         median = float(np.median(self.relative_error))
-        known = f"known to {percentage(median)} % (median standard error)" if median > 0.0 else "without noise"
+        accuracy = f"known to {percentage(median)} % (median standard error)" if median > 0.0 else "without noise"
         jumps = [f"{float(self.time[jump]):.4g}" for jump in self.excitation.jumps]
         count = f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}" if jumps else "no jumps"
-        return f"{self.id}: {said}, {known}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
+        return f"{self.id}: {said}, {accuracy}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -216,7 +216,7 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
             f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use {DEFAULT!r}"
         )
     try:
-        smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise)
+        smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise, lagging=way.lagging)
     except InputError as error:
         raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
     if automatic and smoothed.noise > MISSES * max(noise, CLEAN):

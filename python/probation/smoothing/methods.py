@@ -25,12 +25,15 @@ class Way:
         What it is, in words.
     segmented : bool
         Whether it is done segment by segment between jumps.
+    lagging : bool
+        Whether it lets the strain lag behind its command after a start or a jump (`smoothing.transient`).
     """
 
     module: str
     function: str
     title: str
     segmented: bool = True
+    lagging: bool = False
 
     @cached_property
     def smooth(self) -> Smoother:
@@ -40,9 +43,14 @@ class Way:
 
 SMOOTHERS: dict[Method, Way] = {
     "quintic-spline": Way(
-        "penalised_spline", "smooth_quintic", "quintic smoothing spline (generalised cross-validation)"
+        "penalised_spline",
+        "smooth_quintic",
+        "quintic smoothing spline (generalised cross-validation)",
+        lagging=True,
     ),
-    "spline": Way("penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)"),
+    "spline": Way(
+        "penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)", lagging=True
+    ),
     "savitzky-golay": Way(
         "savitzky_golay", "smooth_savitzky_golay", "local cubics, Savitzky-Golay (generalised cross-validation)"
     ),

@@ -12,11 +12,14 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
+from probation.smoothing.averaging import averaged_inflation
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
+from probation.smoothing.transient import WithTransient
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+    from probation.smoothing.transient import Transient
 
 SAMPLES_PER_KNOT = 8
 """Fewer knots than samples by so much: correlated noise has less to hide in."""
@@ -30,6 +33,9 @@ EXHAUSTED = 0.9
 BETTER = 0.5
 """... and kept, if they bring the residual below this part of what it was."""
 
+LEAST_TURNS = 2
+"""Rounds in which smoothness and lags settle, at least."""
+
 COARSE = 120
 """Points of the coarse search for the smoothness."""
 
@@ -40,17 +46,17 @@ CHANCE = 2.0
 """Changes of the usual spacing by less than this factor are not by design."""
 
 
-def smooth_cubic(time: FloatArray, true_strain: FloatArray) -> Smoothed:
+def smooth_cubic(time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
     """Smooth by a cubic spline that penalises the integral of the second derivative's square."""
-    return _smooth(time, true_strain, 2)
+    return _smooth(time, true_strain, 2, lags)
 
 
-def smooth_quintic(time: FloatArray, true_strain: FloatArray) -> Smoothed:
+def smooth_quintic(time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
     """Smooth by a quintic spline that penalises the integral of the third derivative's square.
 
     Unlike the cubic one it does not pull the rate's slope to zero at either end, nor its peaks down.
     """
-    return _smooth(time, true_strain, 3)
+    return _smooth(time, true_strain, 3, lags)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +109,18 @@ class Basis:
         slopes = BSpline.design_matrix(x, padded[1:-1], degree - 1) @ (degree / apart * np.diff(coefficients, axis=0))
         return cls(design @ coefficients, slopes / duration, penalties[::-1], order)
 
-    def operators(self, shrink: FloatArray) -> Operators:
-        """The dense operators; `shrink` of shape (n_basis,) is what the smoothness leaves of each function."""
+    def smoothed(self, shrink: FloatArray, columns: FloatArray) -> FloatArray:
+        """Columns (n_times, m) smoothed; `shrink`, shape (n_basis,), is what the smoothness leaves of each function."""
+        return np.asarray(self.values @ (shrink[:, None] * (self.values.T @ columns)))
+
+    def operators(self, shrink: FloatArray, joint: WithTransient | None = None) -> Operators:
+        """The dense operators, with lags at the start where there are any."""
         right = shrink[:, None] * self.values.T
-        return Operators(self.values @ right, self.slopes @ right)
+        strain, rate = self.values @ right, self.slopes @ right
+        if joint is not None:
+            bent = joint.lags.rate - self.slopes @ (right @ joint.lags.strain)
+            strain, rate = strain + joint.left @ joint.gain, rate + bent @ joint.gain
+        return Operators(strain, rate)
 
 
 class Score:
@@ -148,49 +162,65 @@ class Score:
         return self.shrink(float(found.x))
 
 
-def _smooth(time: FloatArray, true_strain: FloatArray, order: int) -> Smoothed:
+def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None) -> Smoothed:
     count = len(time)
     if count < 4 * order + 2:
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     most = count // 2  # more would leave functions near the ends that no sample determines
     knots = min(most, max(FEWEST_KNOTS, min(count // SAMPLES_PER_KNOT, MOST_KNOTS)))
-    found = _with_knots(time, true_strain, order, knots)
+    found = _with_knots(time, true_strain, order, knots, lags)
     while found.freedom > EXHAUSTED * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
-        finer = _with_knots(time, true_strain, order, knots)
+        finer = _with_knots(time, true_strain, order, knots, lags)
         if finer.noise > BETTER * found.noise:
             break
         found = finer
     return found
 
 
-def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: int) -> Smoothed:
+def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: int, lags: Transient | None) -> Smoothed:
     """The smoothest spline whose cross-validation knows of the correlation that it leaves in the residual.
 
-    The first round takes the noise as white. If it left a correlated residual, the spline has begun to follow
-    correlated noise: its degrees of freedom then cost as much more as slow averages of that noise scatter more, and
-    so on until both agree.
+    The first round takes the noise as white, or as averaged where that shows beforehand. If it left a correlated
+    residual, the spline has begun to follow correlated noise: its degrees of freedom then cost as much more as slow
+    averages of that noise scatter more, and so on until both agree. Lags after a start are found with it.
     """
     basis = Basis.of(time, order, knots)
-    grown = 1.0
-    for _ in range(ROUNDS):
-        score = Score(basis, true_strain, PRUDENCE * grown)
+    grown, taken, spent = averaged_inflation(true_strain), np.zeros_like(true_strain), 0.0
+    joint: WithTransient | None = None
+    for turn in range(ROUNDS):
+        score = Score(basis, true_strain - taken, PRUDENCE * grown)
         shrink = score.best()
-        strain = basis.values @ (shrink * score.weights)
-        before, grown = grown, max(grown, inflation(true_strain - strain))
-        if grown < 1.02 * before:
+        left = true_strain - taken - basis.values @ (shrink * score.weights)
+        before, grown = grown, max(grown, inflation(left))
+        if lags is not None:
+            noise = np.sqrt(grown * float(left @ left) / max(len(left) - float(shrink.sum()) - spent, 1.0))
+            joint = WithTransient.of(lags, partial(basis.smoothed, shrink), true_strain, float(noise))
+            taken, spent = np.zeros_like(true_strain), 0.0
+            if joint is not None:
+                taken, spent = lags.strain @ (joint.gain @ true_strain), joint.freedom
+        if grown < 1.02 * before and (lags is None or turn >= LEAST_TURNS):
             break
+    weights = shrink * (basis.values.T @ (true_strain - taken))
+    strain, rate = basis.values @ weights, basis.slopes @ weights
     # Wahba 1983, Nychka 1988: the posterior variance s^2 S, rather than s^2 S S^T of the noise alone, also covers the
     # bias of a smoother that pulls down peaks, on average along the curve.
+    variance, rate_variance = basis.values**2 @ shrink, basis.slopes**2 @ shrink
+    if joint is not None:
+        strain, rate = strain + taken, rate + joint.lags.rate @ (joint.gain @ true_strain)
+        covariance = joint.covariance
+        variance += np.sum((joint.left @ covariance) * joint.left, axis=1)
+        bent = joint.lags.rate - basis.slopes @ (shrink[:, None] * (basis.values.T @ joint.lags.strain))
+        rate_variance += np.sum((bent @ covariance) * bent, axis=1)
     return Smoothed(
         strain,
-        basis.slopes @ (shrink * score.weights),
-        np.sqrt(grown * (basis.values**2 @ shrink)),
-        np.sqrt(grown * (basis.slopes**2 @ shrink)),
-        float(shrink.sum()),
-        score.squares(shrink),
+        rate,
+        np.sqrt(grown * variance),
+        np.sqrt(grown * rate_variance),
+        float(shrink.sum()) + spent,
+        float(np.sum((true_strain - strain) ** 2)),
         grown,
-        partial(basis.operators, shrink),
+        partial(basis.operators, shrink, joint),
     )
 
 

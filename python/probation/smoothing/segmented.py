@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import Smoothed, Smoother, polynomial
+from probation.smoothing.transient import SIDE, Transient, rate_change
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.smoothing.smoothed import LaggingSmoother
 
 ENOUGH = 12
 """A segment with so many samples or more does without the sample at the jump."""
@@ -27,7 +29,13 @@ SHORTEST = 4
 
 
 def smooth_segments(
-    smoother: Smoother, time: FloatArray, true_strain: FloatArray, jumps: Sequence[int], noise: float
+    smoother: Smoother,
+    time: FloatArray,
+    true_strain: FloatArray,
+    jumps: Sequence[int],
+    noise: float,
+    *,
+    lagging: bool = False,
 ) -> Smoothed:
     """Smooth each segment by itself.
 
@@ -44,9 +52,11 @@ def smooth_segments(
         Indices at which the rate is discontinuous; increasing, without the ends.
     noise : float
         Standard deviation of the strain noise [-].
+    lagging : bool
+        Whether the strain may lag behind its command at the start of every segment; `smoother` takes lags.
     """
     borders = [0, *jumps, len(time) - 1]
-    segments = [_Segment.of(smoother, time, true_strain, borders, at) for at in range(len(borders) - 1)]
+    segments = [_Segment.of(smoother, time, true_strain, borders, at, lagging) for at in range(len(borders) - 1)]
     parts = [segment.smoothed for segment in segments]
     strain, rate = np.empty_like(time), np.empty_like(time)
     strain_error, rate_error = np.empty_like(time), np.empty_like(time)
@@ -87,7 +97,13 @@ class _Segment:
 
     @classmethod
     def of(
-        cls, smoother: Smoother, time: FloatArray, true_strain: FloatArray, borders: Sequence[int], at: int
+        cls,
+        smoother: Smoother,
+        time: FloatArray,
+        true_strain: FloatArray,
+        borders: Sequence[int],
+        at: int,
+        lagging: bool,
     ) -> _Segment:
         first, last = borders[at], borders[at + 1]
         lengths = np.diff(borders)
@@ -100,6 +116,11 @@ class _Segment:
         inside = slice(skip, len(whole) - drop)
         values = true_strain[first : last + 1][inside]
         few = len(values) < SHORTEST
+        if lagging and len(values) > SIDE:
+            change = rate_change(time, true_strain, first, borders[at - 1] if at else first, last)
+            smoother = partial(
+                cast("LaggingSmoother", smoother), lags=Transient.after(whole, change).of_samples(inside)
+            )
         smoothed = polynomial(whole[inside], values, 1) if few else smoother(whole[inside], values)
         return cls(_extended(smoothed, whole, skip, drop), len(values))
 

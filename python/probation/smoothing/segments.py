@@ -23,8 +23,8 @@ EVIDENCE = 12.0
 """... and its corner leaves less than the best cubic does: in the sum of squares, so many variances of the noise."""
 
 SMALLEST_WINDOW, LARGEST_WINDOW = 8, 60
-WIDER = 3
-"""Windows so many times larger are searched, too: noisier jumps stand out in them."""
+WIDER = (1, 3, 5)
+"""Windows so many times larger are searched: noisier jumps stand out in the larger ones, such as the end of a wait."""
 
 CLEAN = 1e-9
 """Strain noise below which the samples are taken as they are."""
@@ -63,7 +63,7 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
         return _core.History.find_rate_jumps(time, true_strain)
     jumps: list[int] = []
     smallest = int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
-    for window in (smallest, WIDER * smallest):
+    for window in (factor * smallest for factor in WIDER):
         if len(time) >= 4 * window:
             jumps += _jumps_in_windows(time, true_strain, noise, window, jumps)
     return sorted(jumps)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
+    from probation.smoothing.transient import Transient
 
 
 PRUDENCE = 1.4
@@ -65,6 +66,13 @@ class Smoother(Protocol):
 
     def __call__(self, time: FloatArray, true_strain: FloatArray) -> Smoothed:
         """Smooth; both arrays have the shape (n_times,) and hold no jump."""
+
+
+class LaggingSmoother(Smoother, Protocol):
+    """One that can tell lags after the start of the segment from its noise."""
+
+    def __call__(self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
+        """Smooth; `lags` at the same samples."""
 
 
 def inflation(residual: FloatArray) -> float:

@@ -1,0 +1,90 @@
+"""Whether a strain's noise is averaged over neighbouring samples, as a video extensometer does, told before smoothing.
+
+A smoother that begins by taking the noise as white follows averaged noise, and what it leaves no longer shows it.
+"""
+
+from __future__ import annotations
+
+from math import comb
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
+
+LONGEST = 40
+"""Samples over which an average is looked for at most ..."""
+
+PART = 16
+"""... and that part of all samples."""
+
+LEVEL = 1.35
+"""A variance that grows by less than this factor over lags up to `BEYOND` times as long has come to its level."""
+
+BEYOND = 2
+
+ROUGH = 4.0
+"""Factor by which the variance of rough noise grows at most where the lag doubles: 2 for averages, 16 for a curve."""
+
+ORDERS = (2, 4)
+"""Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
+
+NORMAL = 1.482602218505602
+"""Standard deviation over the median absolute deviation."""
+
+
+def averaged_inflation(values: FloatArray) -> float:
+    r"""How far averaged noise exceeds white noise in slow averages: 1 + 2 sum of the autocorrelation, 1 if it is white.
+
+    By second differences over lags k, whose variance is :math:`6\gamma_0 - 8\gamma_k + 2\gamma_{2k}`: constant for
+    white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
+    the fourth power of k; where it does, or no level is reached, fourth differences may still tell.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        At even intervals or nearly so, without a jump of the slope.
+    """
+    return max(_by_differences(values, order) for order in ORDERS)
+
+
+def _by_differences(values: FloatArray, order: int) -> float:
+    most = min(LONGEST, len(values) // (PART * order)) * BEYOND
+    weights = _autocorrelated(order)
+    variance = np.array([_variance(values, lag, order) for lag in range(1, most + 1)])
+    if most < 2 * BEYOND or variance[0] == 0.0:
+        return 1.0
+    for lag in range(1, most // BEYOND + 1):
+        here = variance[lag - 1]
+        if variance[2 * lag - 1] > ROUGH * here:
+            return 1.0
+        if np.max(variance[lag - 1 : BEYOND * lag]) <= LEVEL * here:
+            return _inflation(variance[: lag - 1], float(np.median(variance[lag - 1 : BEYOND * lag])), weights)
+    return 1.0
+
+
+def _autocorrelated(order: int) -> FloatArray:
+    """What the variance of differences has of each autocorrelation gamma_0, gamma_k, gamma_2k, ...; (order + 1,)."""
+    kernel = np.array([comb(order, at) * (-1.0) ** at for at in range(order + 1)])
+    whole = np.correlate(kernel, kernel, mode="full")[order:]
+    whole[1:] *= 2.0
+    return np.asarray(whole)
+
+
+def _variance(values: FloatArray, lag: int, order: int) -> float:
+    """Robust variance of differences over a lag."""
+    for _ in range(order):
+        values = values[lag:] - values[:-lag]
+    return float((NORMAL * np.median(np.abs(values - np.median(values)))) ** 2)
+
+
+def _inflation(variance: FloatArray, level: float, weights: FloatArray) -> float:
+    """From the variances below the lag at which they come to their level."""
+    count, order = len(variance), len(weights) - 1
+    correlation = np.zeros(order * count + 1)
+    for lag in range(count, 0, -1):
+        others = float(weights[2:] @ correlation[2 * lag : order * lag + 1 : lag])
+        known = (weights[0] * (variance[lag - 1] / level - 1.0) - others) / weights[1]
+        correlation[lag] = min(max(known, 0.0), 1.0)
+    return 1.0 + 2.0 * float(correlation[1:].sum())

@@ -1,0 +1,96 @@
+"""A machine that takes a few samples to get going, and strains that the extensometer averages."""
+
+import numpy as np
+import pytest
+from scipy.signal import bilinear, lfilter
+
+import probation
+from probation import Record, excite
+from probation.smoothing.averaging import averaged_inflation
+
+SAMPLES, LENGTH, NOISE = 420, 0.5, 1.5e-4
+FINER = 10
+
+
+def started(rate, *, samples=SAMPLES):
+    """Time and strain of a specimen in a servo-hydraulic loop: a valve and a position loop of a sample and a half."""
+    step = LENGTH / rate / (samples - 1)
+    time = np.arange((samples - 1) * FINER + 1) * step / FINER
+    gain = 1.0 / (1.5 * step)
+    b, a = bilinear([gain], [0.5 * step, 1.0, gain], fs=FINER / step)
+    strain = lfilter(b, a, rate * time)
+    return time[::FINER], strain[::FINER]
+
+
+def record(time, strain, stress=None, name="a"):
+    return Record(name, time, strain, np.zeros_like(time) if stress is None else stress)
+
+
+def test_a_start_that_takes_some_samples_is_not_smoothed_away():
+    """The start departs from a straight line by 2e-3 at most, within four samples."""
+    time, strain = started(2e-3)
+    errors, told = [], []
+    for seed in range(8):
+        found = excite(record(time, strain + NOISE * np.random.default_rng(seed).standard_normal(SAMPLES)))
+        errors.append((found.true_strain - strain)[:6])
+        told.append(found.strain_se[:6])
+    assert abs(np.mean(errors, axis=0)).max() < NOISE
+    ratio = np.array(errors) / np.array(told)
+    assert np.sqrt(np.mean(ratio**2)) < 1.5
+
+
+def test_a_start_that_is_sharp_costs_nothing():
+    time = np.linspace(0.0, 100.0, SAMPLES)
+    strain = 5e-3 * time
+    found = excite(record(time, strain + 1e-5 * np.random.default_rng(0).standard_normal(SAMPLES)))
+    assert abs(found.true_strain - strain).max() < 1.2e-5
+    assert found.rate == pytest.approx(5e-3, rel=3e-3)
+
+
+def averaged(window, count, seed):
+    """Noise of single pictures, of standard deviation 1, averaged over so many of them."""
+    pictures = np.random.default_rng(seed).standard_normal(count + window - 1)
+    return np.convolve(pictures, np.full(window, 1.0 / window), mode="valid")
+
+
+@pytest.mark.parametrize("window", [1, 3, 5, 9])
+def test_averages_of_pictures_are_told_from_white_noise(window):
+    """White noise averaged over w pictures has w times the variance of white noise in slow averages."""
+    time = np.linspace(0.0, 1.0, 900)
+    curve = 0.5 * time + 0.05 * time**2
+    told = [averaged_inflation(curve + NOISE * averaged(window, 900, seed)) for seed in range(10)]
+    assert np.median(told) == pytest.approx(window, rel=0.3)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_averaged_noise_is_not_followed(seed):
+    """Of what is averaged over nine pictures the smoother leaves the size of a single picture's noise."""
+    time, strain = started(2e-3, samples=800)
+    found = excite(record(time, strain + NOISE * averaged(9, 800, seed)))
+    assert found.freedom < 45
+    assert found.strain_noise * np.sqrt(found.noise_inflation) == pytest.approx(NOISE, rel=0.35)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_start_that_takes_some_samples_is_no_gap(seed):
+    """E_u times what the start was smoothed by was an offset of the strain, ten times the noise of the stress."""
+    random = np.random.default_rng(seed)
+    material = probation.Law(unrelaxed_modulus=2000.0, tau_max=15.0, hardening_modulus=2.5)
+    records = []
+    for rate in (8e-4, 2e-3, 5e-3):
+        time, strain = started(rate)
+        stress = material.stress(time, strain, "sa2") + 0.05 * random.standard_normal(SAMPLES)
+        measured = strain + NOISE * random.standard_normal(SAMPLES)
+        records.append(record(time, measured, stress, f"{rate:g}"))
+    alike = probation.Specimens(scatter="none")
+    found = probation.fit(probation.Campaign(name="start", records=tuple(records), specimens=alike), "sa3")
+    assert found.gap.test.p_value > 1e-4
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_wait_before_the_ramp_is_found_in_a_noisy_strain(seed):
+    """Forty samples at rest, then a strain that leaves its noise of 2e-4 within three samples."""
+    time = np.arange(320) * 0.05
+    strain = 1.8e-3 * np.maximum(time - 2.0, 0.0)
+    noisy = strain + 2e-4 * np.random.default_rng(seed).standard_normal(len(time))
+    assert excite(record(time, noisy)).jumps == pytest.approx((40,), abs=6)
