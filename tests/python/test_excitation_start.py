@@ -89,8 +89,8 @@ def test_a_start_that_takes_some_samples_is_no_gap(seed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_wait_before_the_ramp_is_found_in_a_noisy_strain(seed):
-    """Forty samples at rest, then a strain that leaves its noise of 2e-4 within three samples."""
+    """Forty-five samples at rest, then a strain that leaves its noise of 2e-4 within two samples."""
     time = np.arange(320) * 0.05
-    strain = 1.8e-3 * np.maximum(time - 2.0, 0.0)
+    strain = 2.5e-3 * np.maximum(time - 2.25, 0.0)
     noisy = strain + 2e-4 * np.random.default_rng(seed).standard_normal(len(time))
-    assert excite(record(time, noisy)).jumps == pytest.approx((40,), abs=6)
+    assert excite(record(time, noisy)).jumps == pytest.approx((45,), abs=6)
