@@ -33,7 +33,9 @@ def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_no
     whole = Campaign.from_files([DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"], control="displacement-rate")
     found = diagnose(whole, design=False)
     assert found.gap.rejected
-    assert found.verdict == "unexplained"  # three times the noise is left
+    # 0.6 MPa were left, five times the noise, while the start of the specimens was smoothed away.
+    assert found.verdict == "explained"
+    assert found.shrink.identify.after_MPa < 1.2 * found.noise_MPa
     assert found.best.checks is not None
     assert all(RATE in effects for effects in found.answer_set)
     assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
