@@ -40,7 +40,7 @@ struct LawChange {
   Eigen::ArrayXd unrelaxed_modulus_factor;  ///< of E_u [-]
   Eigen::ArrayXd hardening_factor;          ///< of G e_HT [-]
   Eigen::ArrayXd added_relaxed_stress;      ///< on top of it [MPa]
-  Eigen::ArrayXd load_bearing_area;         ///< fraction of the section that carries the stress [-]
+  Eigen::ArrayXd load_bearing_area;         ///< factor of the whole stress, above 0 [-]
   Eigen::ArrayXd initial_modal_stress;  ///< sigma_j(0) [MPa]; shape (modes); empty: relaxed, p_j sigma^r(0)
   ExtraModes extra_modes;
   std::vector<std::shared_ptr<const Feedback>> feedbacks;

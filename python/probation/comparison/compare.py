@@ -61,7 +61,8 @@ def compare(
     A diagnosis (`probation.diagnose`) whose base is not a fitted law but what the reference measured: what the law
     leaves unexplained there is carried over to the other campaign at the same point of every specimen's way. Search,
     priors and probabilities are the same. Specimens may differ where both campaigns name other ones (`specimen_id`);
-    elsewhere they are taken as the same.
+    elsewhere they are taken as the same. A fault of one sign (slack, compliance) that the reference's rig has, and this
+    one has not, is found by exchanging the campaigns.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""What may have changed between two campaigns: faults of the rig, come or gone, and the material itself."""
+"""What may have changed between two campaigns: faults of the rig that are new, and the material itself.
+
+A fault of one sign (slack, compliance, hysteresis) that has gone is found by exchanging the campaigns.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,7 @@ MATERIAL = Effect(
     ),
     source="ISO 527-1, section 10 (number of test specimens)",
     shows_in="every record",
-    kind="rig",  # its form is known: the law's own
+    kind="rig",  # its form is the law's own, and known as well as that of a fault of the rig
     forms=(
         Form(
             "constants",

@@ -1,10 +1,10 @@
 """The force in a test whose frame is elastic: the force takes a part of the strain away from the specimen.
 
-The recorded force would do as well were it not for its noise: a large compliance makes of it a strain of the specimen,
-which is stiffer than the frame by far, so that the prediction has the noise many times over, and most of it at the
-onset. So the force is the model's own, y = G(y), G the stress that the law makes of what y leaves to the specimen.
-Newton's method finds it from the recorded force, each step by GMRES (Saad & Schultz 1986) with the tangent's products
-from differences: any law will do, and the cost is that of some dozens of solves.
+The recorded force would do as well were it not for its noise. With a large compliance that noise becomes a strain of
+the specimen. The specimen is much stiffer than the frame, so it comes back as an error of the stress, many times the
+noise, most of it at the onset. So the force is the model's own, y = G(y), G the stress that the law makes of what y
+leaves to the specimen. Newton's method finds it from the recorded force, each step by GMRES (Saad & Schultz 1986) with
+the tangent's products from differences: any law will do, and the cost is that of some dozens of solves.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ class RateShift(NamedTuple):
     Attributes
     ----------
     exponent : float [-]
-        Is taken off d ln tau_max / d ln rate at the reference rate.
+        a in tau_max ~ rate^(-a) near the reference rate: faster straining shortens the times.
     curvature : float [-]
         Of that dependence: with 0 it is a power of the rate; else the Weissenberg number of a law that was without
         companion relation changes by this fraction per decade of rate, eq. (11).

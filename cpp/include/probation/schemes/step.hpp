@@ -1,5 +1,7 @@
 #pragma once
-// One step of one mode, for every scheme: the only place where the step formulas stand.
+// One step of one mode, for every scheme: the reference for the step formulas. The loops in src/kernels
+// (form_steps, even_sweep, uneven_sweep) and form_curvature of record_steps.cpp repeat them for speed; tests
+// hold them together.
 //
 // With z_j = sigma_j - p_j sigma^r (so that z_j is zero in the relaxed state) eq. (6) reads, per unit weight,
 //

@@ -29,7 +29,10 @@ def _crosshead(view: RecordView, values: Values) -> FloatArray:
 
 
 def _true_strain(view: RecordView, values: Values) -> FloatArray:
-    """The same taken off the true strain, the stress having been measured apart."""
+    """For a true stress that was not made from this strain; the compliance is then a true strain per nominal stress.
+
+    The values of the two forms differ by the stretch. Gross compliances: `effects/large_faults.py`.
+    """
     return view.true_strain - values[0] * view.nominal_data
 
 
