@@ -34,6 +34,7 @@ from probation.commands import (
     streams,
 )
 from probation.commands.delivery import described
+from probation.commands.help_text import HelpFormatter
 from probation.errors import ConvergenceError, InputError
 from probation.histories.named import nearest
 from probation.provenance import running
@@ -55,21 +56,23 @@ Packages beside this one add theirs by an entry point of the group `probation.co
 _DESCRIPTION = """\
 Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline polymers, on your records.
 
-  see it work, without any file      probation demo
-  what would be read from a file     probation preview tension.csv
-  a campaign of a laboratory's files probation init tension-*.csv -o hdpe-2020
-  strain rate, and how well known    probation excitation tension.csv
-  identify the law on a campaign     probation fit hdpe-2020/ --report fit.html
-  is the law intrinsic?              probation certify hdpe-2020/ --report certificate.html
-  what does it leave out?            probation diagnose hdpe-2020/ --report diagnosis.html
-  what would planned tests tell?     probation plan --history ramp:rate=0.005,strain=2 --noise 0.04 \\
-                                         --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\
-                                         --set hardening_modulus_MPa=2.5
-  how far the schemes agree          probation crosscheck hdpe-2020/
-  simulate a test                    probation simulate --history ramp:rate=0.005,strain=2 \\
-                                         --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 \\
-                                         --set hardening_modulus_MPa=2.5 -o ramp.csv
-  take it to finite elements         probation export fit.json --format abaqus-umat -o material.inp
+  see it work              probation demo
+  how a file is read       probation preview tension.csv
+  a campaign of lab files  probation init tension-*.csv -o hdpe-2020
+  strain rate, how sure    probation excitation tension.csv
+  identify the law         probation fit hdpe-2020/ --report fit.html
+  is the law intrinsic?    probation certify hdpe-2020/ --report cert.html
+  what does it leave out?  probation diagnose hdpe-2020/ --report why.html
+  what would tests tell?   probation plan --history ramp:rate=0.005,strain=2 \\
+                               --noise 0.04 --set unrelaxed_modulus_MPa=3220 \\
+                               --set tau_max_s=5.2 \\
+                               --set hardening_modulus_MPa=2.5
+  how far schemes agree    probation crosscheck hdpe-2020/
+  simulate a test          probation simulate --history ramp:rate=0.005 \\
+                               --set unrelaxed_modulus_MPa=3220 \\
+                               --set tau_max_s=5.2 \\
+                               --set hardening_modulus_MPa=2.5 -o ramp.csv
+  into finite elements     probation export fit.json --format abaqus-umat
 """
 _EPILOG = """\
 probation COMMAND --help tells the options of a command, with examples.
@@ -89,6 +92,11 @@ class _Parser(argparse.ArgumentParser):
         """Its own takes no notice of a full disk; what it writes is the help and the version."""
         streams.put(message)
 
+    def format_help(self) -> str:
+        """Of this parser and, since they are of its class, of its commands."""
+        self.formatter_class = HelpFormatter
+        return super().format_help()
+
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}; see {self.prog} --help")
 
@@ -106,7 +114,6 @@ def build_parser() -> argparse.ArgumentParser:
         prog="probation",
         description=_DESCRIPTION,
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"probation {__version__}")
@@ -114,7 +121,6 @@ def build_parser() -> argparse.ArgumentParser:
     for command in commands():
         own = command.add_parser(subparsers)
         own.set_defaults(run=command.run)
-        own.formatter_class = argparse.RawDescriptionHelpFormatter
     return parser
 
 

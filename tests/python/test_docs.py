@@ -55,6 +55,18 @@ def test_the_third_tutorial_finds_the_effect_that_it_put_in():
     assert diagnosis.shrink.held_out.after_MPa < 0.05
 
 
+def test_the_fifth_tutorial_finds_the_damage_that_a_law_of_ones_own_leaves_out():
+    names, printed = _run("tutorial_5_a_law_of_your_own.py")
+    assert names["holds"].verdict == "no_gap"
+    for parameter, true in zip(names["holds"].base, names["TRUTH"], strict=True):
+        assert abs(parameter.value - true) < 3.0 * parameter.se, parameter.name
+    diagnosis = names["diagnosis"]
+    assert diagnosis.best.effects == ("damage",)
+    assert abs(diagnosis.best.parameters[0].value - 0.3) < 0.003
+    assert diagnosis.shrink.held_out.after_MPa < 0.06
+    assert "Damage explains the gap" in printed
+
+
 def test_the_python_of_the_recipes_runs(tmp_path, monkeypatch):
     """All blocks in turn, on the arrays that the first one takes."""
     page = next(DOCS.glob("recipes.*"))

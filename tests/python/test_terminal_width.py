@@ -1,5 +1,6 @@
 """What commands print fits a terminal of 80 columns, however long the names of records are."""
 
+import argparse
 from dataclasses import replace
 
 import pytest
@@ -9,7 +10,8 @@ from campaigns.few_records import few_records
 from campaigns.typical_results import NAMES, result
 from lab_files import bluehill
 from probation import Campaign, init_campaign, preview
-from probation.cli import main
+from probation.cli import build_parser, main
+from probation.commands.help_text import fitted
 from probation.report.table import Table
 from probation.smoothing.answer import describe_excitation
 from probation.wording import WIDTH, within_width
@@ -90,3 +92,42 @@ def test_a_table_of_too_many_numbers_goes_on_below_under_the_first_column():
     assert lines[0] == "Numbers"
     assert sum(line.startswith("  slow ") for line in lines) > 1
     assert sum(line.count("1.234567") for line in lines) == 12
+
+
+def _helps(parser, name="probation"):
+    yield name, parser.format_help()
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for command, own in action.choices.items():
+                yield from _helps(own, f"{name} {command}")
+
+
+def test_the_help_of_every_command_fits(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    helps = dict(_helps(build_parser()))
+    assert {"probation", "probation fit", "probation field identify", "probation blind make"} <= set(helps)
+    for name, text in helps.items():
+        assert [line for line in text.splitlines() if len(line) > WIDTH] == [], name
+
+
+def test_an_example_is_broken_where_a_shell_goes_on_and_its_remark_stands_below():
+    text = "  probation export fit.json --format calculix --accuracy 1e-3      of what fit --json wrote"
+    assert fitted(text, 50) == (
+        "  probation export fit.json --format calculix \\\n      --accuracy 1e-3\n      of what fit --json wrote"
+    )
+    assert fitted(text, 100) == text
+
+
+def test_prose_is_filled_and_a_word_keeps_its_meaning_beside_it():
+    text = "One two\nthree four.\nFive.\n\n  where  in which records,\n         and in which parts"
+    assert fitted(text, 20) == (
+        "One two three four.\nFive.\n\n  where  in which\n         records,\n         and in\n         which parts"
+    )
+
+
+def test_many_choices_are_listed_in_the_help_of_their_option(monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "80")
+    assert main(["fit", "--help"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "--excitation EXCITATION" in shown
+    assert "quintic-spline, spline, savitzky-golay" in shown
