@@ -269,6 +269,16 @@ class NoiseSettings:
         origin="chosen",
         used_in="noise/own_deviations.py",
     )
+    farthest_move: float = setting(
+        5.0,
+        (
+            "Standard deviations, by the specimens' scatter, by which parameters may move once specimens may differ "
+            "and the misfit grows."
+        ),
+        unit="standard deviations",
+        origin="chosen",
+        used_in="inference/base_fit.py",
+    )
     most_left_to_specimens: float = setting(
         1.25,
         (

@@ -1,0 +1,35 @@
+"""How far the law's parameters may move once specimens are let differ."""
+
+import numpy as np
+import pytest
+
+import probation
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+
+TRUTH = np.array([1700.0, 25.0, 0.9])
+
+
+def replicates(seed):
+    """Three specimens at each of two rates, to a strain of 0.25, where a few per cent of E_u outweigh the network."""
+    random = np.random.default_rng(seed)
+    records = []
+    for rate in (5e-4, 5e-3):
+        time = np.linspace(0.0, 0.25 / rate, 240)
+        for specimen in "abc":
+            values = TRUTH * (1.0 + np.array([0.04, 0.04, 0.03]) * random.standard_normal(3))
+            law = probation.Law(unrelaxed_modulus=values[0], tau_max=values[1], hardening_modulus=values[2])
+            stress = law.stress(time, rate * time, "sa2") * (1.0 + 0.01 * random.standard_normal())
+            stress += 0.015 * random.standard_normal(len(time))
+            name = f"{rate:g}-{specimen}"
+            records.append(probation.Record(id=name, time=time, true_strain=rate * time, true_stress=stress))
+    return probation.Campaign(name="replicates", records=tuple(records))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_specimens_that_differ_do_not_keep_a_soft_network_wrong(seed):
+    """As if specimens were alike, G takes up the scatter of E_u and is far off; with the scatter it comes back."""
+    campaign = replicates(seed)
+    base = base_fit(campaign, plain_fit(campaign, "sa3", None))
+    assert base.scatter.source == "replicates"
+    assert base.parameters[2] == pytest.approx(TRUTH[2], rel=0.15)
