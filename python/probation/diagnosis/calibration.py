@@ -38,6 +38,11 @@ class Calibration:
         return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
 
     @property
+    def power(self) -> float:
+        """Power to which evidence counts: less where nobody has seen how far it is to be trusted."""
+        return EVIDENCE.evidence_power if self.inside else CALIBRATED.evidence_power_outside
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:

@@ -107,6 +107,7 @@ def causes_of(
     skipping: Skipping,
     budget: Budget,
     progress: Callable[[float], None],
+    power: float = EVIDENCE.evidence_power,
 ) -> Causes:
     """Explanations of what a base law leaves, weighed and checked.
 
@@ -124,15 +125,17 @@ def causes_of(
     budget : Budget
     progress : callable
         Called with the fraction done.
+    power : float
+        Of the evidence: `Calibration.power`.
     """
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, effect_count(considered), EVIDENCE.evidence_power), p_value)
+        weighed = given_no_gap(weigh(found, effect_count(considered), power), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
-    weighed = given_a_gap(weigh(found, effect_count(considered), EVIDENCE.evidence_power), p_value)
+    weighed = given_a_gap(weigh(found, effect_count(considered), power), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)
     left, judged = _judged(weighed, answer_set(weighed), base, account, seed)

@@ -138,6 +138,7 @@ def diagnose(
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
+    calibration = calibration_of(campaign, base, own_law=law is None)
     done(0.35)
     causes = causes_of(
         base,
@@ -149,6 +150,7 @@ def diagnose(
         skipping=skipping,
         budget=deadline,
         progress=lambda part: done(0.35 + 0.45 * part),
+        power=calibration.power,
     )
     base, considered, found = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
@@ -156,7 +158,6 @@ def diagnose(
     done(0.85)
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
-    calibration = calibration_of(campaign, base, own_law=law is None)
     chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
         weighed = with_unseen(weighed, considered)

@@ -53,6 +53,14 @@ class CalibratedRanges:
         source=_SOURCE,
         used_in="diagnosis/calibration.py",
     )
+    evidence_power_outside: float = setting(
+        0.2,
+        "Power of the evidence of a campaign outside these ranges.",
+        unit="-",
+        origin="calibrated",
+        source="docs/laboratories.md: university, seed 8801; industry, seed 8802",
+        used_in="diagnosis/calibration.py",
+    )
     credible_set_outside: float = setting(
         0.98,
         "Probability that an answer set holds of a campaign outside these ranges.",
