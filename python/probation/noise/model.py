@@ -20,7 +20,9 @@ Growth = Literal["constant", "force", "local"]
 
 @dataclass(frozen=True, eq=False)
 class NoiseModel:
-    """x = profile * ARMA(1,1) + propagated * N(0, 1) + drift * N(0, 1); docs/diagnosis-method.md, section 1.
+    """x = profile * ARMA(1,1) + propagated * N(0, 1) + drift * N(0, 1) + specimen * N(0, 1).
+
+    docs/diagnosis-method.md, section 1.
 
     Attributes
     ----------
@@ -48,10 +50,11 @@ class NoiseModel:
     source : str
         Where the estimate is from, in words.
     drift : ndarray, shape (n, k) [MPa], optional
-        Slow noise that is let be and not measured (`gap.drift`). Whitening and draws have it; `deviation` has not.
+        The part of the drift that may resemble an effect (`noise.drift`). Whitening and draws have it; `deviation` has
+        not.
     nuisance_drift : ndarray, shape (n, k) [MPa], optional
-        Slow noise on top that resembles no effect: what resembles one is reported as that effect. Only tests of waves
-        that belong to no effect have it.
+        The rest of the drift, whose part along every effect is small. Tests on smooth waves, evidence and the
+        uncertainty of predictions have it; whitening has not.
     specimen : ndarray, shape (n, k) [MPa], optional
         What deviations of the record's specimen do, of one standard deviation each. Whitening and draws have it;
         `deviation` has not: it is no noise of the record, and the same in all records of the specimen.

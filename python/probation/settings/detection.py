@@ -14,8 +14,8 @@ class DetectionSettings:
     gap_level: float = setting(
         0.005,
         (
-            "A gap is declared below this p-value: false alarms of 1 % leave room for noise that is not "
-            "as it was modelled."
+            "A gap is declared below this p-value. Of false alarms of 1 % half is left for noise that is not as it was "
+            "modelled."
         ),
         unit="-",
         origin="chosen",

@@ -13,7 +13,7 @@ class EvidenceSettings:
 
     no_effect: float = setting(
         0.45,
-        "Prior probability of no effect; four in five campaigns have one.",
+        "Prior probability that no effect is needed.",
         unit="probability",
         origin="chosen",
         used_in="diagnosis/probabilities.py",
@@ -286,7 +286,7 @@ class EvidenceSettings:
     )
     tolerated_form_error: float = setting(
         0.2,
-        ("Relative error of an effect's form along its own coordinate that evidence takes for the effect's own."),
+        ("Relative error of an effect's form along its own coordinate that the test of what is left lets pass."),
         unit="-",
         origin="chosen",
         used_in="diagnosis/remaining.py",

@@ -88,8 +88,8 @@ class NoiseSettings:
     )
     least_drift_alike: float = setting(
         0.25,
-        "Least standard deviation, at the first half period, of a drift along an effect.",
-        unit="noise",
+        "Least variance, at the first half period, of a drift along an effect, over the noise's.",
+        unit="-",
         origin="chosen",
         used_in="noise/drift.py",
     )
@@ -102,8 +102,8 @@ class NoiseSettings:
     )
     most_drift_alike: float = setting(
         2.0,
-        "Largest standard deviation, at the first half period, of a drift along an effect.",
-        unit="noise",
+        "Largest variance, at the first half period, of a drift along an effect, over the noise's.",
+        unit="-",
         origin="chosen",
         used_in="noise/drift.py",
     )
