@@ -266,9 +266,11 @@ class _Weighed:
         true: list[tuple[int, int | None]] = [(self.first + k, None) for k in range(len(self.planted))]
         error = (self.first + len(self.planted), None)
         gram = self.products.gram([*columns, *true, error])
-        n = len(columns)
-        clean = gram[:n, n : n + len(true)].sum(axis=1)
-        return consult(random, candidates, gram[:n, :n], clean, clean + gram[:n, -1], truth)
+        # A form that the law cannot follow in these tests has no finite signal, and no claim to be the cause.
+        known = np.flatnonzero(np.isfinite(np.diag(gram))[: len(columns)])
+        clean = gram[known, len(columns) : len(columns) + len(true)].sum(axis=1)
+        seen = [candidates[k] for k in known]
+        return consult(random, seen, gram[np.ix_(known, known)], clean, clean + gram[known, -1], truth)
 
     def describe(self, k: int) -> dict[str, object]:
         """What the truth says of a planted cause."""
