@@ -185,7 +185,7 @@ def test_strain_noise_that_a_bias_hides_changes_nothing():
 
 def test_long_records_have_their_strain_noise_drawn_again(monkeypatch):
     """The same standard error of G as by the matrix, to the 20 % that 12 draws leave (three times that)."""
-    campaign = Campaign("x", (ramp_record(strain_noise=1e-3),))
+    campaign = Campaign("x", (ramp_record(strain_noise=1e-4),))
     whole = fit(campaign, "sa3")
     monkeypatch.setattr(weighting_module, "LARGEST", 100)
     monkeypatch.setattr(strain_noise_module, "DRAWS", 12)
