@@ -16,6 +16,11 @@ LEAST_NOISE = 1e-6
 _NORMAL_CONSISTENCY = 1.482602218505602  # standard deviation over median absolute deviation
 
 
+def robust_deviation(values: FloatArray) -> float:
+    """Standard deviation of normal values (n,), by the median distance to their median: outliers hardly count."""
+    return float(_NORMAL_CONSISTENCY * np.median(np.abs(values - np.median(values))))
+
+
 def scatter(time: FloatArray, values: FloatArray) -> float:
     r"""Estimate the noise from each sample's distance to the line through its neighbours.
 
@@ -38,7 +43,7 @@ def scatter(time: FloatArray, values: FloatArray) -> float:
     weight = (time[2:] - time[1:-1]) / (time[2:] - time[:-2])
     distance = values[1:-1] - weight * values[:-2] - (1.0 - weight) * values[2:]
     distance /= np.sqrt(1.0 + weight**2 + (1.0 - weight) ** 2)
-    return float(_NORMAL_CONSISTENCY * np.median(np.abs(distance - np.median(distance))))
+    return robust_deviation(distance)
 
 
 def stress_noise(record: Record) -> float:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.noise import robust_deviation
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
@@ -29,9 +31,6 @@ ROUGH = 4.0
 
 ORDERS = (2, 4)
 """Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
-
-NORMAL = 1.482602218505602
-"""Standard deviation over the median absolute deviation."""
 
 
 def averaged_inflation(values: FloatArray) -> float:
@@ -76,7 +75,7 @@ def _variance(values: FloatArray, lag: int, order: int) -> float:
     """Robust variance of differences over a lag."""
     for _ in range(order):
         values = values[lag:] - values[:-lag]
-    return float((NORMAL * np.median(np.abs(values - np.median(values)))) ** 2)
+    return robust_deviation(values) ** 2
 
 
 def _inflation(variance: FloatArray, level: float, weights: FloatArray) -> float:
