@@ -47,7 +47,9 @@ if TYPE_CHECKING:
 
 ROUNDS = 3
 """Noise and parameters are found in turns; they settle within two."""
+
 NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseModel, ...]]"
+"""The noise of all records from what a fit leaves of them."""
 
 
 def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:

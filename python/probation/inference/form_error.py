@@ -1,7 +1,7 @@
 """How an effect's form may be wrong: what it does, times a smooth function of the effect's own coordinate.
 
 Locking by Gent is not locking by Langevin, and nature's is neither; but both stiffen where the network is stretched. So
-an effect's contribution is let be larger here and smaller there along what the effect follows (`Effect.coordinate`), in
+an effect's contribution may be larger here and smaller there along what the effect follows (`Effect.coordinate`), in
 the same way in all records. That is in proportion to what of it the law's own parameters cannot follow: of an effect
 that acts much like another modulus little shows, and little may be wrong. A second effect has to explain more than that
 (docs/diagnosis-method.md, section 4).

@@ -124,7 +124,7 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     for (at, of), line in curves.items():
         line.set_gid(f"curve-{at}-{of}")
     with house_style(), warnings.catch_warnings():
-        # Of a narrow figure whose labels leave no room: it is drawn without, and a wide one stands beside it.
+        # Of a narrow figure whose labels leave no room: it is drawn without layout; the page also has a wide one.
         warnings.filterwarnings("ignore", "constrained_layout not applied")
         mpl.rcParams["svg.hashsalt"] = printable(label)
         figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
