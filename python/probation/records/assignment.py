@@ -39,7 +39,7 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
     InputError
         If a column named does not exist or exists twice, or a quantity has no column.
     """
-    named = {role: _find(table, label) for role, label in options.columns.items()}
+    named = {role: find_column(table, label) for role, label in options.columns.items()}
     implied = _from_labels(table, table.roles) if table.roles else _from_headings(table)
     assigned: dict[str, Column] = {}
     for group in (("time",), STRAIN_ROLES, STRESS_ROLES)[: 3 if with_stress else 2]:
@@ -70,8 +70,8 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
     return assigned
 
 
-def _from_labels(table: Table, roles: Mapping[str, str]) -> dict[str, Column]:
-    return {role: _find(table, label) for role, label in roles.items()}
+def _from_labels(table: Table, roles: Mapping[str, str | int]) -> dict[str, Column]:
+    return {role: find_column(table, label) for role, label in roles.items()}
 
 
 def _from_headings(table: Table) -> dict[str, Column]:
@@ -122,7 +122,7 @@ def _with_unit_of_label(role: str, column: Column) -> Column:
     return column
 
 
-def _find(table: Table, label: str | int) -> Column:
+def find_column(table: Table, label: str | int) -> Column:
     """Find the column of that heading (with or without its unit, in any case) or position."""
     if isinstance(label, int):
         for column in table.columns:

@@ -12,6 +12,7 @@ _HIGH_BYTES = re.compile(rb"[\x80-\xff]+")
 _CONTROL_BYTES = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 # First bytes of the symbols (A1-A9) and the everyday characters (B0-D7) of GB2312.
 _EVERYDAY_LEADS = frozenset(range(0xA1, 0xAA)) | frozenset(range(0xB0, 0xD8))
+_KANA = re.compile("[\u3041-\u30ff]")
 _REMEDY = "save the file again as UTF-8"
 
 
@@ -19,8 +20,9 @@ def decode(path: Path, data: bytes) -> tuple[str, str]:
     """Decode a text file, and say from which encoding.
 
     A byte-order mark decides; otherwise UTF-8 when the bytes are valid, GBK when every run of
-    non-ASCII bytes is made of everyday Chinese characters, and Windows Latin (cp1252, which is
-    Latin-1 with a few more signs) when no line contradicts it.
+    non-ASCII bytes is made of everyday Chinese characters, Shift-JIS (cp932) when it decodes to
+    kana, which every Japanese text has, and Windows Latin (cp1252, which is Latin-1 with a few more
+    signs) when no line contradicts it.
 
     Raises
     ------
@@ -45,8 +47,8 @@ def decode(path: Path, data: bytes) -> tuple[str, str]:
     except UnicodeDecodeError as failure:
         not_utf8 = failure
     # Two bytes of GBK may pass for one Greek letter in UTF-8; three bytes from 0xE0 on for none.
-    chinese = _looks_chinese(data)
-    if (utf8_row := _row_in_utf8(data, from_byte=0xE0 if chinese else 0x80)) is not None:
+    east_asian = "gbk" if _looks_chinese(data) else "cp932" if _looks_japanese(data) else None
+    if (utf8_row := _row_in_utf8(data, from_byte=0xE0 if east_asian else 0x80)) is not None:
         raise bad_input(
             path,
             f"byte 0x{data[not_utf8.start]:02X}, which is not UTF-8, although row {utf8_row} is",
@@ -54,7 +56,7 @@ def decode(path: Path, data: bytes) -> tuple[str, str]:
             row=_row_of(data, not_utf8.start),
             remedy=f"the file mixes two encodings: {_REMEDY}",
         )
-    return _strict(path, data, "gbk" if chinese else "cp1252")
+    return _strict(path, data, east_asian or "cp1252")
 
 
 def _strict(path: Path, data: bytes, encoding: str) -> tuple[str, str]:
@@ -70,7 +72,7 @@ def _undecodable(path: Path, failure: UnicodeDecodeError, encoding: str) -> Inpu
     return bad_input(
         path,
         f"byte 0x{byte:02X}, which no text in {encoding} holds",
-        "UTF-8, UTF-16, GBK or Latin-1 text",
+        "UTF-8, UTF-16, GBK, Shift-JIS or Latin-1 text",
         row=_row_of(data, failure.start),
         remedy=_REMEDY,
     )
@@ -95,6 +97,14 @@ def _looks_chinese(data: bytes) -> bool:
     pairs = [run[at : at + 2] for run in runs for at in range(0, len(run), 2)]
     everyday = sum(pair[0] in _EVERYDAY_LEADS and pair[1] > 0xA0 for pair in pairs)
     return bool(everyday > 0.8 * len(pairs))
+
+
+def _looks_japanese(data: bytes) -> bool:
+    """Tell Shift-JIS from Latin-1, in which the first bytes of kana, 0x82 and 0x83, are rare signs."""
+    try:
+        return _KANA.search(data.decode("cp932")) is not None
+    except UnicodeDecodeError:
+        return False
 
 
 def _row_in_utf8(data: bytes, from_byte: int) -> int | None:

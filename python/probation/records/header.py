@@ -60,8 +60,10 @@ def find_heading(
     if header is None:
         first = _first_data_row(rows, 0)
         header = first - 1
-        if header > 0 and _names_units_of(rows[header - 1], rows[header]):
-            header -= 1
+        for units_at in range(header, 0, -1) if notes_below else (header,):
+            if units_at > 0 and _names_units_of(rows[units_at - 1], rows[units_at]):
+                header = units_at - 1
+                break
         if header < 0 or not any(cell.strip() for cell in rows[header]):
             return Heading(columns=_numbered(len(rows[0])), row=None, first=first)
     units = next((at for at in range(header + 1, _first_data_row(rows, header + 1)) if _is_units_row(rows[at])), None)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from probation.errors import InputError
-from probation.records.grid import Grid, is_number
+from probation.records.grid import is_number
 from probation.records.header import split_unit, without_brackets
 from probation.records.options import with_area
 from probation.records.roles import normalised
@@ -22,6 +22,7 @@ _NAMES = {
     "gauge_length_mm": (
         *("gauge_length", "gage_length", "initial_gauge_length", "gauge_length_l0", "gauge_length_lo", "l0", "lo"),
         *("length", "specimen_length", "messlänge", "messlaenge", "anfangsmesslänge", "messlänge_l0", "einspannlänge"),
+        *("messlänge_standardweg", "einspannlänge_bei_startposition"),
         *("longueur_initiale", "longueur_de_jauge", "longueur_utile", "base_de_mesure"),
     ),
     "width_mm": ("width", "specimen_width", "b0", "breite", "probenbreite", "probenbreite_b0", "largeur"),
@@ -61,24 +62,22 @@ class HeaderBlock:
         return self.specimens[number] if number < len(self.specimens) else {}
 
 
-def header_block(path: Path, grid: Grid, end: int) -> HeaderBlock:
-    """Read the rows of a grid above its headings.
+def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
+    """Read the rows above the headings of a table.
 
     Parameters
     ----------
     path : Path
-    grid : Grid
-    end : int
-        Index of the row of the headings.
+    cells : sequence of sequence of str
+        The rows.
     """
-    rows = [[cell.strip() for cell in row] for row in grid.rows[:end]]
+    rows = [[cell.strip() for cell in row] for row in cells]
     tabled = _table_of_specimens(path, rows)
     if tabled:
         return HeaderBlock(_facts(rows), tabled)
     found: dict[str, float] = {}
-    for row in rows:
-        if (dimension := _dimension(row)) is not None:
-            found.setdefault(*dimension)
+    for key, value, _ in sorted(filter(None, map(_dimension, rows)), key=lambda dimension: dimension[2]):
+        found.setdefault(key, value)
     needed = _needed(path, found)
     return HeaderBlock(_facts(rows), (needed,) if needed else ())
 
@@ -104,8 +103,8 @@ def _name_and_values(row: Sequence[str]) -> tuple[str, list[str]]:
     return name.rpartition(" : ")[2].strip(), filled[1:]
 
 
-def _dimension(row: Sequence[str]) -> tuple[str, float] | None:
-    """A dimension of the specimen, such as ``Width(mm) : 2.21`` or ``Dimension : Width,2.21,mm``."""
+def _dimension(row: Sequence[str]) -> tuple[str, float, int] | None:
+    """A dimension of the specimen, such as ``Width(mm) : 2.21``, and how far its name stands down in `_NAMES`."""
     label, values = _name_and_values(row)
     if not values or len(values) > 2:
         return None
@@ -114,7 +113,8 @@ def _dimension(row: Sequence[str]) -> tuple[str, float] | None:
     match = _TRAILING_NUMBER.fullmatch(" ".join(values))
     if key is None or match is None:
         return None
-    return _in_millimetres(key, match[1], match[2] or unit or "")
+    dimension = _in_millimetres(key, match[1], match[2] or unit or "")
+    return None if dimension is None else (*dimension, _NAMES[key].index(normalised(name)))
 
 
 def _in_millimetres(key: str, text: str, unit: str) -> tuple[str, float] | None:

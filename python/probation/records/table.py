@@ -1,6 +1,7 @@
 """A specimen's named columns, as the file holds them: text until someone asks for numbers."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -50,9 +51,9 @@ class Table:
         The file's row of the headings.
     decimal : str
         ``"."`` or ``","``.
-    roles : dict of str to str
-        Which label plays which role (``{"time": "Time (s)"}``) where the import profile knows;
-        otherwise empty, and the headings decide.
+    roles : dict of str to str or int
+        Label, or position counted from 1, of the column that plays each role (``{"time": "Time (s)"}``) where the
+        import profile knows; otherwise empty, and the headings decide.
     specimen : dict of str to float
         ``area_mm2`` and ``gauge_length_mm`` that the file states for this specimen.
     """
@@ -63,7 +64,7 @@ class Table:
     row_numbers: list[int]
     header_row: int | None
     decimal: str = "."
-    roles: dict[str, str] = field(default_factory=dict)
+    roles: Mapping[str, str | int] = field(default_factory=dict)
     specimen: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -71,7 +72,7 @@ class Table:
         """Whether its columns have headings of their own."""
         return self.header_row is not None
 
-    def with_roles(self, roles: dict[str, str]) -> "Table":
+    def with_roles(self, roles: Mapping[str, str | int]) -> "Table":
         """Copy the table, with what its profile knows of the columns."""
         return replace(self, roles=roles)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from probation._complaint import bad_input, quoted
+from probation.records.assignment import find_column
 from probation.records.checks import find_excess, find_fault, find_short_step, refusal
 from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadOptions
@@ -35,8 +36,7 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
     ((_, table),) = chosen_tables(path, reading, specimen_index)
     if not set(_ROLES) <= set(table.roles):
         raise bad_input(path, "no temperatures over time", "a temperature log")
-    by_label = {column.label: column for column in table.columns}
-    columns = {role: by_label[table.roles[role]] for role in _ROLES}
+    columns = {role: find_column(table, table.roles[role]) for role in _ROLES}
     log = {role: table.numbers(column) for role, column in columns.items()}
     if fault := find_fault(log) or find_excess(log) or find_short_step("time", log["time"]):
         raise refusal(table, columns, fault)

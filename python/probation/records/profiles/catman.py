@@ -21,19 +21,19 @@ _UNITS = {
     "temperature": "degC",
 }
 _FEEDBACK = re.compile(r"extenso|clip|dms|sg\b|strain", re.IGNORECASE)
-_ITS_FACTS = re.compile(r"Hardware channel:|^Time\s+\d+ - |catman", re.MULTILINE)
+_ITS_FACTS = re.compile(r"Hardware channel:|Hardware-Kanal:|^(Time|Zeit)\s+\d+ - |catman", re.MULTILINE | re.IGNORECASE)
 
 
-def _roles(columns: Sequence[Column]) -> dict[str, str]:
+def _roles(columns: Sequence[Column]) -> dict[str, int]:
     """The first channel of each unit, one that is called an extensometer before others."""
-    roles: dict[str, str] = {}
+    roles: dict[str, int] = {}
     if columns and normalised(columns[0].name).startswith(("time", "zeit")):
-        roles["time"] = columns[0].label
+        roles["time"] = columns[0].position + 1
     for role, unit in _UNITS.items():
         fitting = [column for column in columns[1:] if column.unit and measures(column.unit, unit)]
         fitting.sort(key=lambda column: (role_of(column.name) != role, _FEEDBACK.search(column.name) is None))
         if fitting:
-            roles[role] = fitting[0].label
+            roles[role] = fitting[0].position + 1
     return roles
 
 

@@ -73,7 +73,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
     return replace(
         reading,
         tables=tuple(_as_shown(table, percents) for table in reading.tables),
-        warnings=(note,) if ignored else (),
+        warnings=(*reading.warnings, note) if ignored else reading.warnings,
         like_sheets=like,
     )
 
@@ -81,7 +81,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
 def _is_headed_alike(grid: Grid, table: Table) -> bool:
     """The sheet has the headings of the table, so it is another specimen of the same test."""
     headings = [column.label for column in table.columns if column.label]
-    rows = ([" ".join(cell.split()) for cell in row] for row in grid.rows[:_HEADED_ROWS])
+    rows = ([text for cell in row if (text := " ".join(cell.split()))] for row in grid.rows[:_HEADED_ROWS])
     return any(row[: len(headings)] == headings for row in rows)
 
 

@@ -12,6 +12,7 @@ from probation.records.table import Column
 from probation.records.units import measures
 
 _RECOGNISED_ROWS = 60
+_DECIDED_BY_UNIT = {"engineering_strain": ("mm", "displacement"), "force": ("MPa", "engineering_stress")}
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Machine:
     recognises : callable
         Whether the first rows, their cells joined by tabs, are of this kind.
     roles : callable
-        Label of the column for each role, of a table's columns.
+        Position of the column for each role, counted from 1, of a table's columns.
     headings : frozenset of str
         What it calls its quantities, as `normalised`; they tell the row of the headings.
     notes_below : bool
@@ -35,7 +36,7 @@ class Machine:
     name: str
     title: str
     recognises: Callable[[str], bool]
-    roles: Callable[[Sequence[Column]], dict[str, str]]
+    roles: Callable[[Sequence[Column]], dict[str, int]]
     headings: frozenset[str]
     notes_below: bool = False
 
@@ -48,18 +49,20 @@ def machine_by_headings(
     Parameters
     ----------
     headings : mapping of str to sequence of str
-        What it calls the quantity of each role, as `normalised`, best first. A strain in a unit of length is
-        a displacement.
+        What it calls the quantity of each role, as `normalised`, best first; of several columns of one
+        heading the first. The unit decides where it contradicts the heading: a strain in mm is a displacement, a
+        force in MPa an engineering stress.
     """
 
-    def roles(columns: Sequence[Column]) -> dict[str, str]:
-        assigned: dict[str, str] = {}
+    def roles(columns: Sequence[Column]) -> dict[str, int]:
+        assigned: dict[str, int] = {}
         for role, names in headings.items():
             for heading in names:
                 column = next((one for one in columns if normalised(one.name) == heading), None)
                 if column is not None:
-                    is_length = role == "engineering_strain" and measures(column.unit or "", "mm")
-                    assigned.setdefault("displacement" if is_length else role, column.label)
+                    unit, other = _DECIDED_BY_UNIT.get(role, ("", role))
+                    contradicted = bool(unit) and measures(column.unit or "", unit)
+                    assigned.setdefault(other if contradicted else role, column.position + 1)
                     break
         return assigned
 

@@ -1,17 +1,18 @@
 """The tables of a grid of cells: one for each specimen, side by side or one below the other."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from probation._complaint import bad_input
+from probation._complaint import bad_input, quoted
+from probation.errors import InputError
 from probation.records.grid import Grid, decimal_mark, is_number
 from probation.records.header import Heading, find_heading
 from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
 from probation.records.profiles.machines import machine_of
 from probation.records.profiles.profile import Reading
-from probation.records.roles import normalised
+from probation.records.roles import normalised, role_of
 from probation.records.source import Source
 from probation.records.table import Column, Table
 
@@ -33,14 +34,25 @@ def read_tables(source: Source, grid: Grid, options: ReadOptions) -> Reading:
         heading = find_heading(grid, options.labels)
     else:
         heading = find_heading(grid, options.labels, machine.headings, notes_below=machine.notes_below)
-    tables = _tables(source, grid, heading)
+    blocks = _blocks(grid, heading)
+    tables = _tables(source, grid, heading, blocks)
     if machine is not None:
         tables = tuple(table.with_roles(machine.roles(table.columns)) for table in tables)
-    above = header_block(source.path, grid, 0 if heading.row is None else heading.row)
+    above = header_block(source.path, grid.rows[: 0 if heading.row is None else heading.row])
+    between = [header_block(source.path, grid.rows[block.end : after.heading]) for block, after in pairwise(blocks)]
+    width = len(tables) // len(blocks)
+    own = [above.specimen(0) if between else {}, *(block.specimen(0) for block in between)]
+    tables = tuple(
+        replace(table, specimen=above.specimen(number) | (own[number // width] if len(above.specimens) < 2 else {}))
+        for number, table in enumerate(tables)
+    )
+    joined = _continued(tables)
+    continued = (f"{len(tables)} tables joined to {len(joined)}: the time goes on from one to the next",)
     return Reading(
-        tables=tuple(replace(table, specimen=above.specimen(number)) for number, table in enumerate(tables)),
+        tables=joined,
         separator=grid.separator,
         metadata=above.facts,
+        warnings=(*_notes(grid, blocks, tables), *(continued if len(joined) < len(tables) else ())),
         machine="" if machine is None else machine.name,
     )
 
@@ -53,10 +65,11 @@ def table_from(source: Source, grid: Grid, options: ReadOptions) -> Table:
     InputError
         As `read_tables`.
     """
-    return _tables(source, grid, find_heading(grid, options.labels))[0]
+    heading = find_heading(grid, options.labels)
+    return _tables(source, grid, heading, _blocks(grid, heading))[0]
 
 
-def _tables(source: Source, grid: Grid, heading: Heading) -> tuple[Table, ...]:
+def _tables(source: Source, grid: Grid, heading: Heading, blocks: Sequence["_Block"]) -> tuple[Table, ...]:
     if heading.first >= len(grid.rows):
         raise bad_input(
             source.path,
@@ -66,8 +79,8 @@ def _tables(source: Source, grid: Grid, heading: Heading) -> tuple[Table, ...]:
             remedy="export the samples too",
         )
     tables = []
-    for start, end in _stacked(grid, heading):
-        rows, row_numbers = grid.rows[start:end], grid.row_numbers[start:end]
+    for block in blocks:
+        rows, row_numbers = grid.rows[block.first : block.end], grid.row_numbers[block.first : block.end]
         _check_width(source, rows, row_numbers, len(heading.columns))
         decimal = decimal_mark(rows)
         tables += [
@@ -96,21 +109,86 @@ def side_by_side(columns: Sequence[Column]) -> list[tuple[Column, ...]]:
     return [tuple(columns)]
 
 
-def _stacked(grid: Grid, heading: Heading) -> list[tuple[int, int]]:
-    """First and last data rows of each table, where the row of the headings comes again below the numbers."""
-    if heading.row is None:
-        return [(heading.first, len(grid.rows))]
-    cells = _stripped(grid.rows[heading.row])
-    starts = [at for at in range(heading.first, len(grid.rows)) if _stripped(grid.rows[at]) == cells]
-    tables = []
-    for start, end in pairwise([heading.row, *starts, len(grid.rows)]):
-        first = start + heading.first - heading.row
+@dataclass(frozen=True)
+class _Block:
+    """Rows of a grid: those of a heading, of the first numbers, and the one after the last numbers."""
+
+    heading: int
+    first: int
+    end: int
+
+
+def _blocks(grid: Grid, heading: Heading) -> list[_Block]:
+    """The rows of each table, where the row of the headings comes again below the numbers; text below is cut."""
+    starts = [-1 if heading.row is None else heading.row]
+    if heading.row is not None:
+        cells = _stripped(grid.rows[heading.row])
+        starts += [at for at in range(heading.first, len(grid.rows)) if _stripped(grid.rows[at]) == cells]
+    blocks = []
+    for start, end in pairwise([*starts, len(grid.rows)]):
+        first = start + heading.first - starts[0]
         last = end
-        while end < len(grid.rows) and last > first and not any(map(is_number, grid.rows[last - 1])):
-            last -= 1  # the name of the specimen that follows
+        while last > first and _is_text(grid.rows[last - 1]):
+            last -= 1
         if last > first:
-            tables.append((first, last))
-    return tables
+            blocks.append(_Block(start, first, last))
+    return blocks or [_Block(starts[0], heading.first, len(grid.rows))]
+
+
+def _is_text(row: Sequence[str]) -> bool:
+    """The row begins with text, and not most of its cells are numbers: a fact, a remark, a name."""
+    filled = [cell for cell in row if cell.strip()]
+    return not filled or (not is_number(filled[0]) and 2 * sum(map(is_number, filled)) <= len(filled))
+
+
+def _continued(tables: Sequence[Table]) -> tuple[Table, ...]:
+    """The tables, those joined that go on where the one above ends: the time is that of one test."""
+    joined: list[Table] = []
+    for table in tables:
+        before = joined[-1] if joined else None
+        if before is not None and before.columns == table.columns and _goes_on(before, table):
+            rows, row_numbers = [*before.rows, *table.rows], [*before.row_numbers, *table.row_numbers]
+            joined[-1] = replace(before, rows=rows, row_numbers=row_numbers)
+        else:
+            joined.append(table)
+    return tuple(joined)
+
+
+def _goes_on(before: Table, table: Table) -> bool:
+    """Whether the time of a table begins after that of the one above, but not by more than that lasted."""
+    named = table.roles.get("time")
+    column = next(
+        (c for c in table.columns if (named == c.position + 1 if table.roles else role_of(c.name) == "time")), None
+    )
+    if column is None:
+        return False
+    try:
+        ends = [(float(times[0]), float(times[-1])) for times in (before.numbers(column), table.numbers(column))]
+    except InputError:
+        return False  # where the bad cell stands is said when the column is read
+    (start, end), (goes_on, _) = ends
+    return end < goes_on < 2.0 * end - start
+
+
+def _notes(grid: Grid, blocks: Sequence[_Block], tables: Sequence[Table]) -> tuple[str, ...]:
+    """What is left out below the last numbers, and which headings stand several times."""
+    notes = []
+    below = [at for at in range(blocks[-1].end, len(grid.rows)) if any(map(str.strip, grid.rows[at]))]
+    if below:
+        text = quoted(next(cell for cell in _stripped(grid.rows[below[0]]) if cell))
+        plural = "row" if len(below) == 1 else "rows"
+        notes.append(
+            f"left out {len(below)} {plural} of text below the numbers: {text} in row {grid.row_numbers[below[0]]}"
+        )
+    columns = tables[0].columns
+    for role, place in tables[0].roles.items():
+        column = next((column for column in columns if column.position + 1 == place), None)
+        if column is not None and sum(other.label == column.label for other in columns) > 1:
+            notes.append(
+                f"several columns are headed {quoted(column.label)}: the first, position {place}, is read; "
+                f"columns = {{ {role} = … }} (--column {role}=…) takes another by position"
+            )
+    return tuple(notes)
 
 
 def _stripped(row: Sequence[str]) -> list[str]:
