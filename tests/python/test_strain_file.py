@@ -11,6 +11,7 @@ from probation import Campaign, InputError, init_campaign
 from probation.cli import main
 from probation.records.clock import estimate_shift
 from probation.records.reading import read_record
+from probation.report.initial_page import clocks_figure
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data" / "zr-ti-nb"
 needs_data = pytest.mark.skipif(not DATA.exists(), reason="the measured records are not here")
@@ -70,12 +71,28 @@ def test_the_strain_of_a_film_is_joined_to_the_force(files):
     assert 0.9 < record.time[0] < 1.3
 
 
+@pytest.mark.parametrize("with_displacement", [True, False], ids=["rates", "onset"])
+def test_the_misfit_over_the_shift_is_kept_and_drawn(files, with_displacement):
+    force, film = files
+    if not with_displacement:
+        force.write_text("\n".join(",".join(row.split(",")[::2]) for row in force.read_text().split("\n")))
+    record = read_record(force, strain_from={"file": film.name}, specimen={"area_mm2": 40.0})
+    clock = record.clock
+    assert (np.diff(clock.tried) > 0.0).all()
+    assert clock.tried[np.argmin(clock.misfit)] == pytest.approx(clock.value, abs=2 * clock.se)
+    assert 0.0 <= clock.misfit.min() < 0.1 < clock.misfit.max() <= 1.0 + 1e-9
+    misfit, start = clocks_figure(record).axes
+    assert misfit.get_xlabel() == "shift of the strain file [s]"
+    assert start.get_xlabel() == "time [s]"
+
+
 def test_a_stated_shift_is_taken(files):
     force, film = files
     how = {"specimen": {"area_mm2": 40.0}}
     record = read_record(force, strain_from={"file": film.name, "shift_s": -7.5}, **how)
     assert _error(record) < 0.5
     assert "-7.5 s, as stated" in " ".join(record.warnings)
+    assert len(clocks_figure(record).axes) == 1  # nothing was tried
     late = read_record(force, strain_from={"file": film.name, "shift_s": -6.5}, **how)
     assert _error(late) > 2.0
 
@@ -102,7 +119,7 @@ def test_init_copies_the_film_and_the_campaign_joins_it(files, tmp_path):
     how = {"specimen": {"area_mm2": 40.0}, "strain_from": {"file": str(film)}}
     made = init_campaign([force], tmp_path / "made", **how)
     page = (tmp_path / "made" / "records.html").read_text(encoding="utf-8")
-    assert page.count("the beginning of the test on one clock; the strain is that of video.csv") >= 1
+    assert page.count("two standard errors shaded, and the beginning of the test on one clock") >= 1
     force.unlink()
     film.unlink()
     (record,) = Campaign.load((tmp_path / "made").rename(tmp_path / "moved")).records

@@ -57,6 +57,7 @@ def assemble(
             *_volume_warning(measure),
         ),
         profile=profile,
+        clock=found.clock,
     )
     if start == "loaded":
         return with_loading(record)

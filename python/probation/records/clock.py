@@ -9,7 +9,8 @@ The uncertainty is how far the shift may move until the rest grows by one standa
 other being counted once for as long as the rest remembers itself.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,11 @@ _FEWEST_STEPS = 20  # of the grid in the shorter record: fewer tell no shift
 _FINE = 20  # shifts in a step of the grid, about the best one
 
 
-@dataclass(frozen=True)
+def _nothing() -> FloatArray:
+    return np.zeros(0)
+
+
+@dataclass(frozen=True, eq=False)
 class Shift:
     """What is added to the time of the strain file.
 
@@ -40,12 +45,18 @@ class Shift:
         How it was found, for people.
     others : tuple of float [s]
         Shifts elsewhere that fit nearly as well; where there are any, the records do not tell.
+    tried : ndarray, shape (n,) [s]
+        Shifts that were tried, in increasing order; empty of a shift that was stated.
+    misfit : ndarray, shape (n,) [-]
+        What each leaves unexplained: of the mean square of the strain rate, or of the force up to its onset.
     """
 
     value: float
     se: float
     by: str
     others: tuple[float, ...] = ()
+    tried: FloatArray = field(default_factory=_nothing)
+    misfit: FloatArray = field(default_factory=_nothing)
 
 
 def estimate_shift(
@@ -89,8 +100,11 @@ def estimate_shift(
     se = _reach(np.concatenate([coarse, fine]), np.concatenate([rests, fine_rests]), value, residual)
     at_the_edge = not lowest + step < value < highest - step
     others = _others(coarse, rests, value, 4 * _SMOOTHED * step)
+    tried, order = np.unique(np.concatenate([coarse, fine]), return_index=True)
+    misfit = np.concatenate([rests, fine_rests])[order] / max(_square(rate), 1e-300)
     unknown = at_the_edge or bool(others) or se > _UNKNOWN * shorter or not rate.any()
-    return Shift(value, np.inf if unknown else max(se, step / _FINE), "rates of strain, displacement and force", others)
+    se = np.inf if unknown else max(se, step / _FINE)
+    return Shift(value, se, "rates of strain, displacement and force", others, tried, misfit)
 
 
 def _others(shifts: FloatArray, rests: FloatArray, value: float, apart: float) -> tuple[float, ...]:
@@ -109,12 +123,26 @@ def _reach(candidates: FloatArray, rests: FloatArray, value: float, residual: Fl
 
 
 def _by_onset(time: FloatArray, force: FloatArray, strain_time: FloatArray, strain: FloatArray) -> Shift:
-    (force_onset, force_se), (strain_onset, strain_se) = _onset(time, force), _onset(strain_time, strain)
-    return Shift(force_onset - strain_onset, float(np.hypot(force_se, strain_se)), "onset of force and of strain")
+    of_force, of_strain = _onset(time, force), _onset(strain_time, strain)
+    se = float(np.hypot(of_force.se, of_strain.se))
+    tried = of_force.tried - of_strain.time
+    return Shift(of_force.time - of_strain.time, se, "onset of force and of strain", (), tried, of_force.misfit)
 
 
-def _onset(time: FloatArray, values: FloatArray) -> tuple[float, float]:
-    """When a signal leaves its rest, and the standard error of that; infinite where no rest was recorded."""
+class _Onset(NamedTuple):
+    """When a signal leaves its rest [s], the standard error of that, infinite where no rest was recorded.
+
+    And the instants that were tried, and what part of the signal's mean square each leaves.
+    """
+
+    time: float
+    se: float
+    tried: FloatArray
+    misfit: FloatArray
+
+
+def _onset(time: FloatArray, values: FloatArray) -> _Onset:
+    """Find when a signal leaves its rest."""
     size = np.abs(values - np.median(values[: max(len(values) // 50, 3)]))
     end = max(int(np.argmax(size > _ONSET * size.max())) + 1, _FEWEST)
     start, signal = time[:end], values[:end]
@@ -132,7 +160,8 @@ def _onset(time: FloatArray, values: FloatArray) -> tuple[float, float]:
     best = float(candidates[int(np.argmin(rests))])
     se = max(_reach(candidates, rests, best, rest(best)), step, float(np.median(np.diff(start))) / 4.0)
     rested = int((start < best).sum()) >= _FEWEST // 2
-    return best, se if rested else np.inf
+    varied = max(_square(signal - signal.mean()), 1e-300)
+    return _Onset(best, se if rested else np.inf, candidates, rests / varied)
 
 
 def _rate(time: FloatArray, values: FloatArray, step: float) -> tuple[FloatArray, FloatArray]:

@@ -10,6 +10,7 @@ from probation._complaint import bad_input, joined, listed, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
 from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step, refusal
+from probation.records.clock import Shift
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.joining import Film, join
 from probation.records.made_time import parse_rate, time_along
@@ -40,12 +41,15 @@ class Extraction:
     true_strain : ndarray, shape (n,) [-]
     stretch : ndarray, shape (n,) [-]
     warnings : tuple of str
+    clock : Shift or None
+        How the clock of a strain file was set.
     """
 
     samples: dict[str, FloatArray]
     true_strain: FloatArray
     stretch: FloatArray
     warnings: tuple[str, ...]
+    clock: Shift | None = None
 
 
 @dataclass(frozen=True)
@@ -144,6 +148,7 @@ def _filmed(
             *_unit_warnings(columns, options),
             *_unstated_units(table, columns, raw.samples, options),
         ),
+        clock=joined.shift,
     )
 
 

@@ -43,12 +43,14 @@ class Joined:
     within : ndarray of bool, shape (n,)
         The samples of the force file at which there is a strain.
     true_strain : ndarray, shape (n_within,) [-]
+    shift : Shift
     note : str
         Which file, which shift, how well it is known.
     """
 
     within: NDArray[np.bool_]
     true_strain: FloatArray
+    shift: Shift
     note: str
 
 
@@ -85,7 +87,7 @@ def join(path: Path, film: Film, time: FloatArray, force: FloatArray, displaceme
             f"{shift.value:.6g} s, expected at least {MINIMUM_SAMPLES}; check shift_s and the units of time"
         )
     strain = np.interp(at[within], film.time, film.true_strain)
-    return Joined(within, strain, _note(film, shift, int((~within).sum())))
+    return Joined(within, strain, shift, _note(film, shift, int((~within).sum())))
 
 
 def _untold(path: Path, film: Film, shift: Shift) -> InputError:

@@ -13,6 +13,7 @@ from probation._text import printable
 from probation.errors import InputError
 from probation.limits import LARGEST, SMALLEST_PARAMETER
 from probation.records.checks import find_excess, find_fault, find_short_step
+from probation.records.clock import Shift
 from probation.records.strain_limits import LARGEST_TRUE_STRAIN, expected_strain
 from probation.results.frames import data_frame, over_time
 from probation.results.rendering import InOneLine
@@ -91,6 +92,8 @@ class Record(InOneLine):
         What a reader should know: assumptions made, rows dropped, suspicious values.
     profile : str
         Import profile that read it; empty for a record made in memory.
+    clock : Shift or None
+        How the clock of a strain file was set; None where stress and strain come from one file.
 
     Raises
     ------
@@ -115,6 +118,7 @@ class Record(InOneLine):
     sha256: str = ""
     warnings: tuple[str, ...] = ()
     profile: str = ""
+    clock: Shift | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.id, str) or not self.id.strip():

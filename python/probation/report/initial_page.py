@@ -52,21 +52,36 @@ def record_figure(record: Record) -> Figure:
 
 
 def clocks_figure(record: Record) -> Figure:
-    """Whether force and strain, of two files, start together: both over time, as parts of their largest value."""
+    """How the clock of the strain file was set: the misfit over the shift, and the start of force and strain."""
+    clock = record.clock
     with house_style():
-        figure = new_figure(7.2, 3.2)
-        axes = figure.subplots()
-        for label, values, shade in (
-            ("stress, of the force file", record.true_stress, "model"),
-            ("strain, of the strain file", record.true_strain, "second"),
-        ):
-            size = np.abs(values)
-            part = size / max(float(size.max()), 1e-300)
-            end = max(int(np.argmax(part > _ONSET)) + 1, _FEWEST)
-            axes.plot(record.time[:end], part[:end], ".-", ms=3, lw=1.0, color=colour(shade), label=label)
-        axes.set(xlabel="time [s]", ylabel="part of the largest value [–]")
-        axes.legend()
+        figure = new_figure(10.0, 3.2)
+        if clock is None or not clock.tried.size:
+            start = figure.subplots()
+        else:
+            misfit, start = figure.subplots(1, 2)
+            misfit.plot(clock.tried, clock.misfit, lw=1.0, color=colour("model"))
+            misfit.axvspan(
+                clock.value - 2.0 * clock.se, clock.value + 2.0 * clock.se, color=colour("second"), alpha=0.3
+            )
+            misfit.axvline(clock.value, lw=1.0, color=colour("second"))
+            misfit.set(xlabel="shift of the strain file [s]", ylabel="unexplained part [–]", ylim=(0.0, None))
+        _draw_start(start, record)
     return figure
+
+
+def _draw_start(axes: Axes, record: Record) -> None:
+    """Force and strain over time, as parts of their largest value: of one test, they start together."""
+    for label, values, shade in (
+        ("stress, of the force file", record.true_stress, "model"),
+        ("strain, of the strain file", record.true_strain, "second"),
+    ):
+        size = np.abs(values)
+        part = size / max(float(size.max()), 1e-300)
+        end = max(int(np.argmax(part > _ONSET)) + 1, _FEWEST)
+        axes.plot(record.time[:end], part[:end], ".-", ms=3, lw=1.0, color=colour(shade), label=label)
+    axes.set(xlabel="time [s]", ylabel="part of the largest value [–]")
+    axes.legend()
 
 
 def _label(over_strain: Axes, over_time: Axes) -> None:
@@ -74,11 +89,11 @@ def _label(over_strain: Axes, over_time: Axes) -> None:
     over_time.set(xlabel="time [s]", ylabel="true strain [–]")
 
 
-def _clocks(made: InitialCampaign, record: Record) -> tuple[Picture, ...]:
-    if record.id not in made.filmed:
+def _clocks(record: Record) -> tuple[Picture, ...]:
+    if record.clock is None:
         return ()
-    shift = next((note for note in record.warnings if "its clock set forward" in note), "")
-    caption = f"{record.id}: the beginning of the test on one clock; {shift}."
+    tried = "what each shift leaves unexplained, two standard errors shaded, and " if record.clock.tried.size else ""
+    caption = f"{record.id}: {tried}the beginning of the test on one clock."
     return (picture(clocks_figure(record), caption),)
 
 
@@ -93,7 +108,7 @@ def write_initial_page(made: InitialCampaign, path: Path) -> None:
                 f"Read from {made.reads[record.id]}.",
                 *(f"Note: {warning}." for warning in record.warnings),
                 picture(record_figure(record), f"{record.id}: stress over strain, strain and stress over time."),
-                *_clocks(made, record),
+                *_clocks(record),
             ),
         )
         for record in records

@@ -39,14 +39,11 @@ class InitialCampaign(Result):
     folder : Path
     reads : dict of str to str
         By record: file, profile, and which column is which.
-    filmed : tuple of str
-        Ids of records whose strain comes from a file on another clock.
     """
 
     campaign: Campaign
     folder: Path
     reads: dict[str, str]
-    filmed: tuple[str, ...] = ()
 
 
 def init_campaign(
@@ -127,7 +124,6 @@ def init_campaign(
         Campaign.load(folder),
         folder,
         {entry.record.id: f"{entry.file}: {entry.read}" for entry in entries},
-        tuple(entry.record.id for entry in entries if "strain_from" in entry.keys),
     )
     try:
         made.report(folder / PAGE_NAME)
