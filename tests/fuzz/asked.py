@@ -15,7 +15,7 @@ READING_S = 10.0
 """Longest time that reading may take."""
 COMPUTING_S = 60.0
 """Longest time that a computation on the few samples of a case may take."""
-_COMPUTING = ("fit", "companion", "certify", "diagnose", "crosscheck", "field", "excitation")
+_COMPUTING = ("init", "fit", "companion", "certify", "diagnose", "crosscheck", "field", "excitation")
 
 
 def limit_s(command: tuple[str, ...]) -> float:
@@ -25,17 +25,28 @@ def limit_s(command: tuple[str, ...]) -> float:
 
 def ask(command: list[str]) -> int:
     """Run a command; returns its exit status."""
-    if command[0] not in ("read", "load"):
+    asked = {"read": _read, "load": _load, "init": _init}.get(command[0])
+    if asked is None:
         return main(command)
     try:
-        (_read if command[0] == "read" else _load)(*command[1:])
+        return asked(*command[1:]) or 0
     except InputError as error:
         print(f"probation: {error}", file=sys.stderr)
         return 2
     except Exception as error:
         print(f"probation: unexpected {type(error).__name__}: {error}", file=sys.stderr)
         return 1
-    return 0
+
+
+def _init(*arguments: str) -> int:
+    """Make a campaign; it must load, and hold no character that a terminal or an editor would obey."""
+    status = main(["init", *arguments])
+    if status == 0:
+        folder = Path(arguments[arguments.index("-o") + 1])
+        for each in Campaign.load(folder).records:
+            print(f"loads: {each.id}")
+        print((folder / "campaign.toml").read_text(encoding="utf-8"))
+    return status
 
 
 def _read(path: str, options: str = "{}") -> None:

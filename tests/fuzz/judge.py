@@ -10,6 +10,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from fuzz.worker import MOST_PRINTED
+from probation._text import printable
 
 if TYPE_CHECKING:
     from fuzz.case import Case
@@ -117,7 +118,8 @@ def _names_input(case: Case, complaint: str) -> bool:
     """Whether a complaint names a file of the case, an option, or a file or record that a campaign names."""
     tops = {PurePosixPath(name).parts[0] for name in case.files}
     stores = {name for name in tops if name not in case.files}
-    names = stores | {name.split(".")[0] for name in tops - stores} | {case.command[1].split("/")[-1][:30], "--"}
+    shown = {printable(" ".join(name.split())) for name in tops - stores}
+    names = stores | {name.split(".")[0] for name in shown} | {case.command[1].split("/")[-1][:30], "--"}
     place = complaint.removeprefix("probation: ").partition(":")[0]
     said = (place, *re.findall("'([^']+)'", place))  # the record that is named, too
     texts = [content for content in case.files.values() if isinstance(content, str)]

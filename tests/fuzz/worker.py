@@ -40,6 +40,7 @@ def main() -> None:
 
 def _load_libraries() -> None:
     """What the program loads when it needs it: no part of the time of the first case that does."""
+    import matplotlib.figure  # noqa: F401, PLC0415
     import openpyxl  # noqa: F401, PLC0415
     import xarray  # noqa: F401, PLC0415
     import zarr  # noqa: F401, PLC0415

@@ -8,6 +8,7 @@ from fuzz.kinds import (
     fit_json,
     gzipped,
     history,
+    laboratory,
     tab_separated,
     units,
     workbook,
@@ -26,5 +27,6 @@ KINDS = {
         companion_table,
         history,
         field_store,
+        laboratory,
     )
 }
