@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 from html.parser import HTMLParser
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,7 +13,15 @@ from PIL import Image
 import probation
 from probation.answers import json_answer, plain
 from probation.provenance import provenance, running
-from probation.report.figures import figure_to_svg, house_style, new_figure, save_figure, thinned
+from probation.report.figures import (
+    figure_to_svg,
+    house_style,
+    narrow,
+    new_figure,
+    number_logarithmic,
+    save_figure,
+    thinned,
+)
 from probation.report.page import Page, Section, picture
 from probation.report.plots import Curve, sensitivities, strain_rates, stress_strain_with_residuals
 from probation.report.style import COLOURS
@@ -167,6 +176,41 @@ def test_every_plot_labels_its_axes_with_units(figure):
 def test_a_constant_rate_is_not_magnified_to_its_round_off():
     axes = strain_rates([("ramp", STRAIN, 0.005 * (1 + 1e-12 * np.sin(99 * STRAIN)))]).axes[0]
     assert axes.get_ylim() == pytest.approx((0.0, 0.00625))
+
+
+@pytest.mark.parametrize("highest", [0.9, 9.0, 40.0, 4e4])
+def test_the_numbers_of_a_logarithmic_axis_do_not_overlap(highest):
+    with house_style():
+        figure = new_figure(4.0, 3.0)
+        axes = figure.subplots()
+        axes.loglog([0.2, highest], [1.0, 2.0])
+        number_logarithmic(axes.xaxis)
+        figure.draw_without_rendering()
+        numbers = [label for label in axes.get_xticklabels(which="both") if label.get_text()]
+        low, high = axes.get_xlim()
+        shown = sorted((label.get_window_extent().extents for label in numbers), key=lambda box: box[0])
+    inside = sum(low <= place <= high for place in axes.get_xticks())
+    assert inside >= 2 or len(shown) > 2
+    assert all(left[2] < right[0] for left, right in pairwise(shown))
+
+
+def test_a_label_longer_than_its_axis_is_broken_on_a_telephone():
+    with house_style():
+        figure = new_figure(7.2, 5.0)
+        _, below = figure.subplots(2, 1, height_ratios=(2.5, 1.0))
+        below.plot([0.0, 1.0], [0.0, 1.0])
+        below.set_ylabel("integrated − measured [–]")
+        assert narrow(figure)
+        figure.draw_without_rendering()
+        assert below.yaxis.label.get_window_extent().height <= 1.05 * below.get_window_extent().height
+    assert "&quot;label&quot;:&quot;integrated − measured [–]&quot;" in figure_to_svg(figure, "broken")
+
+
+def test_the_names_of_many_curves_stand_beside_the_curves():
+    curve = Curve("a", np.linspace(0.0, 1.0, 50), np.linspace(0.0, 40.0, 50), np.linspace(0.0, 41.0, 50))
+    figure = stress_strain_with_residuals([curve] * 4)
+    assert [axes.get_legend() for axes in figure.axes] == [None] * 5
+    assert len(figure.legends) == 1
 
 
 def test_a_long_curve_is_thinned_to_its_outline():

@@ -23,6 +23,7 @@ _TIME = "time [s]"
 _STRAIN = "true strain [–]"
 _RATE = "true strain rate [1/s]"
 _DOTS = 600
+_SAME = 1e-9  # relative: curves that vary by less are constant
 
 
 def excitation_figure(answer: RecordExcitation) -> Figure:
@@ -275,7 +276,9 @@ def _note(axes: Axes, text: str) -> None:
 def _around(scattered: FloatArray, curves: tuple[FloatArray, ...]) -> tuple[float, float]:
     """Limits that show the curves, and of the scattered samples what is not far away from them."""
     low, high = min(float(each.min()) for each in curves), max(float(each.max()) for each in curves)
-    room = 0.5 * (high - low) or 0.5 * abs(high) or 1.0
+    room = 0.5 * (high - low)
+    if room <= _SAME * max(abs(low), abs(high)):  # constant but for rounding
+        room = 0.5 * abs(high) or 1.0
     return (
         max(min(low, float(scattered.min())), low - room) - 0.05 * room,
         min(max(high, float(scattered.max())), high + room) + 0.05 * room,

@@ -19,7 +19,14 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.legend import Legend
 from matplotlib.text import Text
-from matplotlib.ticker import FixedFormatter, FuncFormatter, LogFormatter, NullFormatter
+from matplotlib.ticker import (
+    FixedFormatter,
+    FuncFormatter,
+    LogFormatter,
+    LogLocator,
+    NullFormatter,
+    StrMethodFormatter,
+)
 
 from probation._files import write_whole
 from probation._text import printable, printable_lines
@@ -181,9 +188,8 @@ def narrow(figure: Figure) -> bool:
         for title in axes.findobj(Text, include_self=False):
             if isinstance(title, Text) and title.get_text() in {axes.get_title(loc) for loc in _TITLES}:
                 title.set_text(fill(title.get_text(), _LINE))
-        low, high = axes.get_xlim()
-        if axes.get_xscale() == "log" and high > 5.0 * low:
-            axes.xaxis.set_minor_formatter(NullFormatter())
+        if axes.get_xscale() == "log":
+            number_logarithmic(axes.xaxis)
     for legend in list(figure.legends):
         handles, labels = (
             [each for each in legend.legend_handles if each is not None],
@@ -196,7 +202,30 @@ def narrow(figure: Figure) -> bool:
             figure.legend(handles, labels, loc=cast("Any", f"outside {place}"), ncols=columns)
         height += 0.17 * (len(labels) / columns - 1.0)
     figure.set_size_inches(NARROW, height)
+    _break_labels(figure)
     return True
+
+
+def number_logarithmic(axis: Axis) -> None:
+    """Number a logarithmic axis so that nothing overlaps: decades, or 1, 2 and 5 where there are fewer than two."""
+    low, high = axis.get_view_interval()
+    if high > 5.0 * low:
+        axis.set_minor_formatter(NullFormatter())
+        if high < 100.0 * low:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+
+
+def _break_labels(figure: Figure) -> None:
+    """Break labels that are longer than the axis that they stand at."""
+    with house_style():
+        figure.draw_without_rendering()
+        for axes in figure.axes:
+            label = axes.yaxis.label
+            room = axes.get_window_extent().height
+            if (needed := label.get_window_extent().height) > room:
+                letters = int(len(label.get_text()) * room / needed)
+                axes.set_ylabel(fill(label.get_text(), max(letters, 1), break_long_words=False))
 
 
 def _curves(axes: Axes) -> list[Line2D]:
@@ -229,7 +258,7 @@ def _scale(axis: Axis, first: float, last: float, label: str) -> dict[str, objec
         return None
     low, high = (float(f"{end:.7g}") for end in axis.get_view_interval())
     ends = [round(first, 2), round(last, 2), low, high]
-    return {"ends": ends, "log": axis.get_scale() == "log", "label": printable(label)}
+    return {"ends": ends, "log": axis.get_scale() == "log", "label": printable(" ".join(label.split()))}
 
 
 def _bears_names(axis: Axis) -> bool:

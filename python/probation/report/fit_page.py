@@ -83,30 +83,30 @@ def _records(fit: Fit) -> Section:
     rows = tuple(
         (
             record.id,
+            record.excitation.differentiator,
             f"{record.rms_MPa:.4g}",
             f"{record.max_MPa:.4g}",
             f"{record.noise_MPa:.4g}",
             f"{record.bias_MPa:.4g}",
             f"{record.bias.largest_MPa:.3g} at {record.bias.true_strain:.3g}" if record.bias.significant else "–",
-            record.excitation.differentiator,
         )
         for record in fit.records.values()
     )
     headings = (
         "record",
+        "strain rate by",
         "rms [MPa]",
         "largest [MPa]",
         "noise [MPa]",
         "bias [MPa]",
         "largest bias [MPa] at strain",
-        "strain rate",
     )
     rates = strain_rates([(r.id, r.excitation.true_strain, r.excitation.rate) for r in fit.records.values()])
     return Section(
         "What is left",
         (
             picture(fit_figure(fit), "Measured and identified true stress; below, the fit residual, model minus data."),
-            Table(headings, rows),
+            Table(headings, rows, left=2),
             "Noise is the part of the fit residual that changes from sample to sample; bias is the rest: what the law, "
             "or the experiment, leaves out. Its largest value is that of the low-frequency part, a parabola moved over "
             "a twelfth of the record, where that stands out of the noise.",

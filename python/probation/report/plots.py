@@ -68,7 +68,7 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
             _residual(below[at], curve, series_colour(at))
         above.set(ylabel="true stress [MPa]", title=title)
         below[-1].set_xlabel("true strain [–]")
-        above.legend(loc="upper left")
+        figure.legend(*above.get_legend_handles_labels(), loc="outside lower center", ncols=4)
         figure.canvas.draw()
         for at, axes in enumerate(below):
             prefix = f"{curves[at].name}, " if count > 1 else ""
@@ -136,7 +136,7 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
         elif lowest > 0.0:  # constant but for its noise: zero shows how little that is
             axes.set_ylim(0.0, 1.25 * highest)
         axes.set(xlabel="true strain [–]", ylabel="true strain rate [1/s]")
-        axes.legend()
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
