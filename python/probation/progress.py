@@ -21,6 +21,24 @@ Answer = TypeVar("Answer")
 SHOWN_AFTER = 2.0
 """Seconds that work lasts before a bar is shown: what is done sooner needs none."""
 
+
+class Part(float):
+    """A fraction of the work, 0 to 1, and what is being done from there on.
+
+    Attributes
+    ----------
+    doing : str
+    """
+
+    doing: str
+
+    def __new__(cls, part: float, doing: str = "") -> Part:
+        """Make a fraction that says what is being done."""
+        made = super().__new__(cls, part)
+        made.doing = doing
+        return made
+
+
 _lock = Lock()
 _running = 0
 
@@ -77,6 +95,7 @@ class NotebookBar:
         elapsed = time.monotonic() - self.started
         if elapsed < self.after:
             return
+        what = what or (done.doing if isinstance(done, Part) else "")
         html = self._html(min(max(done / total, 0.0), 1.0) if total else 0.0, elapsed, what)
         display = import_module("IPython.display")
         if self._shown is None:

@@ -7,7 +7,9 @@ import pytest
 
 import probation
 from campaigns.few_records import few_records
+from lab_files import FILES
 from probation import progress
+from probation.diagnosis.isolability import campaign_isolability
 from probation.progress import NotebookBar, clock, said, shows_progress
 
 
@@ -39,7 +41,7 @@ def notebook(monkeypatch):
 
 def test_a_fit_moves_one_bar_and_takes_it_away(notebook):
     probation.fit(few_records(names=("slow",)))
-    assert "fit, " in notebook[0]
+    assert "fit: smoothed slow, " in notebook[0]
     assert any('value="100"' in html for html in notebook)
     assert notebook[-1] == ""
 
@@ -47,7 +49,7 @@ def test_a_fit_moves_one_bar_and_takes_it_away(notebook):
 def test_a_call_within_another_shows_none_of_its_own(notebook):
     campaign = few_records(names=("slow", "middle"), held_out=("middle",))
     probation.certify(campaign, "sa2")
-    assert {html.split("</progress> ")[1].split(",")[0] for html in notebook if html} == {"certify"}
+    assert {html.split("</progress> ")[1].split(":")[0].split(",")[0] for html in notebook if html} == {"certify"}
     assert notebook.count("") == 1
 
 
@@ -92,3 +94,42 @@ def test_what_is_left_follows_from_what_was_needed():
     assert said(0.4, 31.0) == "40 %, 0:31 so far, about 0:46 left"
     assert said(0.0, 5.0) == "0 %, 0:05 so far"
     assert clock(3725.0) == "62:05"
+
+
+@pytest.mark.parametrize("question", ["fit", "certify", "diagnose", "compare", "plan", "isolability"])
+def test_every_question_says_what_is_being_done(question):
+    told = []
+    campaign = few_records(names=("slow", "middle"))
+    law = probation.Law(unrelaxed_modulus=3220.0, tau_max=5.2, hardening_modulus=2.0)
+    effects = ["force_offset", "damage"]
+    ask = {
+        "fit": lambda: probation.fit(campaign, "sa2", gap=False, progress=told.append),
+        "certify": lambda: probation.certify(campaign, "sa2", progress=told.append),
+        "diagnose": lambda: probation.diagnose(campaign, "sa2", effects=effects, progress=told.append),
+        "compare": lambda: probation.compare(campaign, campaign, "sa2", effects=["force_drift"], progress=told.append),
+        "plan": lambda: probation.plan(
+            law,
+            {"ramp": probation.named_history("ramp", rate=0.005, strain=1.0, samples=60)},
+            noise=0.5,
+            effects=effects,
+            progress=told.append,
+        ),
+        "isolability": lambda: campaign_isolability(campaign, "sa2", effects=effects, progress=told.append),
+    }
+    ask[question]()
+    assert told == sorted(told)
+    assert all(part.doing for part in told if part < 0.9)
+
+
+def test_a_file_that_is_read_is_named(tmp_path):
+    told = []
+    names = ("Specimen_RawData_1.csv", "essai.csv")
+    for name in names:
+        FILES[name][0](tmp_path / name)
+    files = [tmp_path / name for name in names]
+    probation.init_campaign(files, tmp_path / "made", progress=lambda *said: told.append(said))
+    assert told == [
+        (0, 2, "reading Specimen_RawData_1.csv"),
+        (1, 2, "reading essai.csv"),
+        (2, 2, "drawing the records"),
+    ]

@@ -19,7 +19,7 @@ from probation.identify.fit import gap_of
 from probation.inference.gap import as_tolerance
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
-from probation.progress import shows_progress
+from probation.progress import Part, shows_progress
 from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def certify(
         nonlocal done
         done += 1
         if progress:
-            progress(done / total)
+            progress(Part(done / total, f"identification {min(done + 1, total)} of {total}"))
         return found
 
     base = step(trial.base())

@@ -7,7 +7,7 @@ import argparse
 from probation.commands.analysis_options import fraction
 from probation.commands.campaign_options import add_campaign, add_data_files, add_held_out, campaign_from, with_held_out
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
-from probation.commands.progress import shown
+from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme
 
 NAME = "certify"
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
             options.scheme,
             tolerance=options.tolerance,
             hold=held,
-            progress=lambda part: advance(round(100 * part), 100, ""),
+            progress=in_parts(advance),
         )
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0

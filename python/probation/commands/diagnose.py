@@ -30,7 +30,7 @@ from probation.commands.delivery import (
     text_output,
     usual_outputs,
 )
-from probation.commands.progress import shown
+from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
 
@@ -137,7 +137,7 @@ def run(options: argparse.Namespace) -> int:
             threads=options.threads,
             budget=options.budget,
             tolerance=options.tolerance,
-            progress=lambda part: advance(round(100 * part), 100, ""),
+            progress=in_parts(advance),
         )
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
@@ -158,7 +158,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
     from probation.comparison.compare import compare  # noqa: PLC0415 - see the package
 
     campaign, reference = campaign_from(options), campaign_at(options.against, options)
-    with shown(f"{campaign.name} against {reference.name}"):
+    with shown(f"{campaign.name} against {reference.name}") as advance:
         answer = compare(
             campaign,
             reference,
@@ -168,6 +168,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
             seed=options.seed,
             threads=options.threads,
             budget=options.budget,
+            progress=in_parts(advance),
         )
     deliver(answer.summary(), usual_outputs(answer, options))
     return 0
@@ -178,8 +179,15 @@ def _isolability(
 ) -> int:
     from probation.diagnosis.isolability import campaign_isolability  # noqa: PLC0415 - see the package
 
-    with shown(f"what {campaign.name} could discriminate"):
-        answer = campaign_isolability(campaign, options.scheme, effects=names, hold=held, threads=options.threads)
+    with shown(f"what {campaign.name} could discriminate") as advance:
+        answer = campaign_isolability(
+            campaign,
+            options.scheme,
+            effects=names,
+            hold=held,
+            threads=options.threads,
+            progress=in_parts(advance),
+        )
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 

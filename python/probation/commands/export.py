@@ -10,7 +10,7 @@ from probation._files import make_folder
 from probation.commands.campaign_options import add_data_files, campaign_at
 from probation.commands.delivery import Output, add_json, deliver, output_file, output_folder, text_output, warn
 from probation.commands.law_options import add_law_options, law_from_options
-from probation.commands.progress import shown
+from probation.commands.progress import in_parts, shown
 from probation.commands.streams import put
 from probation.errors import InputError
 from probation.histories.named import nearest
@@ -192,7 +192,7 @@ def _source(options: argparse.Namespace) -> Law | Fit | Path:
         return Path(options.source[0])
     campaign = campaign_at(options.source, options)
     with shown(f"identifying on {campaign.name}") as advance:
-        return fit(campaign, gap=False, progress=lambda part: advance(round(100 * part), 100, ""))
+        return fit(campaign, gap=False, progress=in_parts(advance))
 
 
 def _numbers(text: str) -> list[float]:

@@ -6,7 +6,7 @@ import argparse
 
 from probation.commands.campaign_options import add_campaign, add_data_files, campaign_from
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
-from probation.commands.progress import shown
+from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_start, add_substeps
 from probation.law.schemes import scheme_of
 from probation.smoothing.methods import METHODS as EXCITATIONS
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
             substeps=options.substeps,
             weighting=options.weighting,
             intervals=options.intervals,
-            progress=lambda part: advance(round(100 * part), 100, ""),
+            progress=in_parts(advance),
         )
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0

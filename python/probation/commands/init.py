@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 from probation._text import printable
 from probation.commands.campaign_options import CONTROLS
 from probation.commands.delivery import deliver, output_folder
+from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from
 from probation.commands.streams import say
 from probation.errors import InputError
@@ -78,17 +80,19 @@ def run(options: argparse.Namespace) -> int:
     names = list(dict.fromkeys(Path(file).name for file in options.files))
     general, single = _parted(options, names)
     asks = not options.yes and sys.stdin is not None and sys.stdin.isatty()
-    made = init_campaign(
-        options.files,
-        options.output,
-        name=options.name,
-        control=_choice(general.control, "--control"),
-        role=_choice(general.role, "--role"),
-        link=options.link,
-        by_file={name: _said(given) for name, given in single.items()},
-        ask=_Asking() if asks else None,
-        **reading_from(general),
-    )
+    with nullcontext() if asks else shown("making the campaign") as advance:  # a bar would hide the questions
+        made = init_campaign(
+            options.files,
+            options.output,
+            name=options.name,
+            control=_choice(general.control, "--control"),
+            role=_choice(general.role, "--role"),
+            link=options.link,
+            by_file={name: _said(given) for name, given in single.items()},
+            ask=_Asking() if asks else None,
+            progress=advance,
+            **reading_from(general),
+        )
     deliver(made.summary(), [])
     return 0
 

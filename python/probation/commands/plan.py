@@ -16,7 +16,7 @@ from probation.commands.analysis_options import (
 )
 from probation.commands.delivery import add_delivery, deliver, named_numbers, usual_outputs
 from probation.commands.law_options import add_law_options, law_from_options
-from probation.commands.progress import shown
+from probation.commands.progress import in_parts, shown
 from probation.commands.reading_options import add_reading, reading_from
 from probation.commands.scheme_options import add_hold
 from probation.errors import InputError
@@ -96,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
             effects=names,
             seed=options.seed,
             threads=options.threads,
-            progress=lambda part: advance(round(100 * part), 100, ""),
+            progress=in_parts(advance),
         )
     deliver(answer.summary(), usual_outputs(answer, options))
     return 0

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from probation._text import printable, raw_stream
 from probation.commands.streams import say
-from probation.progress import SHOWN_AFTER, said
+from probation.progress import SHOWN_AFTER, Part, said
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -73,6 +73,11 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
         progress.stop()
 
 
+def in_parts(advance: Callable[[int, int, str], None]) -> Callable[[float], None]:
+    """The same for calls that tell a fraction from 0 to 1."""
+    return lambda part: advance(round(100 * part), 100, part.doing if isinstance(part, Part) else "")
+
+
 def _tenths(title: str) -> Callable[[int, int, str], None]:
     """Prints at every tenth."""
     started, last_tenth = time.monotonic(), 0
@@ -83,6 +88,6 @@ def _tenths(title: str) -> Callable[[int, int, str], None]:
         elapsed = time.monotonic() - started
         if tenths > last_tenth and elapsed >= LOGGED_AFTER:
             last_tenth = tenths
-            say(f"{title}: {said(done / total, elapsed)}")
+            say(f"{title}: {said(done / total, elapsed)}{f', {what}' if what else ''}")
 
     return advance

@@ -23,10 +23,11 @@ from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
 from probation.inference.thinning import thin
 from probation.parallel import usual_threads
+from probation.progress import Part, shows_progress
 from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from probation.comparison.result import Verdict
     from probation.detection.gap_test import GapTest
@@ -45,6 +46,7 @@ SPECIMENS = (
 Z95 = 1.959963984540054
 
 
+@shows_progress
 def compare(
     campaign: Campaign,
     against: Campaign | Reference,
@@ -55,6 +57,7 @@ def compare(
     seed: int = 0,
     threads: int | None = None,
     budget: float | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> Comparison:
     """Ask what changed between two campaigns of the same material: nothing, which fault of the rig, the material.
 
@@ -81,6 +84,8 @@ def compare(
         By default as many as there are processors, at most 4.
     budget : float, optional [s]
         Time after which the best answer so far is given; `skipped` says what was not tried.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -93,15 +98,19 @@ def compare(
         `probation.fit`.
     """
     deadline, skipping = Budget(budget), Skipping()
+    advance = progress or (lambda part: None)
+    advance(Part(0.0, "identifying the reference"))
     workers = as_threads(threads) or usual_threads()
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
     known = considered(effects)
+    advance(Part(0.1, "pairing the records"))
     base = measured_base(kept, reference, together)
     changes = visible(known, base.model.views)
     base = base.screened(changes, workers, skipping.screened)
+    advance(Part(0.2, "testing for a change"))
     test = GapTester(base.whitened, base.columns.by_effect(), seed=seed)()
     causes = causes_of(
         base,
@@ -112,8 +121,9 @@ def compare(
         seed=seed,
         skipping=skipping,
         budget=deadline,
-        progress=lambda _: None,
+        progress=lambda part: advance(Part(0.3 + 0.55 * part, "trying causes")),
     )
+    advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
     explanations = tuple(_explanation(each, test) for each in causes.weighed)
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"

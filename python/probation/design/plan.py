@@ -23,7 +23,7 @@ from probation.inference.parameter import UNITS, by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
-from probation.progress import shows_progress
+from probation.progress import Part, shows_progress
 from probation.records.campaign import Campaign
 from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised, rendered
@@ -219,7 +219,7 @@ def plan(
     campaign, rng, excitations = Campaign("plan", tuple(records)), np.random.default_rng(seed), {}
     for count, record in enumerate(records):
         excitations[record.id] = planned_excitation(record, rng)
-        advance(0.3 * (count + 1) / len(records))
+        advance(Part(0.3 * (count + 1) / len(records), f"smoothed {record.id}"))
     # The law on it, and the covariance of the noise of its stress.
     views = views_of(campaign, excitations=excitations, scheme=SCHEME)
     model = CampaignModel(DnlrLaw(law, held), views)
@@ -231,7 +231,7 @@ def plan(
     predicted = as_predicted(model, model.start)
     design = Design.of(predicted, model.start, noises)
     covariance, lost = design.covariance()
-    advance(0.5)
+    advance(Part(0.5, "comparing effects"))
     # Which effects can be detected and discriminated: those that were named, or all that such records could show.
     if effects is None:
         chosen = visible(chosen, predicted.views)

@@ -36,7 +36,7 @@ from probation.inference.thinning import thin
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
-from probation.progress import shows_progress
+from probation.progress import Part, shows_progress
 from probation.records.checks import require_signal
 
 if TYPE_CHECKING:
@@ -121,9 +121,9 @@ def diagnose(
         require_signal(record)
     campaign, thinned = thin(campaign)
 
-    def done(part: float) -> None:
+    def done(part: float, doing: str = "") -> None:
         if progress:
-            progress(part)
+            progress(Part(part, doing))
 
     skipping = Skipping()
 
@@ -131,15 +131,16 @@ def diagnose(
         own = base_fit(chosen, plain_fit(chosen, scheme, hold)) if law is None else fit_law(law, chosen, scheme)
         return own.screened(visible(known, own.model.views), workers, skipping.screened)
 
+    done(0.0, "fitting the law")
     fitted = based_on(campaign)
-    done(0.1)
+    done(0.1, "testing for a gap")
     gap = find_gap(fitted, visible(known, fitted.model.views), threads=workers, seed=seed)
-    done(0.2)
+    done(0.2, "locating the gap")
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
     calibration = calibration_of(campaign, base, own_law=law is None)
-    done(0.35)
+    done(0.35, "trying causes")
     causes = causes_of(
         base,
         considered,
@@ -149,13 +150,13 @@ def diagnose(
         seed=seed,
         skipping=skipping,
         budget=deadline,
-        progress=lambda part: done(0.35 + 0.45 * part),
+        progress=lambda part: done(0.35 + 0.45 * part, "trying causes"),
         power=calibration.power,
     )
     base, considered, found = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
-    done(0.85)
+    done(0.85, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
     chosen = answer_set(weighed, calibration.covered)
@@ -165,7 +166,7 @@ def diagnose(
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
-    done(0.9)
+    done(0.9, "choosing the next test")
     following, apart = (
         _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed)
         if design

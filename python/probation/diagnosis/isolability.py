@@ -11,11 +11,12 @@ from probation.effects.registry import effects as known_effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.parallel import usual_threads
+from probation.progress import Part
 from probation.results.data import Stored
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from probation.design.isolability import Isolability
     from probation.law.schemes import SchemeName
@@ -56,6 +57,7 @@ def campaign_isolability(
     hold: Mapping[str, float] | None = None,
     effects: Iterable[str] | None = None,
     threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> CampaignIsolability:
     """Which effects the identify records of a campaign could discriminate.
 
@@ -70,13 +72,18 @@ def campaign_isolability(
     effects : iterable of str, optional
         All that are known if left out.
     threads : int, optional
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
 
     Raises
     ------
     InputError
         For an unknown effect, or as `probation.fit`.
     """
+    advance = progress or (lambda part: None)
+    advance(Part(0.0, "fitting the law"))
     base = base_fit(campaign, plain_fit(campaign, scheme, hold))
+    advance(Part(0.3, "comparing effects"))
     found = isolability(
         base.model,
         base.parameters,

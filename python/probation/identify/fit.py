@@ -28,7 +28,7 @@ from probation.inference.thinning import thin
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, identifying
-from probation.progress import shows_progress
+from probation.progress import Part, shows_progress
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def fit(
         steps = 1 if substeps == "auto" else substeps
         views.append(measured_view(record, excite(record, excitation), chosen, steps))
         if progress:
-            progress(0.3 * (index + 1) / len(campaign.identify))
+            progress(Part(0.3 * (index + 1) / len(campaign.identify), f"smoothed {record.id}"))
     problem = Problem.white(DnlrLaw(law, held), views)
     if not problem.law.parameter_names:
         raise InputError(
@@ -120,7 +120,7 @@ def fit(
         )
     searched = {**limits, law.parameter_names[1]: search_range(problem, limits)}
     adapting = substeps == "auto" and chosen.name != "sa3"
-    advance = (lambda part: progress(0.3 + 0.5 * part)) if progress else None
+    advance = (lambda part: progress(Part(0.3 + 0.5 * part, "searching the parameters"))) if progress else None
     plain = _least_squares(problem, method, searched, adapting, advance)
     weighted = plain
     if weighting != "plain":
@@ -133,7 +133,7 @@ def fit(
                 finer = plain.problem.with_views(view.with_substeps(needed) for view in plain.problem.views)
                 weighted = weigh(finer, weighted.parameters, weighting, searched, excitation)
     if progress:
-        progress(0.9)
+        progress(Part(0.9, "standard errors, the test for a gap"))
     found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
     if gap and not bounds and excitation == "auto":
         found = _judged(found, campaign, hold)

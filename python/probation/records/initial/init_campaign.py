@@ -10,6 +10,7 @@ from typing import Any, Unpack, cast
 from probation._complaint import quoted, suggestion
 from probation._files import check_folder_place, kind_of, make_folder, read_whole, write_whole
 from probation.errors import InputError
+from probation.progress import shows_progress
 from probation.records.assignment import assign_columns
 from probation.records.campaign import Campaign
 from probation.records.campaign_file import FILE_NAME
@@ -46,6 +47,7 @@ class InitialCampaign(Result):
     reads: dict[str, str]
 
 
+@shows_progress
 def init_campaign(
     files: Sequence[str | PathLike[str]],
     folder: str | PathLike[str],
@@ -56,6 +58,7 @@ def init_campaign(
     link: bool = False,
     by_file: Mapping[str, Mapping[str, Any]] | None = None,
     ask: Ask | None = None,
+    progress: Callable[[int, int, str], None] | None = None,
     **how: Unpack[ReadingKeys],
 ) -> InitialCampaign:
     """Make a campaign of the files of a laboratory: a folder with campaign.toml, the files, and a page of plots.
@@ -79,6 +82,8 @@ def init_campaign(
     ask : callable, optional
         Called with a `Question` for what is not in a file, returns the answer, or an empty text for the default.
         Without it, defaults are taken.
+    progress : callable, optional
+        Called with how many files are read, of how many, and the name of the next.
     **how
         How the files are read, as in `preview`: ``profile``, ``columns``, ``units``, ``specimen``,
         ``specimen_index``, ``sheet``, ``test_rate``. Here ``specimen`` is for files that state no dimensions;
@@ -113,7 +118,13 @@ def init_campaign(
         read.append((path, _merged(_where_not_stated(path, how, own), own), choices))
     if ask is None:
         refuse_unanswered([question for path, merged, _ in read for question in unanswerable(path, merged)])
-    entries = [entry for path, merged, choices in read for entry in _entries(path, merged, choices, target, ask)]
+    entries: list[Entry] = []
+    for count, (path, merged, choices) in enumerate(read):
+        if progress:
+            progress(count, len(read), f"reading {path.name}")
+        entries += _entries(path, merged, choices, target, ask)
+    if progress:
+        progress(len(read), len(read), "drawing the records")
     entries = _with_unique_ids(entries)
     if all(entry.record.role != "identify" for entry in entries):
         raise InputError('found held-out records only, expected at least one with the role "identify"')
