@@ -3,11 +3,11 @@
 //
 // PROPS are the constants of probation/material/constants.hpp, STATEV has 10 + 6 N entries (3 + N for
 // trusses), all zero at the start. No *ORIENTATION: the state lives in the reference configuration, DROT is
-// not used. PNEWDT becomes 0.25 where a smaller increment may help, and on constants that cannot be: STRESS,
-// STATEV and DDSDDE are then left as they were. Constants that cannot be are also said in the message file,
-// through Abaqus' own STDB_ABQERR, which ends the analysis. Where that is not there (another host),
-// probation_umat_message says what is wrong. Where the estimated error is above the stress tolerance, the
-// update is made and PNEWDT becomes 0.25 to 0.9: Abaqus discards it and tries again.
+// not used. PNEWDT becomes 0.25 where a smaller increment may help, and on invalid constants: STRESS, STATEV
+// and DDSDDE then stay as they were. Invalid constants are also reported in the message file by Abaqus'
+// STDB_ABQERR, which ends the analysis. Hosts without STDB_ABQERR call probation_umat_message for the text.
+// Where the estimated error is above the stress tolerance, the update is made and PNEWDT becomes 0.25 to 0.9:
+// Abaqus discards it and tries again.
 
 #include <cstddef>
 
@@ -70,8 +70,7 @@ extern "C" {
                                 const double* numbers, const char* words, std::size_t text_length,
                                 std::size_t words_length);
 
-/// What is wrong with constants, as a text closed by a zero, or "" if nothing is: for hosts without
-/// STDB_ABQERR.
+/// The error message of the constants, closed by a zero; "" for valid ones. For hosts without STDB_ABQERR.
 [[gnu::visibility("default")]] void probation_umat_message(const double* props, const int* nprops, char* text,
                                                            const int* capacity) noexcept {
   Parameters parameters;

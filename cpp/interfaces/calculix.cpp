@@ -3,13 +3,13 @@
 //
 // *USER MATERIAL, CONSTANTS=11 (12 with a stress tolerance) holds the constants of
 // probation/material/constants.hpp, *DEPVAR 10 + 6 N. CalculiX passes at most 21 constants; longer lists (a
-// kernel of one's own) are compiled in: -DPROBATION_CONSTANTS='"FILE"' names a file of numbers separated by
+// spectrum of your own) are compiled in: -DPROBATION_CONSTANTS='"FILE"' names a file of numbers separated by
 // commas, and those of the deck are then not looked at. Native means: Green-Lagrange strain in, second
 // Piola-Kirchhoff stress and the 21 terms of dS/dE (symmetrised) out. CalculiX offers no way to say more than
-// pnewdt < 1: on constants that cannot be it cuts its increment until it gives up. probation_point_check says
-// what is wrong with them. Where the increment is cut because there is no update, state, stress and stiffness
-// are left as they were; where the estimated error is above the stress tolerance, the update is made and
-// pnewdt is 0.25 to 0.9.
+// pnewdt < 1: on invalid constants it cuts its increment until it stops. probation_point_check
+// reports what is wrong with them. Where the increment is cut because there is no update, state, stress and
+// stiffness are left as they were; where the estimated error is above the stress tolerance, the update is
+// made and pnewdt is 0.25 to 0.9.
 
 #include "probation/material/constants.hpp"
 #include "probation/material/point.hpp"

@@ -3,8 +3,8 @@
 //
 // Material properties are the constants of probation/material/constants.hpp. Their number and that of the
 // state variables are part of what the library declares: -DPROBATION_MGIS_MODES=N (50) is the largest number
-// of modes, and -DPROBATION_MGIS_CONSTANTS=M (11) makes room for a kernel of one's own (11 + 2 N), and for
-// the stress tolerance where M is even. Returns -1 (with a text in error_message where the host has one) with
+// of modes, and -DPROBATION_MGIS_CONSTANTS=M (11) makes room for a spectrum of your own (11 + 2 N) and, where
+// M is even, for the stress tolerance. Returns -1 (with a text in error_message where the host has one) with
 // nothing written and rdt 0.25 where a smaller increment may help; 0 where the update is made, but its
 // estimated error is above the stress tolerance, with rdt 0.25 to 0.9; 1 on success. K[0] asks for the
 // operator, K[1] for the stress, K[2] for the tangent, as MGIS documents.
@@ -105,7 +105,7 @@ void store_tangent(const PointStress& point, const FirstPiola& piola, const Matr
 }
 
 Outcome integrate(ProbationMgisData& data, Parameters& parameters) noexcept {
-  // What is asked for stands where the tangent goes.
+  // The host says what it asks for in K, where the tangent goes.
   const double operation = data.K[0], stress_measure = data.K[1], tangent_measure = data.K[2];
   const double* given = data.s1.material_properties;
   double shorter[fixed_constants + 1];
@@ -138,7 +138,7 @@ Outcome integrate(ProbationMgisData& data, Parameters& parameters) noexcept {
   return outcome;
 }
 
-/// "Name[0]", "Name[1]", … as MGIS wants the names of entries; filled by the compiler.
+/// "Name[0]", "Name[1]", … : names of entries as MGIS needs them, formed at compile time.
 template <std::size_t Count>
 struct Names {
   char text[Count][24] = {};

@@ -1,16 +1,16 @@
 #ifndef PROBATION_H
 #define PROBATION_H
-/* Plain C interface of the material point: for ctypes, felupe, and codes of one's own. Nothing is allocated,
-   nothing remembered; calls from several threads do not meet. Stresses in MPa, times in s.
+/* Plain C interface of the material point: for ctypes, felupe and your own codes. It allocates nothing and
+   keeps no state, so that several threads may call it. Stresses in MPa, times in s.
 
    `constants` is the list of probation/material/constants.hpp. Deformation gradients are row by row, F[3 i +
    J]; symmetric tensors 11, 22, 33, 12, 13, 23. States are zero at the start; `before` and `after` may be the
    same.
 
-   Where there is no update (any status but OK and COARSE_STEP), nothing is written; of many points, nothing in
-   `before`. COARSE_STEP comes only with a stress_tolerance among the constants: the update is made and written,
-   but its estimated error is larger. Who wants to repeat it with a smaller increment needs `before` apart from
-   `after`. */
+   Where there is no update (any status but OK and COARSE_STEP), nothing is written; of many points, nothing
+   in `before`. COARSE_STEP comes only with a stress_tolerance among the constants: the update is made and
+   written, but its estimated error is larger. Who wants to repeat it with a smaller increment needs `before`
+   apart from `after`. */
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,7 +28,7 @@ enum {
  * NULL). */
 int probation_message(const double* constants, int count, char* message, int capacity);
 
-/* State variables of one point, in three dimensions and in one; 0 if the constants cannot be. */
+/* State variables of one point, in three dimensions and in one; 0 if the constants are invalid. */
 int probation_state_size(const double* constants, int count);
 int probation_uniaxial_state_size(const double* constants, int count);
 

@@ -79,7 +79,7 @@ void require_shape(const Eigen::Ref<RowMajorMatrix>& out, Index rows, Index colu
                      "); (" + std::to_string(rows) + ", " + std::to_string(columns) + ") is needed");
 }
 
-/// What each solve would say of its own parameters, said before any is made.
+/// Checks all parameter sets before the first solve.
 void require_parameters(const Law& law, const Parameters& parameters) {
   if (parameters.cols() != 3)
     throw InputError("parameters has " + std::to_string(parameters.cols()) + " columns; 3 are needed");
@@ -105,7 +105,7 @@ void require_records(const std::vector<BatchRecord>& records, const Law& law) {
   }
 }
 
-/// Does the work; what it throws begins with a name, "parameters[3]" say.
+/// Does the work; puts a name such as "parameters[3]" before the message of an InputError.
 template <class Name, class Work>
 void named(Name name, Work work) {
   try {

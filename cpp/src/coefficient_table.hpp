@@ -1,11 +1,11 @@
 #pragma once
-// Step coefficients as functions of the scale: cells so narrow that in each a polynomial has all digits.
-// Filled where they are asked for, and kept from solve to solve.
+// Step coefficients as functions of the scale: polynomials, exact to rounding, in narrow cells of the scale.
+// A cell is filled when it is first used, and kept from solve to solve.
 //
-// Beside kernels/scale_table.hpp, whose steps are known before the modes are swept. Here the stress at the
-// end of a step is to be a polynomial in a scale still unknown: for that, phi and psi are tabled themselves
-// (from chi, modes with a large x would cancel), with a row across all modes for each power, in cells that
-// reach from a guess to the solution, and for bE2's rule as well.
+// The other table is kernels/scale_table.hpp, for steps whose scale is known before the sweep over the modes.
+// Here the scale is still unknown, and the stress at the end of a step must be a polynomial in it. Therefore
+// phi and psi themselves are tabled (formed from chi they would cancel for modes with a large x), for bE2's
+// rule too, with one row across all modes per power, in cells that reach from a guess to the solution.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -36,10 +36,10 @@ class CoefficientTable {
  public:
   explicit CoefficientTable(bool exponential) : exponential_(exponential) {}
 
-  /// Forgets what belongs to other modes.
+  /// Discards the rows of other modes.
   void set(const ModalGroup& modes, bool curved);
-  /// The cell around a scale; null where the scale is not a number of any use. Its rows
-  /// hold through the next call, for which others may have to go.
+  /// The cell around a scale; null where the scale is not a positive, finite number. Its rows stay valid
+  /// until the call after the next one, which may discard them.
   const CoefficientCell* near(double scale);
 
  private:
@@ -59,7 +59,7 @@ class CoefficientTable {
   Eigen::Index entries_ = 0;               // in a row
   Eigen::ArrayXd inverse_ratio_, scaled_;  // of the entries; times the scale of the block being filled
   std::vector<Block> blocks_;
-  std::vector<double> before_;  // the rows that went last
+  std::vector<double> before_;  // the rows that were discarded last
   std::vector<CoefficientCell> cells_;
   CoefficientCell* last_ = nullptr;
 };

@@ -153,7 +153,7 @@ bool CoupledSolver::look(double scale) {
   return expanded_.cell != nullptr;
 }
 
-/// So near the solution that everything goes straight there.
+/// So near the solution that a linear correction reaches it.
 inline void CoupledSolver::finish(const StepEnd& end, double stress, double correction, double by_forcing) {
   continuation_.add(stress - stress_here_, rise_, by_forcing * modulus_ * end_weight(end.forcing.rule));
   feedbacks_.settle(correction);
@@ -191,7 +191,7 @@ bool CoupledSolver::iterate(double stress, StepEnd end, double extra_stress) {
 
 void CoupledSolver::solve_step(const StepEnd& guess, double extra_stress) {
   if (iterate(guess_, guess, extra_stress)) return;
-  // Where that leads nowhere, a straight continuation may lead there.
+  // Where this does not converge, the iteration starts again from a straight continuation.
   guess_ = stress_here_ + continuation_.straight(data_.fresh);
   if (!iterate(guess_, evaluate(guess_), extra_stress)) fail();
 }

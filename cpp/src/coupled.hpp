@@ -1,6 +1,6 @@
 #pragma once
 // Laws whose times or hardening follow the current stress or plastic work: solved within every step, not
-// lagged.
+// with values of the step before.
 
 #include <Eigen/Core>
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace probation {
 
-/// What holds at the end of a step, with slopes along the stress there.
+/// State at the end of a step, with derivatives with respect to the stress there.
 struct StepEnd {
   Dual relaxed_stress, fluidity;
   FeedbackFactor<Dual> factor;
@@ -28,16 +28,16 @@ struct CoupledStep : StepEnd {
   double stress = 0.0;  // at its end, before the load-bearing area
 };
 
-/// What a solve with feedbacks keeps for the next one.
+/// Memory of a solve with feedbacks that the next solve reuses.
 struct CoupledTables {
   CoefficientTable rational{false}, exponential{true};
 };
 
 /// One pass along a record with feedbacks. The unknown of a step is the stress at its end: given it, the
 /// memories, the feedbacks' factors, the step's inputs and with them the modes follow in closed form, so that
-/// one scalar Newton iteration solves the step for any number of modes and feedbacks. The modes are passed
-/// through once per step: while they take a step, they are looked at near the scale that the next one is
-/// thought to have, where the stress at its end is a polynomial (ExpandedStep).
+/// one scalar Newton iteration solves the step for any number of modes and feedbacks. One sweep over
+/// the modes per step is enough: the sweep that takes a step also forms the polynomial of the stress at the
+/// end of the next one (ExpandedStep), around the scale that the next one is expected to have.
 class CoupledSolver {
  public:
   /// `main` holds the initial states; with initial_modal_stress not relaxed, they are set here.
@@ -54,7 +54,7 @@ class CoupledSolver {
   friend struct LinearisedStep;
 
   void begin(const RecordInputs<double>& base);
-  /// Turns to step m; what holds at its end as it is guessed.
+  /// Goes to step m, with a guess of the state at its end.
   StepEnd enter(Eigen::Index m);
   /// Everything but the modes, at a stress at the end of the step.
   StepEnd evaluate(double stress);
@@ -62,9 +62,9 @@ class CoupledSolver {
   void solve_step(const StepEnd& guess, double extra_stress);
   bool iterate(double stress, StepEnd end, double extra_stress);
   void finish(const StepEnd& end, double stress, double correction, double by_forcing);
-  /// Leaves the step that has been solved: all but its modes.
+  /// Ends the step that has been solved: everything but its modes.
   void leave();
-  /// Looks at the step near a scale.
+  /// Expands the step around a scale.
   bool look(double scale);
   CoefficientTable& table() { return expanded_.near.exponential ? tables_.exponential : tables_.rational; }
   bool given_start() const { return change_.initial_modal_stress.size() > 0; }
@@ -80,13 +80,13 @@ class CoupledSolver {
   const kernels::Kernels& kernel_;
   double total_weight_, tolerance_ = 0.0;
 
-  const RecordInputs<double>* base_ = nullptr;  // what the law gives
+  const RecordInputs<double>* base_ = nullptr;  // inputs without feedbacks
   double relaxed_start_ = 0.0;
   FeedbackSet feedbacks_;
   FeedbackFactor<Dual> begun_;   // at the start, with slopes along the stress
-  StepData<double> strained_{};  // what the strain makes of the current step
-  StepData<Dual> data_{};        // and what the feedbacks do: tau_max and the relaxed stress alone
-  double stiff_ = 0.0;           // the part of U that the strain alone makes
+  StepData<double> strained_{};  // of the current step, from the strain
+  StepData<Dual> data_{};        // with the feedbacks: tau_max and the relaxed stress alone
+  double stiff_ = 0.0;           // the part of U that depends on the strain alone
   CoupledStep step_;
   double rise_ = 0.0, modulus_ = 0.0;              // of the strain in the step; E_u in its middle
   double law_relaxed_ = 0.0, law_fluidity_ = 0.0;  // at its end, without feedbacks

@@ -92,7 +92,7 @@ double CoupledTangent::take(const LinearisedStep& linearised, double extra) {
                             pass_.total_weight_ * relaxed.slope + d_weight_ * relaxed.value + extra;
   d_stress_ = -held_slope / linearised.residual_by_stress;
 
-  // And everything goes with the stress.
+  // And everything follows the stress.
   const kernels::StepChange& by = linearised.by_stress;
   pass_.kernel_.move(modes,
                      {held.log_scale + by.log_scale * d_stress_, held.forcing + by.forcing * d_stress_,

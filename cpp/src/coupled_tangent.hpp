@@ -1,7 +1,7 @@
 #pragma once
-// Sensitivities of a pass with feedbacks, step by step beside it, by the implicit function theorem: with the
-// stress at the end of a step held, everything moves by what the direction does; then the stress moves to
-// cancel that, and the rest follows it.
+// Sensitivities of a pass with feedbacks, step by step along with it, by the implicit function theorem: first
+// the derivatives along the direction at a fixed stress at the end of the step, then the change of the stress
+// that keeps the residual zero, and what follows from that change.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace probation {
 
-/// What all directions share of a step that the pass has solved.
+/// What is the same for all directions in a step that the pass has solved.
 struct LinearisedStep {
   explicit LinearisedStep(Eigen::Index padded) : rows(5 * padded) {}
   void at(CoupledSolver& pass);

@@ -39,7 +39,7 @@ class StepProblem {
   Index size() const { return modes_ + extra_ + memories_; }
   void enter(Index step) { step_ = step; }
   /// Whether the rate changes where this step begins: a piecewise-linear history kinks at every sample, and
-  /// steps of the past predict badly across a kink (0.1 MPa on rough strain at a tolerance of 1e-10).
+  /// past steps are a bad prediction across a kink (0.1 MPa on rough strain at a tolerance of 1e-10).
   bool kinks() const { return std::abs(rates_.begin[step_] - rates_.end[step_ - 1]) > 1e-9 * largest_rate_; }
   double stress(const ConstState& state) const { return state.head(modes_ + extra_).sum(); }
 
@@ -123,7 +123,7 @@ class StepProblem {
   Index step_ = 0;
 };
 
-// Exceptions stop here: CVODE is C and cannot carry them.
+// No exception may leave this function: CVODE is C.
 int right_hand_side(sunrealtype t, N_Vector state, N_Vector rate, void* user_data) noexcept {
   auto& problem = *static_cast<StepProblem*>(user_data);
   try {

@@ -1,4 +1,4 @@
-// Chooses the build of the kernels for this processor, once.
+// Chooses the build of the kernels for this processor, once per process.
 
 #include <cstdlib>
 #include <string>

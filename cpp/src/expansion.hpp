@@ -20,8 +20,7 @@ inline StepForcing<double> values(const StepForcing<Dual>& s) {
   return {s.rule, s.scale.value, s.forcing.value, s.curvature.value};
 }
 
-/// sum_k row[k] e^k and its slope along e, for which some digits less will do: Newton's iteration corrects
-/// it.
+/// sum_k row[k] e^k and its derivative in e; the latter needs fewer digits: Newton's iteration corrects it.
 inline Dual polynomial(const double* row, double e) {
   static_assert(kernels::CoefficientRows::terms == 6);
   const double square = e * e;
@@ -35,14 +34,14 @@ struct StressAtEnd {
   double by_forcing;
 };
 
-/// A step whose modes have been looked at near the scale of a cell; see kernels::NearStep.
+/// A step expanded around the scale of a cell; see kernels::NearStep.
 struct ExpandedStep {
   const CoefficientCell* cell = nullptr;
   kernels::NearStep near{true, {}, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0};
   double unit = 1.0;  ///< 1 / a of a two-step rule
   kernels::StressNearby modes{};
 
-  /// Turns to a rule; nothing of its modes is known then.
+  /// Sets the rule; the expansion of the modes must be formed again.
   void set(StepRule rule, double ratio) {
     cell = nullptr;
     if (rule == rule_ && (ratio == ratio_ || rule != StepRule::bdf2)) return;
@@ -57,7 +56,7 @@ struct ExpandedStep {
     near.here = -a.here * unit;
     near.before = -a.before * unit;
   }
-  /// Turns to a cell of the rule's table.
+  /// Sets the cell of the rule's table.
   void set(const CoefficientCell* to) {
     cell = to;
     if (!cell) return;
@@ -67,7 +66,7 @@ struct ExpandedStep {
   bool reaches(double scale) const {
     return cell && std::abs(cell->distance(unit * scale)) <= kernels::CoefficientRows::reach;
   }
-  /// Slopes along the stress are good to some digits.
+  /// Derivatives with respect to the stress are accurate to some digits only.
   StressAtEnd stress(const StepForcing<Dual>& step) const {
     const double per_scale = unit * cell->inverse_centre;
     const double e = step.scale.value * per_scale - 1.0, e_slope = step.scale.slope * per_scale;
@@ -86,7 +85,7 @@ struct ExpandedStep {
     }
     return {sum, by_forcing};
   }
-  /// As the kernel takes it.
+  /// The step as an argument of the kernel.
   kernels::NearStep taken(const StepForcing<Dual>& step) const {
     kernels::NearStep s = near;
     s.distance = cell->distance(unit * step.scale.value);

@@ -1,5 +1,5 @@
 #pragma once
-// All feedbacks of a record together: what each remembers, and what they make of a stress.
+// All feedbacks of a record together: their memories, and their factors at a stress.
 
 #include <memory>
 #include <vector>
@@ -28,28 +28,28 @@ class FeedbackSet {
  public:
   explicit FeedbackSet(const std::vector<std::shared_ptr<const Feedback>>& feedbacks);
 
-  /// Factors at the start of the record, where nothing is remembered yet.
+  /// Factors at the start of the record, where all memories are zero.
   FeedbackFactor<Dual> at_start(Dual stress) const;
   FeedbackFactor<Dual> at_start(Dual stress, const Direction& direction) const;
 
   void enter(double h, double stress_here, double rise, double modulus);
   /// Factors at a stress at the end of the step, with slopes along it. There must be a feedback.
   FeedbackFactor<Dual> at(double stress);
-  /// The solution is `moved` beyond the stress that at() saw last.
+  /// Ends the step: the solution is the stress of the last call of at() plus `moved`.
   void settle(double moved);
   void leave();
 
-  /// Slopes of everything remembered and of the factors, along one direction.
+  /// Derivatives of the memories and of the factors along one direction.
   struct Slopes {
     std::vector<double> memory, memory_next;
     FeedbackFactor<double> log_factor;  // d ln fluidity, d ln hardening
   };
   Slopes still() const;
-  /// Ready for hold(): how the factors depend on what is remembered.
+  /// Prepares hold(): derivatives of the factors with respect to the memories.
   void differentiate(double stress);
-  /// Slopes at the end of the step that was entered while the stress there holds; `work` is that of the step.
+  /// Derivatives at the end of the current step at a fixed stress there; `work` is that of the step.
   void hold(double stress, Dual work, const Direction& direction, Slopes& slopes) const;
-  /// On top of it, the stress moves by `moved`.
+  /// Adds what a change `moved` of the stress does.
   void release(double moved, Slopes& slopes) const;
 
  private:

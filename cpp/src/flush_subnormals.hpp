@@ -1,6 +1,6 @@
 #pragma once
-// Decaying modes must not stick at subnormal numbers: a product of the smallest of them with a factor above
-// one half rounds to itself for ever, and many processors take a hundred cycles for each.
+// Decaying modes must not end at subnormal numbers: the smallest one times a factor above one half rounds to
+// itself, again and again, and on many processors each such product takes a hundred cycles.
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <xmmintrin.h>
@@ -10,7 +10,7 @@
 namespace probation {
 
 /// While it lives, this thread takes subnormal results and operands for zero (x86-64 alone; elsewhere it does
-/// nothing). What the caller had set comes back at its end.
+/// nothing). Its end restores the setting of the caller.
 class FlushSubnormals {
  public:
 #ifdef PROBATION_FLUSHES_SUBNORMALS

@@ -32,7 +32,8 @@ void require_length(Index found, Index expected, const char* argument) {
 }
 
 /// By how much a step may differ from the first of an even stretch. Times read from a file or made by
-/// linspace are even to rounding only: relative to the times around it, for what comes later must not count.
+/// linspace are even to rounding only: the limit is relative to the times around it, since later times must
+/// not change it.
 double evenness(double step, double time, double other_time) {
   return 1e-10 * step + 4e-16 * std::max(std::abs(time), std::abs(other_time));
 }
@@ -140,7 +141,7 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   Indices jumps;
   require_length(true_strain.size(), n, "true_strain");
   if (n < 3) return jumps;
-  // Mostly there is none. Products round otherwise than quotients: what comes near the limit is looked at.
+  // Usually there is none. Products round differently from quotients: a change near the limit is examined.
   const double surely_less = least_change * (1.0 - 1e-9);
   if (!kernels::best().samples.secant_changes(time.data(), true_strain.data(), n, surely_less)) return jumps;
   const Eigen::ArrayXd secant =
@@ -153,8 +154,8 @@ History::Indices History::find_rate_jumps(const Samples& time, const Samples& tr
   Index first = 1;
   while (first + 1 < n && !large(first)) ++first;
   if (first + 1 >= n) return jumps;
-  // Rounded strains change their secant by one quantum again and again: a jump stands out from what is not
-  // rare, too.
+  // The secant of rounded strains often changes by one quantum: a jump must also exceed these frequent
+  // changes.
   double common = 0.0;
   if (n >= fewest_for_rarity) {
     std::vector<double> changes;
@@ -241,8 +242,8 @@ StepRates History::take_given(const Samples& true_strain, const Samples& strain_
   const auto secant = [&](const auto& strain, Index m) { return (strain[m + 1] - strain[m]) / step_[m]; };
   for (const Index jump : jumps_) {
     if (jump == 0 || jump >= steps) continue;
-    // One sample cannot hold both sides of a jump: it stays with the nearer secant, the other side takes its
-    // own.
+    // One given rate cannot serve both sides of a jump: it is used on the side whose secant is nearer, the
+    // other side uses its secant.
     const double given = strain_rate_[jump];
     const double to_before = std::abs(given - secant(true_strain_, jump - 1));
     const double to_after = std::abs(given - secant(true_strain_, jump));

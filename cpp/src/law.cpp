@@ -15,15 +15,32 @@ void require(double found, bool good, const char* parameter, const char* expecte
   throw InputError(message.str());
 }
 
-void require_samples(const Eigen::ArrayXd& samples, Eigen::Index n_times, const char* name, bool positive) {
+enum class Sign { any, not_negative, positive };
+
+bool allowed(double value, Sign sign) {
+  if (!std::isfinite(value)) return false;
+  return sign == Sign::any || value > 0.0 || (sign == Sign::not_negative && value == 0.0);
+}
+
+const char* expected(Sign sign) {
+  switch (sign) {
+    case Sign::positive:
+      return "a positive number";
+    case Sign::not_negative:
+      return "a finite number, not negative,";
+    default:
+      return "a finite number";
+  }
+}
+
+void require_samples(const Eigen::ArrayXd& samples, Eigen::Index n_times, const char* name, Sign sign) {
   if (samples.size() > 1 && samples.size() != n_times)
     throw InputError(std::string(name) + " has " + std::to_string(samples.size()) + " samples; 1 or " +
                      std::to_string(n_times) + " are needed to match time");
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    if (std::isfinite(samples[i]) && (!positive || samples[i] > 0.0)) continue;
+    if (allowed(samples[i], sign)) continue;
     std::ostringstream message;
-    message << name << "[" << i << "] is " << samples[i] << "; "
-            << (positive ? "a positive number" : "a finite number") << " is needed";
+    message << name << "[" << i << "] is " << samples[i] << "; " << expected(sign) << " is needed";
     throw InputError(message.str());
   }
 }
@@ -54,11 +71,12 @@ void Law::validate_parameters() const {
 }
 
 void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {
-  require_samples(relaxation_time_factor, n_times, "relaxation_time_factor", true);
-  require_samples(unrelaxed_modulus_factor, n_times, "unrelaxed_modulus_factor", false);
-  require_samples(hardening_factor, n_times, "hardening_factor", false);
-  require_samples(added_relaxed_stress, n_times, "added_relaxed_stress", false);
-  require_samples(load_bearing_area, n_times, "load_bearing_area", true);
+  require_samples(relaxation_time_factor, n_times, "relaxation_time_factor", Sign::positive);
+  require_samples(unrelaxed_modulus_factor, n_times, "unrelaxed_modulus_factor", Sign::not_negative);
+  // Any sign: a relaxed stress that lags behind e_HT is still positive where e_HT is negative again.
+  require_samples(hardening_factor, n_times, "hardening_factor", Sign::any);
+  require_samples(added_relaxed_stress, n_times, "added_relaxed_stress", Sign::any);
+  require_samples(load_bearing_area, n_times, "load_bearing_area", Sign::positive);
   if (initial_modal_stress.size() != 0 && initial_modal_stress.size() != modes)
     throw InputError("initial_modal_stress has " + std::to_string(initial_modal_stress.size()) +
                      " entries; the spectrum has " + std::to_string(modes) + " modes");
@@ -69,18 +87,18 @@ void LawChange::validate(Eigen::Index n_times, Eigen::Index modes) const {
                      std::to_string(extra_modes.relaxation_time.size()) +
                      " relaxation times; they must match");
   require_samples(extra_modes.relaxation_time, extra_modes.relaxation_time.size(),
-                  "extra_modes.relaxation_time", true);
-  require_samples(extra_modes.modulus, extra_modes.modulus.size(), "extra_modes.modulus", false);
+                  "extra_modes.relaxation_time", Sign::positive);
+  require_samples(extra_modes.modulus, extra_modes.modulus.size(), "extra_modes.modulus", Sign::not_negative);
   for (const auto& feedback : feedbacks)
     if (!feedback) throw InputError("feedbacks holds an empty entry");
 }
 
 void Direction::validate(const LawChange& change, Eigen::Index n_times, Eigen::Index modes,
                          bool rate_given) const {
-  require_samples(unrelaxed_modulus, n_times, "direction.unrelaxed_modulus", false);
-  require_samples(log_relaxation_time, n_times, "direction.log_relaxation_time", false);
-  require_samples(relaxed_stress, n_times, "direction.relaxed_stress", false);
-  require_samples(log_load_bearing_area, n_times, "direction.log_load_bearing_area", false);
+  require_samples(unrelaxed_modulus, n_times, "direction.unrelaxed_modulus", Sign::any);
+  require_samples(log_relaxation_time, n_times, "direction.log_relaxation_time", Sign::any);
+  require_samples(relaxed_stress, n_times, "direction.relaxed_stress", Sign::any);
+  require_samples(log_load_bearing_area, n_times, "direction.log_load_bearing_area", Sign::any);
   require_entries(true_strain, n_times, "true_strain", "instants");
   require_entries(strain_rate, n_times, "strain_rate", "instants");
   if (strain_rate.size() > 0 && !rate_given)

@@ -14,7 +14,7 @@
 
 namespace probation {
 
-/// The memory of a ScaleTable, had when it is first needed. A copy starts empty.
+/// The memory of a ScaleTable, allocated when it is first needed. A copy starts empty.
 class OwnScaleTable {
  public:
   OwnScaleTable() = default;
@@ -49,7 +49,7 @@ struct ModalGroup {
   Eigen::ArrayXd inverse_ratio, weight, state, before;
   OwnScaleTable table;
 
-  /// Takes the modes, at rest.
+  /// Sets the modes, with states of zero.
   void set(const Eigen::ArrayXd& ratio, const Eigen::ArrayXd& weights) {
     const Eigen::Index modes = ratio.size(), padded = (modes + 3) / 4 * 4;
     if (!same(ratio_, ratio)) {
@@ -79,7 +79,8 @@ struct ModalGroup {
       state[j] = weight[j] == 0.0 ? weightless : state[j] / weight[j];
     }
   }
-  /// How the unit-weight states move at the start: y_j = sigma_j(0) / p_j - sigma^r(0), or zero if relaxed.
+  /// Derivatives of the unit-weight states at the start: y_j = sigma_j(0) / p_j - sigma^r(0), or zero if
+  /// relaxed.
   void start_slope(const LawChange& change, const Direction& direction, double relaxed, double d_relaxed,
                    Eigen::ArrayXd& slope) const {
     slope.setZero(padded());

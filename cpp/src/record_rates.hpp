@@ -1,5 +1,5 @@
 #pragma once
-// The rates of a record, and what a companion relation makes of them: the same for all solves of a record.
+// The rates of a record and the relaxation times that follow from them: the same for all solves of a record.
 
 #include <Eigen/Core>
 #include <memory>
@@ -24,7 +24,8 @@ class RecordRates {
 
  private:
   StepRates rates_;
-  std::shared_ptr<const CompanionRelation> relation_;  // which fluidity_ is of; relations never change
+  std::shared_ptr<const CompanionRelation>
+      relation_;  // of which fluidity_ was formed; relations never change
   Fluidity fluidity_;
 };
 

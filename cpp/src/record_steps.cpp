@@ -23,12 +23,12 @@ void fill(std::vector<double>& out, Index from, Index to, Value value) {
   for (Index m = from; m < to; ++m) to_fill[m] = value(m);
 }
 
-/// Whether the strain drives through given rates: bE2's end of a step.
+/// Whether the strain enters through given rates: bE2's end of a step.
 bool rate_drives(Scheme scheme, const RecordInputs<double>& in) {
   return scheme == Scheme::be2 && !in.end_rate.empty();
 }
 
-/// The forcing of even steps from..to, which a scheme sees as differences of true strain and relaxed stress.
+/// The forcing of even steps from..to, from differences of true strain and relaxed stress.
 template <class Rise>
 void form_even_forcing(Scheme scheme, double modulus, const double* strain, Rise relaxed_rise, Index from,
                        Index to, std::vector<double>& forcing) {

@@ -1,6 +1,6 @@
 #pragma once
-// From the law and a history to the steps that a kernel takes: everything that is O(n_times), with or without
-// a slope.
+// From the law and a history to the steps of a kernel: everything that is O(n_times), with or without
+// derivatives.
 
 #include <type_traits>
 #include <vector>
@@ -24,8 +24,8 @@ struct RecordInputs {
   std::vector<Real> end_rate;                      // of bE2; empty: its own difference of the strain
 };
 
-/// Steps ready for a kernel, one entry each per step. Of what is the same in all of a run of even steps, and
-/// of its curvature, the first entry alone is right.
+/// Steps ready for a kernel, one entry each per step. In a run of even steps, of quantities that are equal
+/// in all of them, and of the curvature, only the first entry is filled.
 template <class Real>
 struct RecordSteps {
   std::vector<StepRule> rule;
@@ -54,7 +54,7 @@ Real difference_rate(const StepData<Real>& s) {
   return Bdf2Difference(s.ratio)(strain.next, strain.here, strain.before) / s.h;
 }
 
-/// What step m looks like to a scheme. `previous_*` are those of step m - 1.
+/// The inputs of a scheme in step m. `previous_*` are those of step m - 1.
 template <class Real>
 StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, Eigen::Index m,
                          Real previous_scale, Real previous_forcing) {
@@ -76,7 +76,7 @@ StepData<Real> step_data(const History& history, const RecordInputs<Real>& in, E
   return s;
 }
 
-/// The part of U that the strain alone makes.
+/// The part of U that depends on the strain alone.
 template <class Real>
 Real stiff_part(Scheme scheme, Start start, const StepData<Real>& s) {
   switch (scheme) {

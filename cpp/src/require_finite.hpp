@@ -1,5 +1,5 @@
 #pragma once
-// What leaves the engine is finite, or an error says where it is not.
+// Outputs of the engine are finite; otherwise an error says at which time they are not.
 
 #include "probation/kinematics.hpp"
 

@@ -31,12 +31,12 @@ struct TangentState {
     for (std::size_t i = 0; i < n; ++i) {
       forcing[i] = steps.forcing[i].slope;
       curvature[i] = steps.curvature[i].slope;
-      // A step so short that it moves no mode moves none along the direction either.
+      // A step too short to change any mode changes no derivative either.
       log_scale[i] = steps.scale[i].value > 0.0 ? steps.scale[i].slope / steps.scale[i].value : 0.0;
     }
   }
-  /// A direction in which the steps are linear: their forcing for the inputs' own slopes, taken away from
-  /// them.
+  /// A direction in which the steps are linear: their forcing is that of the inputs' derivatives, which it
+  /// replaces.
   void take_linear(RecordSteps<double>& steps) {
     std::swap(forcing, steps.forcing);
     std::swap(curvature, steps.curvature);
@@ -195,7 +195,7 @@ void Solver::tangent(const Law& law, const LawChange& change, const std::vector<
   const std::lock_guard<std::mutex> lock(work_->busy);
   solve_tangent(law, change, directions, stress, derivatives);
   require_finite(stress, history_.time(), "the stress");
-  // By columns only if there is something to name.
+  // The columns are searched only where a value is not finite, to name it.
   const bool packed = derivatives.outerStride() == count;
   if (packed && kernels::best().samples.all_finite(derivatives.data(), derivatives.size())) return;
   for (Index k = 0; k < count; ++k) {

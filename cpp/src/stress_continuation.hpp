@@ -1,10 +1,10 @@
 #pragma once
-// Where the stress is thought to be at the end of a step, from the steps before: Newton's first value.
+// Prediction of the stress at the end of a step from the steps before: the first value of Newton's iteration.
 
 namespace probation {
 
-/// The strain acts through the instantaneous modulus; what remains goes on as a cubic. Noise of the strain
-/// is thus not continued.
+/// The instantaneous modulus times the change of strain, and a cubic extrapolation of the rest: so noise of
+/// the strain is not extrapolated.
 class StressContinuation {
  public:
   /// Change of the stress over the next step of length h, in which the strain rises by `rise`.
@@ -24,7 +24,7 @@ class StressContinuation {
     }
     return change + h * (slope + (h + last_.h) * (bend + (h + last_.h + second_.h) * twist));
   }
-  /// The same, as the last step alone has it.
+  /// The same by linear extrapolation of the last step.
   double straight(bool fresh) const { return fresh ? 0.0 : next_h_ * last_.inverse_h * last_.stress; }
   /// That step has been solved: its changes, and the instantaneous modulus in it.
   void add(double stress, double rise, double modulus) {
@@ -40,7 +40,7 @@ class StressContinuation {
   }
 
  private:
-  /// What changed over a step.
+  /// Changes over a step.
   struct Step {
     double stress = 0.0, rise = 0.0, h = 0.0, inverse_h = 0.0;
     double rest_rate(double modulus) const { return (stress - modulus * rise) * inverse_h; }

@@ -1,5 +1,5 @@
 #pragma once
-// SUNDIALS 6.4 to 7.x seen as one: what differs between them, owners for its handles, and silence.
+// One interface to SUNDIALS 6.4 to 7.x: their differences, owners of handles, and no output to the terminal.
 //
 // The same in both and therefore not here: sunrealtype, sunindextype, int as the type of every return flag
 // (7.x calls it SUNErrCode), CVode..., CVDiag..., N_V..., SUNLinSol... and SUNMat... functions.
@@ -54,7 +54,7 @@ struct Messages {
   void keep(const char* message) noexcept {
     try {
       last = message != nullptr ? message : "";
-    } catch (...) {  // a message is not worth a failure
+    } catch (...) {  // a lost message must not end the solve
       last.clear();
     }
   }

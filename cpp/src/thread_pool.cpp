@@ -76,7 +76,7 @@ class Pool {
   }
 
  private:
-  /// A machine that gives no more threads gets along with those it gave.
+  /// Where the system gives no more threads, those it gave do the work.
   void start_threads(int wanted) {
     try {
       for (; threads_ < wanted; ++threads_) std::thread([this] { serve(); }).detach();
@@ -111,8 +111,8 @@ class Pool {
   int threads_ = 0;
 };
 
-// Never destroyed: its threads sleep until the process ends, and no destructor waits for them. In a forked
-// child they do not exist: it forgets this pool, whatever its mutex was doing, and makes its own.
+// Never destroyed: its threads sleep until the process ends, and no destructor waits for them. A forked child
+// has none of these threads: it leaves this pool, whose mutex may be locked, and makes its own.
 std::atomic<Pool*> the_pool{nullptr};
 
 Pool& pool() {

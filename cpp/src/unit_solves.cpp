@@ -101,7 +101,7 @@ kernels::Steps UnitSolves::steps_of(const Run& run, const Forcing& forcing) cons
           curved_ ? &forcing.curvature[run.first] : nullptr};
 }
 
-/// An even run needs the scale of its first step alone.
+/// In an even run only the scale of the first step is needed.
 void UnitSolves::set_time(double time) {
   scale_.resize(unit_scale_.size());
   for (const Run& run : runs_) {

@@ -19,7 +19,7 @@ class UnitSolves {
   /// The steps of a scheme along a history.
   /// @throws InputError  where the companion relation gives no time
   void take(const Law& law, const History& history, Scheme scheme, Start start);
-  /// The same record at every `stride`-th instant, by exponential steps: near enough for a coarse search.
+  /// The same record at every `stride`-th instant, by exponential steps: accurate enough for a coarse search.
   void take_thinned(const UnitSolves& full, Eigen::Index stride);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(instants_.size()); }

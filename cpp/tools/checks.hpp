@@ -1,5 +1,5 @@
 #pragma once
-// What is checked of a material point, each check one number that must stay within a limit.
+// Checks of a material point: each gives one number that must stay within a limit.
 
 #include "probation/material/parameters.hpp"
 

@@ -48,7 +48,7 @@ inline Symmetric uniaxial_right_cauchy_green(double true_strain) {
 }
 
 /// Increments of true strain and time: a ramp, a rate some ten times higher, a crawl, unloading, loading
-/// again. The rates are no round numbers, where a table may have its kinks.
+/// again. The rates are not round: a table may have its kinks at round ones.
 struct Increment {
   double strain, time;
 };

@@ -1,4 +1,4 @@
-// probation_point_check: does the material point keep its promises, on these constants?
+// probation_point_check: checks the material point with given constants.
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ constexpr const char* usage =
     "numbers may\n"
     "be separated by commas. Without any: E_u 3220, G 1.8, K 20000 MPa, eq. (11) of the paper, 50 modes over "
     "6\n"
-    "decades. Exit status: 0 all within limits, 1 not, 2 constants that cannot be.\n";
+    "decades. Exit status: 0 all within limits, 1 not, 2 invalid constants.\n";
 
 /// Numbers separated by white space or commas; false where something else stands.
 bool numbers(std::string text, std::vector<double>& out) {

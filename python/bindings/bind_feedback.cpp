@@ -9,7 +9,7 @@ using namespace probation;
 
 namespace {
 
-/// What a feedback is to Python: its values, equal if they are, and pickled as such (for processes and deep
+/// In Python a feedback is its values: equal if they are equal, and pickled as them (for processes and deep
 /// copies).
 template <class Form, class... Parameters>
 auto as_values(py::class_<Form, Parameters...> form) {

@@ -6,7 +6,7 @@
 #include "bindings.hpp"
 #include "probation/sample_rows.hpp"
 
-/// float32 or float64, contiguous; one row is every record's.
+/// float32 or float64, contiguous; a single row serves all records.
 inline probation::SampleRows rows(const py::array& samples) {
   const py::ssize_t stride = samples.ndim() == 2 ? samples.shape(1) : 0;
   if (samples.itemsize() == sizeof(float)) return {static_cast<const float*>(samples.data()), stride};
@@ -19,8 +19,8 @@ inline void raise_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// What a batch does now and then: signals come to the main thread alone, and no other may ask for the lock
-/// while the interpreter ends. To be called with the lock held.
+/// The `pause` of a batch. Signals reach the main thread only, and no other thread may ask for the
+/// interpreter's lock while it shuts down. To be called with the lock held.
 inline std::function<void()> signals_of_this_thread() {
   const auto main =
       py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();

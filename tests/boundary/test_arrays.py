@@ -162,6 +162,8 @@ def test_a_name_is_the_scheme_with_default_options(name):
         ({"relaxation_time_factor": 0.0}, r"relaxation_time_factor\[0\] is 0; a positive"),
         ({"relaxation_time_factor": np.r_[np.ones(32), -1.0]}, r"relaxation_time_factor\[32\] is -1"),
         ({"load_bearing_area": 0.0}, r"load_bearing_area\[0\] is 0"),
+        ({"unrelaxed_modulus_factor": np.r_[np.ones(32), -0.5]}, r"modulus_factor\[32\] is -0.5; .* not negative"),
+        ({"extra_modulus": [2.0, -3.0], "extra_relaxation_time": [1.0, 1.0]}, r"modulus\[1\] is -3; .* not negative"),
         ({"hardening_factor": np.ones(7)}, r"hardening_factor has 7 samples; 1 or 33"),
         ({"unrelaxed_modulus_factor": np.ones((33, 1))}, r"unrelaxed_modulus_factor has the shape \(33, 1\)"),
         ({"added_relaxed_stress": np.nan}, r"added_relaxed_stress\[0\] is nan"),

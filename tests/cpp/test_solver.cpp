@@ -319,6 +319,22 @@ TEST_CASE("a direction that does not fit is refused before anything is written p
   }
 }
 
+TEST_CASE("a negative modulus is refused, a relaxed stress of the other sign is not") {
+  LawChange change;
+  change.unrelaxed_modulus_factor = Eigen::Array3d(1.0, 0.0, 2.0);
+  change.hardening_factor = Eigen::Array3d(1.0, -0.5, 1.0);
+  change.extra_modes = {Eigen::Array2d(0.0, 3.0), Eigen::Array2d(1.0, 2.0)};
+  CHECK_NOTHROW(change.validate(3, 50));
+  change.unrelaxed_modulus_factor[2] = -0.5;
+  CHECK_THROWS_WITH_AS(change.validate(3, 50),
+                       "unrelaxed_modulus_factor[2] is -0.5; a finite number, not negative, is needed",
+                       InputError);
+  change.unrelaxed_modulus_factor[2] = 1.0;
+  change.extra_modes.modulus[1] = -3.0;
+  CHECK_THROWS_WITH_AS(change.validate(3, 50),
+                       "extra_modes.modulus[1] is -3; a finite number, not negative, is needed", InputError);
+}
+
 TEST_CASE("outputs of the wrong size are refused") {
   const ArrayXd time = even(5, 4.0);
   ArrayXd stress(4);

@@ -11,7 +11,7 @@
 
 namespace probation {
 
-/// A record that laws are held against.
+/// A record with which stresses of the law are compared.
 struct BatchRecord {
   History history;
   Eigen::ArrayXd true_stress;  ///< [MPa]; shape (n_times)

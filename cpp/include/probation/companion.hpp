@@ -10,8 +10,8 @@ namespace probation {
 
 /// tau_max as a function of the strain rate r > 0, eqs. (10)-(12).
 ///
-/// The law feeds it r = max(|rate|, rate_floor()): the relations are fitted between 5e-5 and 1e-2 1/s, and
-/// eq. (11) gives no positive time below 1.2e-8 1/s.
+/// The law calls it with r = max(|rate|, rate_floor()): the relations are fitted between 5e-5 and 1e-2 1/s,
+/// and eq. (11) gives no positive time below 1.2e-8 1/s.
 class CompanionRelation {
  public:
   static constexpr double default_rate_floor = 1e-7;  // [1/s]

@@ -9,7 +9,7 @@
 
 namespace probation {
 
-/// True strain [-] under an imposed true stress, by bE2: put back into bE2 it returns the stress.
+/// True strain [-] under an imposed true stress, by bE2: bE2 along this strain gives the stress back.
 ///
 /// The specimen is relaxed and unloaded before time[0]; true_stress[0] is applied at once, so that the strain
 /// starts at true_stress[0] / E_u. Where a companion relation makes the flow stress fall with the rate,

@@ -22,7 +22,7 @@ inline Dual operator/(Dual a, Dual b) {
   const double inverse = 1.0 / b.value, ratio = a.value * inverse;
   return {ratio, (a.slope - ratio * b.slope) * inverse};
 }
-// With a constant, of which nothing moves.
+// With a constant, whose derivative is zero.
 inline Dual operator+(Dual a, double b) { return {a.value + b, a.slope}; }
 inline Dual operator+(double a, Dual b) { return {a + b.value, b.slope}; }
 inline Dual operator-(Dual a, double b) { return {a.value - b, a.slope}; }

@@ -1,18 +1,18 @@
 #pragma once
-// What can go wrong: the caller's input, or the numerics. Broken invariants of our own are std::logic_error.
+// Errors: of the input, or of the numerics. A broken invariant of the engine is a std::logic_error.
 
 #include <stdexcept>
 #include <string>
 
 namespace probation {
 
-/// The caller's mistake. The message names the argument, what was found and what was expected.
+/// Invalid input. The message names the argument, what was found and what was expected.
 class InputError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// The numerics gave up: where on the time axis, and how far from converged.
+/// No convergence: at which time, and with which residual.
 class ConvergenceError : public std::runtime_error {
  public:
   ConvergenceError(const std::string& cause, double time, double residual_norm)

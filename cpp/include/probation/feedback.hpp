@@ -1,6 +1,6 @@
 #pragma once
-// Feedbacks: the relaxation times or the hardening depend on what the specimen has become. Forms live in
-// feedback/.
+// Feedbacks: the relaxation times or the hardening depend on the current stress or the plastic work. Forms
+// live in feedback/.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace probation {
 
-/// What a feedback does at one instant: 1 / tau_max times fluidity, sigma^r times hardening.
+/// Factors of a feedback at one instant: of 1 / tau_max (fluidity) and of sigma^r (hardening).
 template <class Real>
 struct FeedbackFactor {
   Real fluidity{1.0};
@@ -28,7 +28,8 @@ class Feedback {
   virtual ~Feedback() = default;
 
   virtual std::size_t parameters() const noexcept = 0;
-  /// Factors at a stress [MPa] and memory [MPa]; `parameter` (if below parameters()) carries a slope of one.
+  /// Factors at a stress [MPa] and memory [MPa]; slopes are along `parameter` if it is below
+  /// parameters().
   virtual FeedbackFactor<Dual> factor(Dual stress, Dual memory, std::size_t parameter) const = 0;
   /// Loss rate of the memory [1/s].
   virtual Dual loss_rate(std::size_t parameter) const = 0;
@@ -36,10 +37,11 @@ class Feedback {
   static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
 };
 
-/// A feedback from one formula. `Form` states, for Real = double or Dual,
+/// A feedback from one formula. `Form` defines, with Values = std::array<Real, parameters> and Real = double
+/// or Dual,
 ///   static constexpr std::size_t parameters;
-///   template <class Real> static FeedbackFactor<Real> factor(const std::array<Real, parameters>&, Real
-///   stress, Real memory); template <class Real> static Real loss_rate(const std::array<Real, parameters>&);
+///   template <class Real> static FeedbackFactor<Real> factor(const Values&, Real stress, Real memory);
+///   template <class Real> static Real loss_rate(const Values&);
 template <class Form>
 class FormulaFeedback : public Feedback {
  public:

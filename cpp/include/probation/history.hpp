@@ -8,14 +8,14 @@
 
 namespace probation {
 
-/// How a strain rate is had from samples.
+/// How a strain rate is computed from samples.
 enum class Differentiator {
   secant,       ///< the piecewise-linear history itself: one rate per step
   backward,     ///< three-point backward difference at the end of the step; the secant after a jump (bE2)
   three_point,  ///< slope of the parabola through three neighbours, one-sided at jumps (SA2, SA3)
 };
 
-/// Asks a history to look for the jumps of its rate itself; see History::find_rate_jumps.
+/// Tag of the constructor that searches the rate for jumps; see History::find_rate_jumps.
 struct FindJumps {};
 
 /// The rate at the two ends of every step; shape (n_times - 1). At a jump the two sides differ.
@@ -32,23 +32,22 @@ class History {
  public:
   using Indices = std::vector<Eigen::Index>;
 
-  /// Of no samples: to be assigned to.
+  /// Without samples: to be assigned to later.
   History() = default;
   /// @param time         [s], finite, increasing; shape (n_times), at least 2
   /// @param true_strain  [-], finite; shape (n_times)
   /// @param strain_rate  [1/s], finite; shape (n_times), or empty
   /// @param jumps        instants (indices) at which the rate jumps: schemes start afresh there
   /// @param direction    commanded direction of each step, +1, -1 or 0 (unknown); shape (n_times - 1), or
-  /// empty. A rate
-  ///                     against it is noise: the companion relation sees the rate floor, never its modulus
+  ///                     empty. A rate against it is noise: the companion relation then takes the rate floor
   /// @throws InputError  naming the argument and the sample
   History(const Samples& time, const Samples& true_strain, const Samples& strain_rate = Eigen::ArrayXd(),
           Indices jumps = {}, const Eigen::ArrayXi& direction = Eigen::ArrayXi());
   History(FindJumps, const Samples& time, const Samples& true_strain,
           const Samples& strain_rate = Eigen::ArrayXd(), const Eigen::ArrayXi& direction = Eigen::ArrayXi());
 
-  /// Becomes another history in the memory of this one; arguments as above. If it throws, it is of no use
-  /// before it is assigned to again.
+  /// Replaces this history by another one in the same memory; arguments as above. After an exception it must
+  /// be assigned to again before it is used.
   void assign(const Samples& time, const Samples& true_strain, const Samples& strain_rate, Indices jumps,
               const Eigen::ArrayXi& direction);
   void assign(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
@@ -74,7 +73,7 @@ class History {
     return fresh_[static_cast<std::size_t>(m)] != 0;
   }  ///< first step after the start or a jump
   double ratio(Eigen::Index m) const { return m == 0 ? 1.0 : step_[m] / step_[m - 1]; }  ///< h / h0
-  /// How many steps from m on have the length of step m and are not fresh (m itself may be).
+  /// Number of steps from m on that have the length of step m and are not fresh (m itself may be fresh).
   Eigen::Index uniform_run(Eigen::Index m) const { return uniform_until_[static_cast<std::size_t>(m)] - m; }
 
   /// Rates of this history; given ones are used as they are, but for the secant on the other side of a jump.
@@ -86,8 +85,8 @@ class History {
   StepRates move_rates(const Samples& true_strain, const Samples& strain_rate,
                        Differentiator differentiator) const;
 
-  /// What the companion relation sees in step m: the modulus of the rate, or the floor where noise turned it
-  /// round.
+  /// The rate used in the companion relation in step m: its modulus, or the floor where the rate is against
+  /// the commanded direction.
   double companion_rate(Eigen::Index m, double rate, double floor) const;
   /// The same for the rates of all steps, in place; shape (n_times - 1).
   void see_companion_rates(Eigen::ArrayXd& rate, double floor) const;
@@ -98,10 +97,10 @@ class History {
 
  private:
   StepRates take_given(const Samples& true_strain, const Samples& strain_rate) const;
-  /// Takes the samples.
+  /// Copies the samples.
   void take(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
             const Eigen::ArrayXi& direction);
-  /// Makes e_HT, and throws for samples that cannot be; returns whether all steps are even.
+  /// Computes e_HT, throws for invalid samples, and returns whether all steps are even.
   bool check();
   void mark_fresh();
   void find_stretches(bool even);

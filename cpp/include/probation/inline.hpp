@@ -1,5 +1,6 @@
 #pragma once
-// Functions that must leave no copy of their own behind: they are compiled once per instruction set.
+// Functions that must be inlined: a file that is compiled once per instruction set must not emit a copy of
+// them, which the linker could take for another processor.
 
 #if defined(__GNUC__)
 #define PROBATION_INLINE [[gnu::always_inline]] inline

@@ -7,7 +7,7 @@
 
 namespace probation {
 
-/// A stride of zero gives all records the same row.
+/// With a stride of zero all records have the same row.
 struct SampleRows {
   std::variant<const float*, const double*> first = static_cast<const double*>(nullptr);
   Eigen::Index stride = 0;  ///< samples from row to row

@@ -27,13 +27,13 @@ struct SolverOptions {
 /// share a solver (one waits), but each does better with its own.
 class Solver {
  public:
-  Solver();  ///< Of no history: take() one.
+  Solver();  ///< Without history: take() one.
   Solver(History history, SolverOptions options);
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// Turns to another history, made of `samples` as History makes it, in the memory of the one before.
+  /// Replaces the history by one of `samples` (arguments of History), in the same memory.
   template <class... Samples>
   void take(SolverOptions options, Samples&&... samples) {
     forget();
@@ -44,10 +44,9 @@ class Solver {
   const History& history() const noexcept;
 
   /// True stress [MPa] at the instants of the history; `stress` has shape (n_times).
-  /// @throws InputError        for a law or a change that is not possible
-  /// @throws ConvergenceError  if CVODE or a feedback's iteration fails, or the stress is not finite, with
-  /// the
-  ///                           time
+  /// @throws InputError        for an invalid law or change
+  /// @throws ConvergenceError  with the time at which CVODE or a feedback's iteration fails, or the stress is
+  ///                           not finite
   void stress(const Law& law, const LawChange& change, Eigen::Ref<Eigen::ArrayXd> stress);
 
   /// Stress and its derivatives [MPa per unit of the direction] along each direction; `derivatives` has shape
@@ -55,7 +54,7 @@ class Solver {
   void tangent(const Law& law, const LawChange& change, const std::vector<Direction>& directions,
                Eigen::Ref<Eigen::ArrayXd> stress, Eigen::Ref<RowMajorMatrix> derivatives);
 
-  /// What CVODE did in the last call.
+  /// Counters of CVODE in the last call.
   const CvodeStatistics& cvode_statistics() const noexcept;
 
  private:
@@ -74,10 +73,10 @@ class Solver {
 /// The solver that this thread keeps for histories that are solved once: take() one.
 Solver& kept_solver();
 
-/// Which build of the kernels runs: "v3" (AVX2, FMA), "baseline" (any processor of its kind), or "portable"
-/// (plain C++). The best that this processor can run, unless PROBATION_KERNELS in the environment names one;
-/// it is read once.
-/// @throws InputError  if it names none of those that can run here
+/// The build of the kernels in use: "v3" (AVX2, FMA), "baseline" (SSE2 or NEON) or "portable" (plain C++).
+/// The best that this processor can run, unless PROBATION_KERNELS in the environment names one; it is read
+/// once.
+/// @throws InputError  if PROBATION_KERNELS names a build that this processor cannot run
 const char* kernel_build();
 
 /// The directions of the law's parameters: E_u [MPa], tau_max [s] (or alpha), G [MPa].

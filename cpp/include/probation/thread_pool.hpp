@@ -1,5 +1,5 @@
 #pragma once
-// Threads that are kept between batches: to start and join them costs more than a solve.
+// Threads that are kept between batches: starting and joining them costs more than a solve.
 
 #include <Eigen/Core>
 #include <functional>
@@ -8,15 +8,16 @@ namespace probation {
 
 /// How a batch is run.
 struct BatchRun {
-  int threads = 0;              ///< how many to use, the caller's among them; 0: one per core
-  std::function<void()> pause;  ///< called now and then by the calling thread; what it throws ends the batch
+  int threads = 0;  ///< how many to use, the caller's among them; 0: one per core
+  std::function<void()>
+      pause;  ///< called repeatedly by the calling thread; an exception of it ends the batch
 };
 
-/// How many threads a batch of so many tasks takes: work() sees workers 0 .. workers_for() - 1.
+/// Number of threads for a batch of so many tasks: work() is called with workers 0 .. workers_for() - 1.
 int workers_for(Eigen::Index tasks, const BatchRun& run);
 
-/// Calls work(worker, task) for every task, in any order, on the calling thread and on others that wait for
-/// such calls. A worker does one task at a time. The first exception ends the batch and reaches the caller.
+/// Calls work(worker, task) for every task, in any order, on the calling thread and on the threads of
+/// the pool. A worker does one task at a time. The first exception ends the batch and reaches the caller.
 ///
 /// Several threads may call this at once, and work() may call it, too. After a fork the child starts threads
 /// of its own.

@@ -42,7 +42,8 @@ struct Identifier::Workspace {
   IdentifyOptions options;
   RecordFit full, thinned;
 
-  /// Range of tau_max (or alpha) worth searching: from far below a sample to far beyond the record.
+  /// Range of tau_max (or alpha) that is searched: from far below a sampling interval to far beyond the
+  /// record.
   Bounds log_time(const History& history) const {
     double low = 1e-3, high = 1e3;
     if (!law.companion) {
@@ -110,7 +111,7 @@ struct Identifier::Workspace {
 Identifier::Identifier(const Law& law, const IdentifyOptions& options)
     : work_(std::make_unique<Workspace>()) {
   options.validate();
-  Law tried = law;  // what is not held may be anything
+  Law tried = law;  // parameters that are not held may have any value
   for (int i = 0; i < 3; ++i)
     if (!options.held[static_cast<std::size_t>(i)])
       (i == 0          ? tried.unrelaxed_modulus
@@ -129,7 +130,7 @@ Identifier& Identifier::operator=(Identifier&&) noexcept = default;
 
 Identified Identifier::operator()(const ArrayXd& time, const ArrayXd& true_strain, const ArrayXd& true_stress,
                                   const ArrayXd& noise) {
-  // Beyond these, squares of squares overflow; a strain of 50 is no strain.
+  // Beyond these, fourth powers overflow; no specimen has a strain of 50.
   constexpr double largest_strain = 50.0, largest_stress = 1e70, least_stress = 1e-70;
   Workspace& w = *work_;
   const IdentifyOptions& options = w.options;

@@ -27,7 +27,7 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
     fit.differentiate(p);
     ++search.iterations;
     const Eigen::Vector3d here = values(p);
-    // A bound holds what would be pushed through it.
+    // A parameter at a bound is held if its step leads beyond.
     std::array<bool, 3> free{};
     for (int i = 0; i < 3; ++i) {
       const bool stopped = (here[i] <= bounds[i].lower && p.gradient[i] > 0.0) ||
@@ -52,7 +52,8 @@ Search levenberg_marquardt(RecordFit& fit, const SearchSpace& space, double log_
       Eigen::Vector3d next = here + step;
       for (int i = 0; i < 3; ++i) next[i] = std::clamp(next[i], bounds[i].lower, bounds[i].upper);
       step = next - here;
-      // Steps in units of the parameters; what is left shrinks from step to step by their ratio.
+      // Lengths of steps in units of the parameters; the remaining error shrinks by their ratio from step to
+      // step.
       const auto relative = [&](int i) {
         return i == 1 ? std::abs(step[1]) : std::abs(step[i]) / std::max(std::abs(here[i]), 1e-300);
       };

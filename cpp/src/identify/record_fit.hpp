@@ -8,7 +8,7 @@
 
 namespace probation {
 
-/// Parameters, what they cost, and, once differentiated, J^T J and J^T r along E_u, ln tau_max (or ln alpha),
+/// Parameters, their cost and, once differentiated, J^T J and J^T r along E_u, ln tau_max (or ln alpha) and
 /// G.
 struct FitPoint {
   double unrelaxed_modulus = 0.0, log_time = 0.0, hardening_modulus = 0.0;
@@ -55,7 +55,7 @@ class RecordFit {
 /// The inverse of J^T J over the parameters that are free; zero elsewhere.
 struct FreeInverse {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  bool determined = true;  ///< no free parameter is beyond what the data tell
+  bool determined = true;  ///< the data determine every free parameter
 };
 FreeInverse invert(const Eigen::Matrix3d& normal, const std::array<bool, 3>& free);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The ways to the least cost of one record.
+// Searches for the least cost of one record.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace probation {
 
-/// What a search may change, and how far.
+/// Bounds of a search.
 struct SearchSpace {
   std::array<bool, 3> held;
   Bounds modulus, log_time, hardening;  ///< equal ends where held

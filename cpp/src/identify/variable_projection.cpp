@@ -7,8 +7,9 @@ namespace probation {
 
 Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_time, double accuracy) {
   constexpr int most_iterations = 60;
-  constexpr double longest_step = 0.5;                         // of ln time
-  constexpr double least_secant = 0.1, largest_secant = 10.0;  // of the Gauss-Newton slope: what is trusted
+  constexpr double longest_step = 0.5;  // of ln time
+  constexpr double least_secant = 0.1,
+                   largest_secant = 10.0;  // limits of a secant slope, over the Gauss-Newton slope
   const bool time_free = !space.held[1];
   Search search;
   Bounds bracket = space.log_time;  // the derivative of the cost is negative at its lower end, else positive
@@ -40,7 +41,7 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
       smooth = std::abs(secant - gauss_newton) < 0.1 * gauss_newton;
     }
     const double step = std::clamp(-gradient / slope, -longest_step, longest_step);
-    // What a secant step leaves is about the product of this step and the one before.
+    // The error after a secant step is about the product of this step and the one before.
     const bool small = std::abs(step) <= accuracy || (smooth && std::abs(step * last_step) <= accuracy);
     double next = theta + step;
     const bool beyond = next <= bracket.lower || next >= bracket.upper;
@@ -50,7 +51,7 @@ Search variable_projection(RecordFit& fit, const SearchSpace& space, double log_
       search.step[1] = step;
       return search;
     }
-    if (theta == end) {  // and the cost still falls outwards
+    if (theta == end) {  // and the cost still falls beyond the end
       search.step.setZero();
       search.status = IdentifyStatus::at_a_bound;
       return search;

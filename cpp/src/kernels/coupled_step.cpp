@@ -1,8 +1,8 @@
 // Single steps whose inputs depend on the stress at their end. Compiled once per instruction set.
 //
 // Coefficients near a scale are polynomials (kernels::CoefficientRows), and so is the stress at the end of a
-// step: its terms are had from one pass over the modes before its scale is known. That pass is the one in
-// which the step before is taken.
+// step: its terms are formed in one pass over the modes before its scale is known. The same pass takes
+// the step before.
 
 #include "coupled_step.hpp"
 
@@ -33,8 +33,8 @@ PROBATION_INLINE Vector polynomial(const double* row, std::ptrdiff_t stride, dou
   return value;
 }
 
-/// Coefficients of the modes of a vector, and what a rule makes of them; `curved`: V is not zero. Numbers and
-/// pointers are copied: stores to the states could otherwise change them, as far as a compiler knows.
+/// Coefficients of the modes of a vector, and how a rule uses them; `curved`: V is not zero. Numbers and
+/// pointers are copies: the compiler must assume that stores to the states change what is not.
 template <bool curved>
 struct ExponentialNear {
   static constexpr bool two_step = false;
@@ -114,7 +114,7 @@ void pass(const Modes& of, std::ptrdiff_t first, const NearStep& taken_step, con
   }
 }
 
-/// Coefficients, unweighted, and what d ln x does.
+/// Coefficients without weights, and their derivatives with respect to ln x.
 template <class Step>
 StepSlopes linearise_by(const Modes modes, const OneStep step, double* rows) {
   const std::ptrdiff_t m = modes.padded;

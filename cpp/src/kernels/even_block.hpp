@@ -96,7 +96,7 @@ struct EvenBlock {
     return next;
   }
   PROBATION_INLINE void take_state(int k, Vector y, Vector y_before) {
-    // What nothing drives is driven by next to nothing: its state can be divided by that.
+    // A drive of zero is replaced by a tiny one, so that the state can be divided by it.
     const Vector divisor = choose(drive[k] * drive[k] < 1e-300, Vector{} + 1e-150, drive[k]);
     unit[k] = choose(y * y + y_before * y_before == 0.0, drive[k], divisor);
     state[k] = y / divisor;
@@ -183,7 +183,7 @@ struct EvenTangentBlock {
   }
 
  private:
-  /// A mode of weight zero is nobody's: no direction here has weights of its own.
+  /// Modes of weight zero only pad the arrays: no direction here changes weights.
   PROBATION_INLINE void put(double* to, double* slope_to, double u, int at) const {
     for (int k = 0; k < K; ++k) {
       const std::ptrdiff_t j = at + k * lanes;

@@ -7,7 +7,7 @@
 namespace probation::kernels::PROBATION_ISA {
 namespace {
 
-/// A forcing as a block sees it.
+/// The forcing of a block.
 struct Inputs {
   double start;         ///< U before the first step, where it is needed
   double first;         ///< X of the first step
@@ -58,7 +58,7 @@ PROBATION_INLINE void advance_to_end(Block& block, const Modes& modes, int at, c
   block.put_state(modes, u[last], at);
 }
 
-/// Which modes, by vectors, remember: from..to. Of the others' states `memory` steps leave nothing (2^-53).
+/// Modes, by vectors, that keep a memory: from..to. After `memory` steps the others' states are below 2^-53.
 struct Memory {
   int from, to;
 
@@ -79,11 +79,11 @@ struct Memory {
   }
 };
 
-/// What U and the U before it add to the sums over the modes, as a convolution.
+/// The sums over the modes as a convolution of U.
 template <int memory>
 struct Response {
   double direct = 0.0;         ///< of U alone, for all modes
-  double later[memory] = {0};  ///< sums of y after one U of 1, for modes that forget it
+  double later[memory] = {0};  ///< sums of y after one U of 1, over modes whose memory ends
 
   void add_to(double* sums, const double* u, int count) {
     const int first = count < memory ? count : memory;
@@ -93,8 +93,9 @@ struct Response {
   }
 };
 
-/// Modes that forget within `memory` steps: from then on their stress is the convolution of U with their
-/// response, and their last states follow from the last steps alone. block_of(size, at) makes the blocks.
+/// Modes whose memory ends within `memory` steps: from then on their stress is the convolution of U with
+/// their response, and their last states follow from the last steps alone. block_of(size, at) makes the
+/// blocks.
 template <int memory, int largest, class BlockOf>
 void sweep(const Modes& modes, const Steps& steps, Outputs out, BlockOf block_of) {
   const double* u = steps.forcing;
@@ -136,7 +137,7 @@ void sweep(const Modes& modes, const Steps& steps, Outputs out, BlockOf block_of
   if (out.slope) slope.add_to(out.slope, u, count);
 }
 
-/// Steps within which fast modes forget.
+/// Steps after which the memory of fast modes ends.
 template <bool two_step>
 constexpr int memory_of_rule = two_step ? 16 : 4;
 

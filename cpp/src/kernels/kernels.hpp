@@ -10,7 +10,7 @@
 
 namespace probation::kernels {
 
-/// What uneven steps of the exponential rule keep from step to step and from sweep to sweep; see
+/// Coefficients of uneven steps of the exponential rule, kept from step to step and from sweep to sweep; see
 /// scale_table.hpp. The memory is the caller's.
 struct ScaleTable {
   static constexpr int slots = 128, terms = 7;
@@ -51,7 +51,7 @@ struct TangentDirection {
   double* stress;             ///< d stress, per step; added to
 };
 
-/// What a trial step gives without being taken: sums over the modes, weights included.
+/// Result of a trial step, which advances no state: sums over the modes, weights included.
 struct Trial {
   double stress;        ///< sum p y+
   double by_log_scale;  ///< d stress / d ln scale
@@ -64,7 +64,7 @@ struct Trial {
 /// coefficient of Bdf2Difference at the end of the step, and the coefficients are a times as large.
 struct CoefficientRows {
   static constexpr int terms = 6;
-  static constexpr double reach = 3.5e-3;  ///< distance at which what is left out is rounding
+  static constexpr double reach = 3.5e-3;  ///< distance up to which the omitted terms are below rounding
   const double* forcing;                   ///< of U
   const double* curvature;                 ///< of V; null: zero
   long stride;
@@ -80,22 +80,23 @@ struct NearStep {
   double scale;         ///< where exponential
   double here, before;  ///< where not
   double forcing, curvature;
-  int slaved;  ///< modes (the first ones, a multiple of four) that keep nothing of what they were
+  int slaved;  ///< how many modes (the first ones, a multiple of four) are quasi-steady: slaved.hpp
 };
 
-/// What the modes before a step contribute to the stress after it: sum_j z_j+ for U = V = 0 is the sum over
-/// k < CoefficientRows::terms of sums[k] distance^k, or where exponential, sums[kept] less scale times that.
+/// Contribution of the modes' states before a step to the stress after it: sum_j z_j+ for U = V = 0 is the
+/// sum over k < CoefficientRows::terms of sums[k] distance^k, or where exponential, sums[kept] less scale
+/// times that.
 struct StressNearby {
   static constexpr int kept = CoefficientRows::terms;
-  double sums[kept + 2];  ///< the last is nothing: whole vectors
+  double sums[kept + 2];  ///< the last one only fills a vector
 };
 
-/// How the stress at the end of a step moves with its inputs.
+/// Derivatives of the stress at the end of a step with respect to the step's inputs.
 struct StepSlopes {
   double by_log_scale, by_forcing, by_curvature;
 };
 
-/// How the inputs of a step move along a direction.
+/// Derivatives of a step's inputs along a direction.
 struct StepChange {
   double log_scale, forcing, curvature;
 };
@@ -122,23 +123,23 @@ struct Kernels {
                     long stride);
   /// sum_j p_j times each row.
   void (*weigh_rows)(const Modes&, const CoefficientRows&, double* by_forcing, double* by_curvature);
-  /// Looks at a step that is still to be taken.
+  /// Expands a step that is still to be taken.
   void (*look)(const Modes&, const NearStep&, StressNearby& found);
-  /// Takes a step and, if there is a next one, looks at it in the same pass. Modes that both steps enslave
-  /// stay behind: whatever they are, nothing of it is left afterwards.
+  /// Takes a step and, if there is a next one, expands it in the same pass. States of modes that are
+  /// quasi-steady in both steps are not advanced: they have no influence afterwards.
   void (*advance)(const Modes&, const NearStep& taken, const NearStep* next, StressNearby& found);
   /// One step's coefficients and slopes, for drift() and move(), to rows (5 * padded entries); not taken.
   StepSlopes (*linearise)(const Modes&, const Steps&, double* rows);
-  /// A direction advanced by the step while scale, U and V hold; returns the slope of the stress.
+  /// Advances a direction by the step at fixed scale, U and V; returns the derivative of the stress.
   double (*drift)(const Modes&, const Steps&, const StepDirection&, const double* rows);
-  /// On top of it, d ln scale, dU and dV.
+  /// Adds what d ln scale, dU and dV do.
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
   StepPasses form;
   SamplePasses samples;
 };
 
 /// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.
-/// @throws InputError  if it names one that is not there or that this processor cannot run
+/// @throws InputError  if PROBATION_KERNELS names a build that is missing or that this processor cannot run
 const Kernels& best();
 
 /// Every build that this processor can run, best first; ends with null.

@@ -13,7 +13,7 @@ namespace {
 void sweep(const Modes& modes, const Steps& steps, double* stress) {
   if (!steps.uniform || steps.count == 1) return uneven_sweep(modes, steps, stress);
   if (steps.rule != StepRule::backward_euler) return even_sweep(modes, steps, stress);
-  // It starts afresh: there is seldom more than one of it.
+  // A fresh step: usually there is one only.
   for (int n = 0; n < steps.count; ++n) uneven_sweep(modes, part_of(steps, n, 1), stress + n);
 }
 

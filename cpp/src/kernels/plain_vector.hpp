@@ -1,6 +1,6 @@
 #pragma once
-// A vector of one double: plain C++, for compilers without vector extensions, and to hold the other builds
-// against.
+// A vector of one double: plain C++, for compilers without vector extensions, and as the
+// reference for the other builds.
 
 namespace probation {
 

@@ -4,16 +4,16 @@
 //
 //   chi(x) = (1 - phi(x)) / x,    phi = 1 - x chi,    e^-x = 1 - x phi,    psi = 2 chi - phi,
 //
-// and all modes see the same scale, x_j = scale q_j. The scales are cut into cells, 32 in each octave; within
-// a cell the chi of each mode is a polynomial of degree 6 in t, the place in the cell from -1 to 1, through
-// Chebyshev's points: chi is entire, its n-th term is below (1 / 64)^n, and the interpolation's error some
-// 1e-15 (measured: see tests/cpp/test_scale_table.cpp). Where x is small, terms fall faster still, and slow
-// modes need fewer of them. No mode needs to be spaced like its neighbours for that. Cells are formed where
-// steps fall into them, and kept.
+// and all modes have the same scale, x_j = scale q_j. The scales are cut into cells, 32 in each octave;
+// within a cell the chi of each mode is a polynomial of degree 6 in t, the place in the cell from -1 to 1,
+// through Chebyshev's points: chi is entire, its n-th term is below (1 / 64)^n, and the interpolation's error
+// some 1e-15 (measured: see tests/cpp/test_scale_table.cpp). Where x is small, terms fall faster still, and
+// slow modes need fewer of them. The modes may be spaced in any way. A cell is formed when the first step
+// falls into it, and kept.
 //
-// Beside coefficient_table.hpp, for steps whose scale is unknown until their stress is: here one function
-// serves phi and psi, and the terms of the modes of a vector lie together, as a sweep with time innermost
-// reads them.
+// The other table is coefficient_table.hpp, for steps whose scale is unknown until their stress is known.
+// Here one function serves phi and psi, and the terms of the modes of a vector lie together in memory, in
+// the order in which a sweep with time innermost reads them.
 
 #include <cstring>
 
@@ -110,13 +110,13 @@ inline void form_cell(const Modes& modes, const ScaleCell& cell, double* rows) {
 struct TabledSteps {
   static constexpr int most = 256;
 
-  int count = 0;                       ///< none: the table is not worth while here
+  int count = 0;                       ///< 0: the table does not pay here
   double lowest = 0.0, highest = 0.0;  ///< scale
   double offset[most];
   const double* rows[most];
 
-  /// The table is worth while where steps of a cell are as many as its terms, on average. What it holds from
-  /// before has no say: the two ways differ in their last digits, and an answer follows its input alone.
+  /// The table pays where a cell has as many steps as terms, on average. Cells that are already filled do not
+  /// count: the two ways differ in the last digits, and an answer must depend on its input alone.
   TabledSteps(const Modes& modes, const double* scale, int available) {
     ScaleTable& kept = *modes.table;
     const auto stride = static_cast<std::ptrdiff_t>(modes.padded) * ScaleTable::terms;

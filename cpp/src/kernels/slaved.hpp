@@ -1,6 +1,6 @@
 #pragma once
-// Modes so fast that nothing of their state outlasts a step: e^-x is below rounding, and the exponential rule
-// is
+// Quasi-steady ("slaved") modes, so fast that nothing of their state is left after a step: e^-x is below
+// rounding, and the exponential rule is
 //
 //   phi = 1 / x,   psi = 1 / x - 2 / x^2,   sum z+ = (U + V) sum p / x - 2 V sum p / x^2.
 
@@ -10,7 +10,7 @@ namespace probation::kernels::PROBATION_ISA {
 
 constexpr double slaved_from = 36.8;  // e^-x < 2^-53
 
-/// The modes from..to, by vectors, follow their own states; those outside are slaved. sum p / q and sum p /
+/// The modes from..to, by vectors, keep their states; those outside are slaved. sum p / q and sum p /
 /// q^2 are theirs, q = inverse_ratio.
 struct SlavedModes {
   int from, to;
@@ -39,7 +39,7 @@ struct SlavedModes {
     for (int at = to; at < modes.padded; at += lanes) body(at);
   }
 
-  /// Their stress is added, and their states are what the last two steps leave.
+  /// Adds their stress, and sets their states from the last two steps.
   void sweep(const Modes& modes, const Steps& steps, double* stress) const {
     if (from == 0 && to == modes.padded) return;
     const int count = steps.count;

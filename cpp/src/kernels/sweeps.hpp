@@ -22,7 +22,7 @@ void even_tangent_sweep(const Modes&, const Steps&, double* stress, const Tangen
 /// Along one in which the time scale alone moves; uneven steps.
 void time_tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection&, double* scratch);
 
-/// The best one of them.
+/// The fastest sweep that can take the steps.
 void tangent_sweep(const Modes&, const Steps&, double* stress, const TangentDirection* directions, int count,
                    double* scratch);
 

@@ -33,7 +33,7 @@ struct TimeBlock {
     state[k] = next;
     slope[k] = change;
   }
-  /// A mode of weight zero is nobody's: no direction here has weights of its own.
+  /// Modes of weight zero only pad the arrays: no direction here changes weights.
   template <bool two_step>
   void put_back(const Modes& modes, const TangentDirection& d, int at) const {
     for (int k = 0; k < K; ++k) {
@@ -150,7 +150,7 @@ void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tab
   });
 }
 
-/// The last step leaves `before` behind: it goes the general way.
+/// The last step also stores `before`: it is taken by the general sweep.
 void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d,
                        double* scratch) {
   const int last = steps.count - 1;

@@ -21,7 +21,7 @@ struct UnitBlock {
       const std::ptrdiff_t j = at + k * lanes;
       const Vector weight = load(modes.weight + j), z = load(modes.state + j),
                    z_before = load(modes.before + j);
-      // A state without weight is driven by next to nothing, by which it can be divided.
+      // A weight of zero is replaced by a tiny one, so that the state can be divided by it.
       const Vector divisor = choose(weight < 1e-150, Vector{} + 1e-150, weight);
       inverse_ratio[k] = load(modes.inverse_ratio + j);
       unit[k] = choose(z * z + z_before * z_before == 0.0, weight, divisor);
@@ -119,7 +119,7 @@ void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tab
   });
 }
 
-/// The last step is formed: it leaves `before` behind.
+/// The coefficients of the last step are formed, not tabled: it also stores `before`.
 void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   const int last = steps.count - 1;
   int n = 0;

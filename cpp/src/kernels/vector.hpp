@@ -35,8 +35,8 @@ PROBATION_INLINE Vector load(const double* from) {
 }
 PROBATION_INLINE void store(double* to, Vector v) { __builtin_memcpy(to, &v, sizeof v); }
 
-/// One of log2(lanes) foldings, at whose end stand the sums over the lanes of `lanes` vectors: of neighbours
-/// first, of pairs of them then.
+/// One of log2(lanes) foldings. After all of them the lanes of the result are the sums over the lanes of
+/// `lanes` vectors; neighbours are added first, then pairs.
 template <int vectors>
 PROBATION_INLINE Vector fold(Vector a, Vector b) {
 #ifdef __AVX__

@@ -1,5 +1,5 @@
 #pragma once
-// The formulas of the companion relation, eqs. (10)-(12): numbers in, numbers out, nothing checked. The
+// The formulas of the companion relation, eqs. (10)-(12): plain functions of numbers, without checks. The
 // classes of companion/ and the material point both call these.
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct PowerLawForm {
 };
 
 /// tau_max interpolated linearly in (ln r, ln tau_max); the end segments go on beyond the table. The arrays
-/// belong to somebody else and have `size` entries, at least two.
+/// belong to the caller and have `size` entries, at least two.
 struct TableForm {
   const double* rates;
   const double* tau_max;

@@ -9,14 +9,14 @@
 
 namespace probation {
 
-/// tau_max = base(r) exp(-exponent g(x) / g'(0)),  x = ln(r / reference_rate),  g = x - ln(1 + curvature x /
-/// ln 10).
+/// tau_max = base(r) exp(-exponent g(x) / g'(0)),
+/// x = ln(r / reference_rate),  g = x - ln(1 + curvature x / ln 10).
 ///
-/// -exponent is what it adds to d ln tau_max / d ln r at the reference rate. With curvature 0 it is a power
+/// It adds -exponent to d ln tau_max / d ln r at the reference rate. With curvature 0 it is a power
 /// of the rate. For a law without companion relation the base is 1 s at every rate; the law's alpha then
 /// holds tau_max at the reference rate, in s. With exponent g'(0) = 1 - curvature / ln 10 the Weissenberg
 /// number is linear in log10(r) and changes by the fraction `curvature` per decade, eq. (11). Where 1 +
-/// curvature x / ln 10 is below 0.05 its logarithm goes on straight.
+/// curvature x / ln 10 is below 0.05 its logarithm is continued by the tangent.
 class RateShift final : public CompanionRelation {
  public:
   RateShift(std::shared_ptr<const CompanionRelation> base, double reference_rate, double exponent,

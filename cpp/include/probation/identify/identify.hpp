@@ -12,18 +12,17 @@
 namespace probation {
 
 enum class IdentifyMethod {
-  variable_projection,  ///< E_u and G, in which the law is linear, projected out: a search in ln tau_max
-                        ///< alone
+  variable_projection,  ///< a search in ln tau_max alone; E_u and G, linear in the law, are projected out
   levenberg_marquardt,  ///< all three at once
 };
 
-/// What became of a record.
+/// How the identification of a record ended.
 enum class IdentifyStatus : std::int8_t {
   converged = 0,
-  at_a_bound = 1,  ///< a parameter stopped at a bound, or tau_max (alpha) at the end of what is searched
+  at_a_bound = 1,  ///< a parameter stopped at a bound, or tau_max (alpha) at the end of its range
   did_not_converge = 2,
-  not_determined = 3,  ///< the record says nothing about a parameter: its error is infinite
-  not_finite = 4,      ///< a sample is no finite number, or beyond all sizes, or a noise is not positive
+  not_determined = 3,  ///< a parameter has no influence on the record: its error is infinite
+  not_finite = 4,      ///< a sample is not finite or far too large, or a noise is not positive
   times_do_not_increase = 5,
   too_few_samples = 6,  ///< no more samples than parameters
   impossible_rate = 7,  ///< the companion relation gives no time at a rate of the record
@@ -39,8 +38,8 @@ struct IdentifyOptions {
   bool find_jumps = true;  ///< of the strain rate, record by record
   int substeps = 1;        ///< steps of the scheme from sample to sample
 
-  /// @throws InputError  if nothing is left to identify, a bound is not possible, the scheme has no
-  /// sensitivities or there is no step from sample to sample
+  /// @throws InputError  if every parameter is held, a bound is invalid, the scheme has no sensitivities or
+  /// substeps is below 1
   void validate() const;
 };
 
@@ -52,16 +51,16 @@ struct Identified {
   int iterations;  ///< solves of the whole record with their slopes
 };
 
-/// Identifies records one after another; its arrays are kept between them.
+/// Identifies records one after another and keeps its arrays from record to record.
 class Identifier {
  public:
-  /// @param law  gives the spectrum, the companion relation and the values of what is held
+  /// @param law  the spectrum, the companion relation and the values of held parameters
   Identifier(const Law& law, const IdentifyOptions& options);
   ~Identifier();
   Identifier(Identifier&&) noexcept;
   Identifier& operator=(Identifier&&) noexcept;
 
-  /// A bad record gets a status and NaN; nothing is thrown on its account.
+  /// An invalid record gets a status and NaN; it throws nothing.
   /// @param time, true_strain  at every substep [s], [-]; shape ((n_samples - 1) * substeps + 1)
   /// @param true_stress  at the samples [MPa]; shape (n_samples)
   /// @param noise  standard deviation of the stress, for its ratios within the record [MPa]; shape

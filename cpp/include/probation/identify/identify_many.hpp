@@ -19,7 +19,7 @@ struct BulkRecords {
   bool noise_given = false;
 };
 
-/// Where the answers go; see Identified.
+/// The arrays to be filled; see Identified.
 struct BulkOutput {
   Eigen::Ref<RowMajorMatrix> parameters;                            ///< shape (records, 3)
   Eigen::Ref<RowMajorMatrix> standard_error;                        ///< shape (records, 3)
@@ -28,8 +28,8 @@ struct BulkOutput {
   Eigen::Ref<Eigen::ArrayXi> iterations;                            ///< shape (records)
 };
 
-/// Identifies every record by itself; the answers depend on neither the threads nor the other records.
-/// @throws InputError  for options or shapes that do not fit; never for what a record holds
+/// Identifies every record by itself; results depend neither on the threads nor on the other records.
+/// @throws InputError  for options or shapes that do not fit; never for the samples of a record
 void identify_many(const Law& law, const BulkRecords& records, const IdentifyOptions& options,
                    const BatchRun& run, BulkOutput out);
 

@@ -7,21 +7,17 @@
 //    3  bulk_modulus       K [MPa], positive
 //    4  form               0 constant, 1 weissenberg, 2 exponential, 3 power, 4 table
 //    5  tau_max [s] where the form is constant, else alpha [-]; positive
-//    6  slope [-], coefficient [s] or, for a table, its number of points (2 to 32); else 0; at most 1e30
-//    either
-//       way
-//    7  intercept [-] or exponent [-]; else 0; at most 1e30 either way
+//    6  slope [-], coefficient [s] or, for a table, its number of points (2 to 32); else 0
+//    7  intercept [-] or exponent [-]; else 0. Entries 6 and 7: from -1e30 to 1e30
 //    8  rate_floor [1/s], positive; at it the form must give a positive time
 //    9  rate_filter [-], a strain, not negative; 0: the companion relation sees the rate itself
 //   10  modes              N, 1 to 64
-//   11  decades            d, positive, at most 30: log-spaced modes, eqs. (4), (5); 0: N ratios and N
-//   weights
-//                          follow
-//   12… ratios tau_j / tau_max, then weights p_j (0 to 1e6), where decades is 0; then rates and times of a
-//       table
-// last  stress_tolerance   [MPa], may be left out: above 0, increments whose estimated error is larger ask
-// for a
-//                          smaller one
+//   11  decades            d, positive, at most 30: log-spaced modes, eqs. (4), (5);
+//                          0: N ratios and N weights follow
+//   12… where decades is 0:  N ratios tau_j / tau_max, then N weights p_j (0 to 1e6)
+//       of a table:          its rates, then its times
+// last  stress_tolerance   [MPa], may be left out. Where it is positive, an increment whose estimated error
+//                          is larger asks for a smaller increment
 
 #include <cmath>
 #include <limits>
@@ -37,7 +33,7 @@ constexpr double least_positive = 1e-30, most_positive = 1e30, most_modulus = 1e
 
 namespace detail {
 
-/// Goes through the list; the first entry that cannot be is kept.
+/// Reads the list entry by entry and remembers the first invalid one.
 class ConstantReader {
  public:
   ConstantReader(const double* values, int count) noexcept : values_(values), count_(count) {}
@@ -50,14 +46,14 @@ class ConstantReader {
     if (value != std::floor(value)) refuse();
     return bad_ ? least : static_cast<int>(value);
   }
-  /// The entry just read is bad, unless an earlier one is.
+  /// Marks the entry just read as invalid, unless an earlier one is marked.
   void refuse() noexcept {
     if (bad_ == 0) bad_ = read_;
   }
   void refuse(int constant) noexcept {
     if (bad_ == 0) bad_ = constant;
   }
-  /// All entries must have been read.
+  /// Marks the list as invalid if it has more entries than were read.
   Outcome end() noexcept {
     if (read_ < count_) refuse(read_ + 1);
     return bad_ == 0 ? Outcome{} : Outcome{Status::bad_constant, bad_};
@@ -80,7 +76,7 @@ class ConstantReader {
 
 }  // namespace detail
 
-/// Fills the parameters from the list; on bad_constant they are not to be used.
+/// Fills the parameters from the list. After bad_constant the parameters must not be used.
 inline Outcome read_constants(const double* values, int count, Parameters& out) noexcept {
   detail::ConstantReader reader(values, count);
   out.unrelaxed_modulus = reader.not_negative(most_modulus);
@@ -115,7 +111,8 @@ inline Outcome read_constants(const double* values, int count, Parameters& out) 
   return reader.end();
 }
 
-/// What constant k (1 for the first) is called and must be; `form` is constant 4 where it is known, else any.
+/// Name of constant k (1 for the first) and the values it may have; `form` is constant 4, or any form where
+/// constant 4 is invalid.
 struct ConstantText {
   const char* name;
   const char* expected;
@@ -161,7 +158,7 @@ inline ConstantText constant_text(int constant, Form form) noexcept {
   }
 }
 
-/// Writes what is wrong into a text of `capacity` characters, the closing zero included; nothing if ok.
+/// Writes the error message into a text of `capacity` characters, closing zero included; empty if ok.
 inline void describe(Outcome outcome, Form form, char* text, int capacity) noexcept {
   if (text == nullptr || capacity < 1) return;
   int length = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The same stress and tangent in the measures that finite-element codes ask for.
+// Stress and tangent of the material point in the measures that finite-element codes use.
 
 #include "probation/material/point.hpp"
 

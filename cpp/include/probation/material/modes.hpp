@@ -14,20 +14,20 @@
 
 namespace probation::material {
 
-/// The rate that the companion relation sees in an increment, and what follows from it.
+/// The rate used in the companion relation in an increment, and what follows from it.
 struct RateStep {
-  double seen;       ///< [1/s], filtered, at least the floor; what the state keeps
+  double seen;       ///< [1/s], filtered, at least the floor; stored in the state
   double tau_max;    ///< [s]
   double log_scale;  ///< d ln x / d ln r of the increment's own rate r, x = dt / tau_j
   bool possible;
 };
 
 /// @param rate      r of the increment [1/s]
-/// @param previous  what the state kept [1/s]; 0 at the very start
+/// @param previous  `seen` of the increment before [1/s]; 0 at the very start
 inline RateStep rate_step(const Parameters& parameters, double rate, double previous, double dt) noexcept {
   double filtered = rate, slope = 1.0;  // slope: d filtered / d rate
   if (dt == 0.0) {
-    filtered = previous;  // no time, no rate: all modes answer with E_u, whatever their times
+    filtered = previous;  // dt = 0: there is no rate, and all modes answer with E_u
     slope = 0.0;
   } else if (parameters.rate_filter > 0.0 && previous > 0.0) {
     // r_f' = (r - r_f) r / filter: exact for a constant rate.
@@ -57,13 +57,13 @@ inline StepForcing<double> modal_forcing(double modulus, double strain_increment
   return sa2_step(step);
 }
 
-/// x_j = dt / tau_j. Beyond the limit a mode has relaxed to the last digit; without it inf times 0 comes up.
+/// x_j = dt / tau_j, limited: beyond the limit e^-x is below rounding, and an infinite x would give inf * 0.
 inline double modal_scale(double scale, double ratio) noexcept {
   constexpr double relaxed = 1e100;
   return std::min(scale / ratio, relaxed);
 }
 
-/// What is left of the modes once they are summed.
+/// Sums over the modes.
 template <int Components>
 struct ModalSums {
   double stress[Components] = {};     ///< sum of z_j [MPa]
@@ -96,14 +96,13 @@ inline ModalSums<Components> step_modes(const Parameters& parameters, double sca
   return sums;
 }
 
-/// What the size of the increment leaves in each component of the stress [MPa], estimated.
+/// Estimated error of each component of the stress that comes from the size of the increment [MPa].
 ///
 /// The update takes the forcing as straight over the increment. SA3 bends it, by the curvature V = (U - U0) /
 /// 2, U0 what the forcing would be had it gone on as before: psi_j V more in mode j (schemes/step.hpp), and
-/// psi_j / (1 - a_j) V once increments like this one have added up. What was before is told by the fastest
-/// mode, which follows the forcing: y = U0 tau / dt. Whether the forcing went on evenly in time or, as at a
-/// constant Weissenberg number, in reduced time is not known: the larger bend counts. A jump of the rate
-/// reads as a bend.
+/// psi_j / (1 - a_j) V after many increments like this one. U0 is taken from the fastest mode, which follows
+/// the forcing: y = U0 tau / dt. The forcing may be even in time or, as at a constant Weissenberg number, in
+/// reduced time: the larger bend of the two counts. A jump of the rate counts as a bend.
 /// @param tau_max         [s], of this increment
 /// @param tau_max_before  [s], of the one before; 0 at the very start
 template <int Components>
@@ -131,8 +130,8 @@ inline void step_errors(const Parameters& parameters, double scale, double tau_m
 }
 
 /// The factor for the next increment, given the estimated error [MPa] of this one: 1 where it is within the
-/// tolerance. The error goes with the square of the increment. It is an estimate from two increments, and
-/// adds up over others that were larger: it counts three times.
+/// tolerance. The error is proportional to the square of the increment. It is multiplied by three: it is
+/// estimated from two increments only, and errors of earlier, larger increments add up.
 inline double step_factor(double error, double tolerance) noexcept {
   constexpr double safety = 3.0, aim = 0.9;
   if (!(safety * error > tolerance)) return 1.0;

@@ -30,9 +30,9 @@ struct Parameters {
   double tau_max = 0.0;           ///< [s], where the form is constant
   double alpha = 1.0;             ///< [-], elsewhere: tau_max = alpha form(rate)
   double coefficients[2] = {};    ///< of the form: (slope, intercept) or (coefficient, exponent)
-  double rate_floor = 0.0;        ///< [1/s]; what the companion relation sees at least
-  double rate_filter = 0.0;       ///< [-], strain over which the rate is filtered; 0: the rate itself
-  double stress_tolerance = 0.0;  ///< [MPa], of the error that the size of increments makes; 0: not looked at
+  double rate_floor = 0.0;        ///< [1/s]; the least rate used in the companion relation
+  double rate_filter = 0.0;       ///< [-], strain over which the rate is filtered; 0: no filter
+  double stress_tolerance = 0.0;  ///< [MPa], of the estimated error of an increment; 0: none
   int modes = 0;
   double relaxation_ratio[most_modes] = {};  ///< tau_j / tau_max [-]
   double modal_weight[most_modes] = {};      ///< p_j [-]

@@ -1,19 +1,23 @@
 #pragma once
 // The law at a point in three dimensions and finite strain.
 //
-// With C = F^T F, e = ln(C) / 2, e_d its deviator, D = dev(C / J^(2/3)) and the rate r = sqrt(2/3 e_d' :
-// e_d'), mode j obeys eq. (6) in every component,
+// C = F^T F, e = ln(C) / 2 with the deviator e_d, D = dev(C / J^(2/3)), and the rate is
+// r = sqrt(2/3 e_d' : e_d'). Mode j obeys eq. (6) in every component,
 //
-//   T_j' = p_j (2 E_u / 3) e_d' - (T_j - p_j G D) / tau_j,    T = sum_j T_j + K ln J I,    S = T : d ln C / d
-//   C.
+//   T_j' = p_j (2 E_u / 3) e_d' - (T_j - p_j G D) / tau_j,
+//   T = sum_j T_j + K ln J I,    S = T : d ln C / d C.
 //
 // In incompressible uniaxial tension every T_j is sigma_j diag(2/3, -1/3, -1/3), and sigma_11 - sigma_22 is
 // the stress of the one-dimensional law. T is work-conjugate to e and lives in the reference configuration:
 // it never rotates.
 //
 // State, 10 + 6 N numbers, all zero at the start (relaxed, undeformed):
-//   0  rate that the companion relation saw last [1/s]    1  tau_max [s]    2  equivalent strain sqrt(2/3 e_d
-//   : e_d) 3  J - 1    4…9  e_d    10…  Z_j = T_j - p_j G D [MPa], six components each
+//   0     rate last used in the companion relation [1/s]
+//   1     tau_max [s]
+//   2     equivalent strain sqrt(2/3 e_d : e_d)
+//   3     J - 1
+//   4…9   e_d
+//   10…   Z_j = T_j - p_j G D [MPa], six components each
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +38,10 @@ struct PointStress {
   Fourth tangent{};
 };
 
-/// Principal values of C, and their inverses, above which a deformation is one.
+/// A deformation is valid where the principal values of C, and their inverses, are above this.
 constexpr double least_square_stretch = 1e-12;
 
-/// Whether F has a volume that such a C can have: it does not turn the material inside out.
+/// Whether det F is positive and as large as for such a C: F does not turn the material inside out.
 inline bool possible_volume(const Matrix3& f) noexcept {
   constexpr double least_volume = 1e-18;  // least_square_stretch^(3/2)
   return determinant(f) > least_volume;
@@ -53,7 +57,7 @@ struct Deformation {
   Symmetric e_d, d_bar;
 };
 
-/// False unless C is a deformation at all.
+/// False where C is no valid deformation.
 inline bool deform(const Symmetric& right_cauchy_green, Deformation& out) noexcept {
   for (const double component : right_cauchy_green)
     if (!(std::abs(component) < 1.0 / least_square_stretch)) return false;
@@ -85,10 +89,10 @@ inline Symmetric relaxed_shape(const Symmetric& e_d) noexcept {
 }
 
 /// dS / dE in the principal axes of C.
-/// @param stress   T, all of it, there
+/// @param stress   T with its volumetric part, in these axes
 /// @param by_e_d   coefficient of de_d in dT
 /// @param by_d     coefficient of dD in dT [MPa]
-/// @param slope, direction  dT = slope (direction : de_d) beside these, from the rate
+/// @param slope, direction  what the rate adds: dT = slope (direction : de_d)
 inline Fourth principal_tangent(const Deformation& now, const Symmetric& stress, double by_e_d, double by_d,
                                 const Symmetric& slope, const Symmetric& direction,
                                 double bulk_modulus) noexcept {

@@ -1,17 +1,17 @@
 #pragma once
-// How an update of the material point ended. Nothing here throws, allocates, prints or remembers.
+// How an update of the material point ended. Nothing here throws, allocates, prints or keeps a state.
 
 namespace probation::material {
 
 enum class Status {
   ok = 0,
   cut_step = 1,      ///< no update at this increment: try a smaller one; nothing was written
-  bad_constant = 2,  ///< `constant` of the outcome cannot be; no increment helps
+  bad_constant = 2,  ///< entry `constant` of the outcome is invalid; no increment helps
   short_state = 3,   ///< the caller keeps fewer state variables than the modes need
   no_element = 4,    ///< this kind of element (plane stress, say) is not offered
 };
 
-/// What an increment that has no update, or whose size does not help, is multiplied by.
+/// The smallest factor by which an increment is multiplied; the one used where there is no update.
 constexpr double smallest_cut = 0.25;
 
 struct Outcome {

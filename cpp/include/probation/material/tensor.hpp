@@ -16,13 +16,13 @@ struct Pair {
   int i, j;
 };
 constexpr std::array<Pair, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-/// Where component ij stands.
+/// Index of component ij among the six.
 constexpr int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-/// How often a component counts in a double contraction.
+/// Weight of a component in a double contraction: 1, or 2 for shears.
 constexpr Symmetric multiplicity{1.0, 1.0, 1.0, 2.0, 2.0, 2.0};
 
 inline bool all_finite(const Symmetric& a) noexcept {
-  double sum = 0.0;  // of zeros, unless one is inf or nan
+  double sum = 0.0;  // zero unless an entry is inf or nan
   for (const double component : a) sum += component - component;
   return sum == 0.0;
 }
@@ -74,7 +74,7 @@ inline Symmetric transform(const Fourth& t, const Symmetric& s) noexcept {
   return out;
 }
 
-/// T m T^T: a fourth-order tensor carried over on all four legs.
+/// T m T^T: a fourth-order tensor transformed in all four indices.
 inline Fourth carry(const Fourth& t, const Fourth& m) noexcept {
   Fourth half{}, out{};
   for (int r = 0; r < 6; ++r)

@@ -2,7 +2,7 @@
 // The law at a point in one dimension: trusses, drivers, fits inside other programs.
 //
 // State, 3 + N numbers, all zero at the start (relaxed, unstrained):
-//   0  rate that the companion relation saw last [1/s]    1  tau_max [s]    2  true strain    3…  z_j [MPa]
+//   0  rate last used in the companion relation [1/s]    1  tau_max [s]    2  true strain    3…  z_j [MPa]
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // bE2, eqs. (8), (9): the two-step backward Euler scheme of Gear (BDF2), with coefficients for uneven steps,
-// one one-step rule at the start and after every jump of the strain rate (plain BDF2 falls to order 1 across
-// a jump).
+// and a one-step rule at the start and after every jump of the strain rate (plain BDF2 falls to order 1
+// across a jump).
 
 #include "probation/schemes/sa2.hpp"
 #include "probation/schemes/step.hpp"
@@ -14,15 +14,15 @@ PROBATION_INLINE StepRule be2_rule(bool fresh, double ratio, Start start) {
   return start == Start::exponential ? StepRule::exponential : StepRule::backward_euler;
 }
 
-/// The part of U that the strain alone makes.
+/// The part of U that depends on the strain alone.
 template <class Real>
 PROBATION_INLINE Real be2_stiff(const StepData<Real>& s, Start start) {
   if (be2_rule(s.fresh, s.ratio, start) == StepRule::exponential) return sa2_stiff(s);
   return s.unrelaxed_modulus.next * (s.h * s.end_rate);
 }
 
-/// In z-form the relaxed stress enters through the same two-step difference as the unknown: literally eq.
-/// (9).
+/// In z-form the relaxed stress enters through the same two-step difference as the unknown, exactly as in
+/// eq. (9).
 template <class Real, class Stiff>
 PROBATION_INLINE StepForcing<Real> be2_step(const StepData<Real>& s, Start start, const Stiff& stiff) {
   const StepRule rule = be2_rule(s.fresh, s.ratio, start);

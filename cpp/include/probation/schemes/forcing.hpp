@@ -1,5 +1,5 @@
 #pragma once
-// What a scheme sees of the law at one step, and what it makes of it: the inputs of schemes/step.hpp.
+// The inputs of a scheme at one step, and the scale, U and V of schemes/step.hpp that follow from them.
 
 #include "probation/dual.hpp"
 #include "probation/schemes/step.hpp"
@@ -17,7 +17,7 @@ struct Three {
   Real next{}, here{}, before{};
 };
 
-/// One step, as the schemes see it. `before` values and previous_* are meaningless where the step is fresh.
+/// Inputs of one step. `before` values and previous_* are meaningless where the step is fresh.
 template <class Real>
 struct StepData {
   bool fresh;    ///< first after the start or a jump

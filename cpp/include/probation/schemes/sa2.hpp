@@ -5,7 +5,7 @@
 
 namespace probation {
 
-/// The part of U that the strain alone makes.
+/// The part of U that depends on the strain alone.
 template <class Real>
 PROBATION_INLINE Real sa2_stiff(const StepData<Real>& s) {
   const Real rise = s.true_strain.next - s.true_strain.here;

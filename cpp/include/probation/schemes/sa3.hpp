@@ -1,7 +1,7 @@
 #pragma once
 // SA3 (Sorvari & Hamalainen 2010), read as the exact exponential recursion under the parabola through three
-// instants of the forcing, in reduced time where tau_max varies. The original text was not to be had: this is
-// the most defensible reading. Order 3 on smooth histories; on rough measured strain it is no better than
+// instants of the forcing, in reduced time where tau_max varies. The original text was not available: this
+// reading is ours. Order 3 on smooth histories; on rough measured strain it is no better than
 // SA2. Order 2 where tau_max follows rates that are differences of the strain (give the rates for order 3),
 // and under feedbacks.
 
@@ -19,7 +19,7 @@ PROBATION_INLINE Real parabolic_reduced_time(const StepData<Real>& s) {
   return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - (s.h * s.h / 6.0) * bend);
 }
 
-/// The part of U that the strain alone makes.
+/// The part of U that depends on the strain alone.
 template <class Real>
 PROBATION_INLINE Real sa3_stiff(const StepData<Real>& s) {
   return s.fresh ? sa2_stiff(s) : modulus_work(s);

@@ -12,10 +12,10 @@
 //   y+ = previous * y + before * y- + forcing * U + curvature * V
 //
 // where the four coefficients depend on x = h / tau_j (and on h / h0) alone. U is the change of the forcing's
-// integral F = int E_u de - sigma^r over the step, as the scheme sees it, V what its curvature adds.
+// integral F = int E_u de - sigma^r over the step in the scheme's approximation, V its curvature.
 //
-// The functions are templates so that a double, a SIMD vector and a dual number all go through the same line;
-// they are always inlined because the kernels compile them once per instruction set.
+// The functions are templates: the same line serves a double, a SIMD vector and a dual number. They are
+// always inlined because the kernels compile them once per instruction set.
 
 #include <cmath>
 
@@ -68,7 +68,7 @@ PROBATION_INLINE Real mean_decay(Real x, Real decayed) {
   return choose(x < 0.1, series, (1.0 - decayed) / x);
 }
 
-/// psi(x) = (2 k1 - k0) / x with k0 = 1 - e^-x, k1 = 1 - k0 / x (physics: SA3); about x / 6 at small x.
+/// psi(x) = (2 k1 - k0) / x with k0 = 1 - e^-x, k1 = 1 - k0 / x (SA3); about x / 6 at small x.
 template <class Real>
 PROBATION_INLINE Real curvature_decay(Real x, Real mean) {
   // sum over k >= 1 of -k (-x)^k / (k + 2)!
