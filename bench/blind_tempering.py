@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from probation.diagnosis.probabilities import TINY, log_prior
+from probation.diagnosis.probabilities import log_prior
 from probation.effects.registry import effects
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.layout import Layout
@@ -55,7 +55,7 @@ def scored(found, truth, power):
 
 def without_a_gap(found, truth, p_value, shy):
     """Log score, and probability of "no effect is needed", which leads."""
-    p_value = max(p_value, TINY)
+    p_value = max(p_value, EVIDENCE.least_p_value)
     told = p_value ** (EVIDENCE.undeclared_gap_power - shy) * EVIDENCE.undeclared_gap_power / shy * found[()]
     whole = told + 1.0 - found[()]
     none = told / whole

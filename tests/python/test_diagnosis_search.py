@@ -13,7 +13,8 @@ from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.candidate import cause_key
-from probation.inference.refit import MOST_STEPS, SETTLED, refit
+from probation.inference.refit import MOST_STEPS, refit
+from probation.settings.search import SEARCH
 
 NOISE, SAMPLES = 0.04, 120
 CONSIDERED = ("damage", "structural_softening", "force_offset", "strain_offset")
@@ -58,7 +59,7 @@ def test_no_effect_that_is_added_leaves_more_and_no_part_of_the_leader_beats_it(
         least[keys(each)] = min(least.get(keys(each), np.inf), each.refit.chi_square)
     for part, whole in itertools.permutations(least, 2):
         if part < whole:
-            assert least[whole] <= least[part] + 2.0 * SETTLED
+            assert least[whole] <= least[part] + 2.0 * SEARCH.settled
 
     leader = search.ranked()[0]
     assert len(leader.causes) > 1

@@ -18,7 +18,6 @@ from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable, rate_groups
 from probation.calibration.record_fits import (
     MODULI,
-    NEARLY_CONSTANT,
     Modulus,
     RecordFits,
     RecordRate,
@@ -33,6 +32,7 @@ from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.progress import shows_progress
 from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
+from probation.settings.companion import COMPANION
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -46,9 +46,6 @@ if TYPE_CHECKING:
 
 Route = Literal["auto", "by-rate", "direct"]
 ROUTES: tuple[Route, ...] = ("auto", "by-rate", "direct")
-
-_FEWEST_CHOICES = 3  # distinct rates from which on one can be left out
-_FAR = 0.05  # scatter of E_u between records that is worth a word
 
 
 @shows_progress
@@ -121,13 +118,14 @@ def calibrate_companion(
         advance(at, len(source.identify), f"strain rate of {record.id}")
         driven.append(excite(record))
     rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
-    steady = all(each.spread <= NEARLY_CONSTANT for each in rates)
+    steady = all(each.spread <= COMPANION.nearly_constant for each in rates)
     if route == "by-rate" and not steady:
         worst = max(rates, key=lambda each: each.spread)
         raise InputError(
             f"campaign {source.name!r}, record {worst.id!r}: found strain rates from {worst.slow:.2g} to "
             f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
-            f"{NEARLY_CONSTANT:g}): a tau_max of its own is confounded with the relation; use the direct route"
+            f"{COMPANION.nearly_constant:g}): a tau_max of its own is confounded with the relation; use the direct "
+            "route"
         )
     if route == "direct" or not steady:
         _need_spread(source, rates)
@@ -143,7 +141,7 @@ def calibrate_companion(
 
 def _on_table(table: RateTable, form: str) -> Calibration:
     regressions = _regressions(table, form)
-    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
+    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= COMPANION.fewest_rates else {}
     chosen, how, clear = _choice(form, scores)
     samples = [table.rates, table.tau_max] + ([] if table.se is None else [table.se])
     return Calibration(
@@ -165,7 +163,7 @@ def _by_rate(
 ) -> Calibration:
     table, rates = fits.table, fits.rates
     regressions = _regressions(table, form)
-    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= _FEWEST_CHOICES else {}
+    scores = leave_one_rate_out(table, regressions) if len(table.groups) >= COMPANION.fewest_rates else {}
     chosen, how, clear = _choice(form, scores)
     warnings = [*campaign.warnings, *spread_warnings(rates), *_table_warnings(table, regressions[chosen])]
     check = None
@@ -175,7 +173,7 @@ def _by_rate(
             check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
         except InputError as error:  # at a rate within a record that is slower than its median
             warnings.append(f"the check on all records at once is left out: {error}")
-    if fits.modulus_spread > _FAR:
+    if fits.modulus_spread > COMPANION.modulus_scatter:
         warnings.append(
             f"E_u of the records alone scatters by {100 * fits.modulus_spread:.0f} % more than its standard errors: "
             "sharing it moves τ_max of each record by as much the other way"
@@ -209,7 +207,7 @@ def _direct(
     medians = np.array([each.rate for each in rates])
     groups = rate_groups(medians)
     forms = {name: each for name, each in FORMS.items() if name != "table" and (not each.same_as or name == form)}
-    leaving = len(groups) >= _FEWEST_CHOICES
+    leaving = len(groups) >= COMPANION.fewest_rates
     total = len(forms) * (1 + len(groups) * leaving)
     done = 0
 
@@ -370,7 +368,7 @@ def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
 def _need_spread(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
     """Refuse one rate, unless it changes within the records."""
     slowest, fastest = _range(rates)
-    if fastest < NEARLY_CONSTANT * slowest:
+    if fastest < COMPANION.nearly_constant * slowest:
         _need_two_rates(campaign, rates)
 
 

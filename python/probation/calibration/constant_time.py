@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from probation.calibration.cross_validation import best
+from probation.settings.companion import COMPANION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -15,18 +16,12 @@ if TYPE_CHECKING:
     from probation.calibration.cross_validation import Score
     from probation.calibration.rate_table import RateTable
 
-LEVEL = 0.05
-"""Chance from which on the relaxation times of all rates are taken to agree."""
-
-ALIKE = 0.01
-"""Largest distance in ln tau_max to their mean that is no relation worth having: so much of the flow stress follows."""
-
 
 def why_constant(table: RateTable | None, scores: Mapping[str, Score]) -> str | None:
     """Why one tau_max for all rates is enough, as a clause; None where it depends on the rate.
 
-    It is enough where the tau_max of all rates agree to within their standard errors or to within `ALIKE`, or where no
-    relation predicts left-out rates better.
+    It is enough where the tau_max of all rates agree to within their standard errors or to within
+    `negligible_dependence`, or where no relation predicts left-out rates better.
 
     Parameters
     ----------
@@ -40,9 +35,9 @@ def why_constant(table: RateTable | None, scores: Mapping[str, Score]) -> str | 
         weights = np.ones(len(table)) if error is None else error**-2.0
         distance = np.log(table.tau_max) - np.average(np.log(table.tau_max), weights=weights)
         chance = 0.0 if error is None else float(chdtrc(len(table) - 1, np.sum((distance / error) ** 2)))
-        if chance > LEVEL:
+        if chance > COMPANION.constant_level:
             return f"that of all rates agrees to within its errors (p = {chance:.2g})"
-        if np.max(np.abs(distance)) < ALIKE:
+        if np.max(np.abs(distance)) < COMPANION.negligible_dependence:
             return f"that of all rates agrees to {100.0 * float(np.max(np.abs(distance))):.1g} %"
     lowest = best(scores)
     if lowest is not None and "constant" in scores and scores["constant"].rms <= scores[lowest].rms:

@@ -26,6 +26,7 @@ from probation.law.modal import Law
 from probation.law.reduction import spectrum_of
 from probation.law.schemes import as_scheme, make_solver
 from probation.records.record import Noise
+from probation.settings.companion import COMPANION
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -41,9 +42,6 @@ if TYPE_CHECKING:
 
 Hardening = Literal["by-record", "shared"]
 HARDENINGS: tuple[Hardening, ...] = ("by-record", "shared")
-
-ENOUGH_SAMPLES = 1000
-"""Samples of a record that tell a relation from another; more of them tell the noise better."""
 
 FINE, MOST_STEPS = 1e-6, 40
 """Step [standard errors] at which the search for a relation ends, and the most steps that it takes."""
@@ -126,11 +124,11 @@ class DirectProblem:
         return part
 
     def thinned(self) -> DirectProblem:
-        """The same on at most about `ENOUGH_SAMPLES` of each record: for searches, and where noise does not matter."""
-        if all(len(view) <= ENOUGH_SAMPLES for view in self.views):
+        """The same on at most about `enough_samples` of each record: for searches, and where noise does not matter."""
+        if all(len(view) <= COMPANION.enough_samples for view in self.views):
             return self
         part = self.only(range(len(self.views)))
-        part.views = [thinned(view, ENOUGH_SAMPLES) for view in self.views]
+        part.views = [thinned(view, COMPANION.enough_samples) for view in self.views]
         return part
 
     @property
@@ -374,7 +372,7 @@ def _own_rms(view: RecordView, settings: LawSettings) -> float:
         decades=settings.decades,
         spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
     )
-    alone = Problem.white(DnlrLaw(law), [thinned(view, ENOUGH_SAMPLES)])
+    alone = Problem.white(DnlrLaw(law), [thinned(view, COMPANION.enough_samples)])
     best = search(alone, time_bounds(alone))
     return float(np.sqrt(np.mean(alone.model.residual(best) ** 2)))
 

@@ -11,12 +11,10 @@ import numpy as np
 from probation._arrays import FloatArray, as_samples
 from probation.errors import InputError
 from probation.limits import USABLE, is_usable
+from probation.settings.companion import COMPANION
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-SAME_RATE = 1.1
-"""Rates within this factor of their neighbour count as one: replicates of a test."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +65,7 @@ class RateTable:
             raise InputError(
                 f"{self.source}: found one strain rate only ({found} 1/s in {', '.join(labels)}), expected at least "
                 "two "
-                f"that differ by more than {100 * (SAME_RATE - 1):.0f} %; a relation needs a second rate"
+                f"that differ by more than {100 * (COMPANION.same_rate - 1):.0f} %; a relation needs a second rate"
             )
 
     def _checked(self, name: str, unit: str, count: int) -> FloatArray:
@@ -122,7 +120,7 @@ class RateTable:
 
 
 def rate_groups(rates: FloatArray) -> tuple[NDArray[np.intp], ...]:
-    """Indices of what runs at each distinct rate, slowest first: neighbours within a factor of `SAME_RATE` are one."""
+    """Indices of what runs at each distinct rate, slowest first: neighbours within a factor of `same_rate` are one."""
     order = np.argsort(rates, kind="stable")
-    cuts = [at + 1 for at, (slow, fast) in enumerate(pairwise(rates[order])) if fast > slow * SAME_RATE]
+    cuts = [at + 1 for at, (slow, fast) in enumerate(pairwise(rates[order])) if fast > slow * COMPANION.same_rate]
     return tuple(np.split(order, cuts))

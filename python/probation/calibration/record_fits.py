@@ -14,6 +14,7 @@ from probation.identify.fit import fit
 from probation.identify.result import Fit
 from probation.law.settings import LawSettings
 from probation.records.campaign import Campaign
+from probation.settings.companion import COMPANION
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,12 +26,6 @@ if TYPE_CHECKING:
 
 Modulus = Literal["shared", "free"]
 MODULI: tuple[Modulus, ...] = ("shared", "free")
-
-WARNED_SPREAD = 1.1
-"""95th over 5th percentile of the rate from which on a record is warned about."""
-
-NEARLY_CONSTANT = 1.5
-"""... and beyond which a constant tau_max means no relaxation time at one rate: it is confounded with the relation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +157,7 @@ def spread_warnings(rates: tuple[RecordRate, ...]) -> list[str]:
         f"record {each.id!r}: its strain rate runs from {each.slow:.2g} to {each.fast:.2g} 1/s (5 to 95 % of the "
         f"record, a factor of {each.spread:.2g}): a constant tau_max there is an average over rates"
         for each in rates
-        if each.spread > WARNED_SPREAD
+        if each.spread > COMPANION.warned_spread
     ]
 
 

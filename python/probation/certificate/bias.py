@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from probation.identify.result import RecordFit
 
 
-LENGTHS = np.geomspace(0.02, 0.3, 8)
+LENGTHS = np.geomspace(*CERTIFICATE.bias_lengths, 8)
 """Correlation lengths that are weighed against each other, as fractions of the record."""
 
 
-RATIOS = np.geomspace(1e-3, 1e6, 91)
+RATIOS = np.geomspace(*CERTIFICATE.bias_variances, 91)
 """Variances of the bias over that of a block's noise that are searched."""
 
 

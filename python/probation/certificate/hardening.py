@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
-FEWEST = 3
-
-
 @dataclass(frozen=True)
 class HardeningRegression:
     """Stress = G e_HT + intercept, a straight line.
@@ -44,7 +41,7 @@ class HardeningRegression:
 
 def reaches_hardening(true_strain: FloatArray, from_strain: float = CERTIFICATE.hardening_from) -> bool:
     """Whether enough samples exceed that strain for a regression."""
-    return int(np.count_nonzero(true_strain > from_strain)) >= FEWEST
+    return int(np.count_nonzero(true_strain > from_strain)) >= CERTIFICATE.fewest_for_hardening
 
 
 def regress_hardening(
@@ -71,7 +68,8 @@ def regress_hardening(
     taken = true_strain > from_strain
     if not reaches_hardening(true_strain, from_strain):
         raise InputError(
-            f"true_strain: found {np.count_nonzero(taken)} samples above {from_strain}, expected at least {FEWEST}"
+            f"true_strain: found {np.count_nonzero(taken)} samples above {from_strain}, expected at least "
+            f"{CERTIFICATE.fewest_for_hardening}"
         )
     measure, stress = haward_thackray_strain(true_strain[taken]), true_stress[taken]
     slope, intercept = np.polyfit(measure, stress, 1)

@@ -39,9 +39,6 @@ TINY = 1e-300
 BEYOND_ORDERS = 3
 """A constant, a line and a parabola."""
 
-ENDS = 3
-"""Samples at the ends of a branch that are taken as they are: a corner, or a relaxed start, is no smooth curve."""
-
 LEAST_SAMPLES, LEAST_AT_START = 4, 1.5
 """Samples per interval."""
 
@@ -86,7 +83,7 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
         frame = followed(view.time[part])
         smooth = frame @ (frame.T @ left[part])
         kept = sharp[part].copy()
-        kept[:ENDS] = kept[-ENDS:] = True
+        kept[: COMPARISON.branch_ends] = kept[-COMPARISON.branch_ends :] = True
         found.append(
             Branch(progress(view, part), np.where(kept, left[part], smooth), direction(view, part), frame, sharp[part])
         )

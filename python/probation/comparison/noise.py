@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.comparison.measured_law import ENDS, followed
+from probation.comparison.measured_law import followed
 from probation.comparison.strain_path import branches
 from probation.inference.propagated import propagated_noise
 from probation.inference.view_residual import residual_of
@@ -102,13 +102,13 @@ def missed_by_smoother(record: Record, excitation: Excitation) -> NDArray[np.boo
         if excitation.operators is not None
         else np.zeros(len(record), bool)
     )
-    return np.asarray(np.convolve(far, np.ones(2 * ENDS + 1), mode="same") > 0.0)
+    return np.asarray(np.convolve(far, np.ones(2 * COMPARISON.branch_ends + 1), mode="same") > 0.0)
 
 
 def _undecided(view: RecordView, law: MeasuredLaw, missed: NDArray[np.bool_]) -> list[int]:
     """Single samples next to turns and the start, where a smoother or the reference does not follow: of any size."""
     at = set(np.flatnonzero(law.sharp(view) | missed).tolist())
     for part in branches(view):
-        first = part.start if part.start == 0 else part.start - ENDS
-        at.update(range(max(first, 0), min(part.start + ENDS, len(view))))
+        first = part.start if part.start == 0 else part.start - COMPARISON.branch_ends
+        at.update(range(max(first, 0), min(part.start + COMPARISON.branch_ends, len(view))))
     return sorted(at)

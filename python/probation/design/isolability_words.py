@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from probation.design.isolability import EffectIsolability, Isolability
 
 _NAMED = 3
-_SHARE = 0.25
-"""A bias is named beside the largest if it is at least this part of it."""
 
 
 def headline(found: Isolability) -> str:
@@ -76,7 +74,7 @@ def _count(size: float) -> str:
 def _biased(biases: Sequence[Bias]) -> str:
     """The biases that matter: "hardening_modulus_MPa by +3.1 %"."""
     worst = max((abs(bias.percent) for bias in biases), default=0.0)
-    named = [bias for bias in biases if abs(bias.percent) >= _SHARE * worst]
+    named = [bias for bias in biases if abs(bias.percent) >= DESIGN.bias_worth_naming * worst]
     return _listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named])
 
 

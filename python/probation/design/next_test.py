@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from probation.noise.model import NoiseModel
 
 
-DRAWS = 400
-
-
 @dataclass(frozen=True, eq=False)
 class RankedTest:
     """A planned test and what to expect of it.
@@ -203,8 +200,8 @@ def judged(
         Probability of a right answer without the test.
     seed : int
     """
-    found = outcome(ways, prior, group, draws=DRAWS, seed=seed)
-    rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DRAWS, seed=seed)
+    found = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
+    rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DESIGN.draws, seed=seed)
     separated, surely = _separated(found.pairwise)
     return RankedTest(
         test=test,

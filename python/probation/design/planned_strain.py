@@ -13,6 +13,7 @@ from probation.histories.imposed import ImposedHistory
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.law.creep import creep
 from probation.records.record import Noise, Record
+from probation.settings.design import DESIGN
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     from probation.law.modal import Law
     from probation.law.schemes import SchemeName
     from probation.smoothing.excitation import Excitation
-
-DRAWS = 5
-"""Draws of the strain's noise on which it is seen how strongly a smoother will smooth; the middle one counts."""
 
 History = ImposedHistory | tuple["FloatArray", "FloatArray"]
 
@@ -99,9 +97,9 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
             f"record {record.id!r}: found {len(record)} samples, expected at most {LARGEST} where strain_noise is "
             "given; use fewer samples"
         )
-    noise = deviation * rng.standard_normal((DRAWS, len(record)))
+    noise = deviation * rng.standard_normal((DESIGN.strain_draws, len(record)))
     drawn = [excite(replace(record, true_strain=record.true_strain + each)) for each in noise]
-    usual = sorted(drawn, key=lambda each: each.freedom)[DRAWS // 2]
+    usual = sorted(drawn, key=lambda each: each.freedom)[DESIGN.strain_draws // 2]
     strain, rate = usual.strain_operator(), usual.rate_operator()
     if strain is None or rate is None:
         return excite(record, "raw")

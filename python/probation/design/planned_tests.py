@@ -31,14 +31,7 @@ DECADE = 10.0
 _FEWEST, _MOST = 200, 1000
 _HOURS = 180
 """Minutes from which on a cost is said in hours."""
-_LOADED = 0.6
-"""Part of the yield force that a dead weight hangs on the specimen."""
-
-_YIELD_STRAIN = 0.1
 _TURNS, _SETTLED = 20, 1e-3
-_HANGING = 10.0
-"""Time in which the dead weight is put on [s], or a fiftieth of the test."""
-
 _LOADING_SAMPLES = 20
 
 
@@ -248,7 +241,7 @@ def dwells(lab: Laboratory) -> list[PlannedTest]:
 def unloading(lab: Laboratory) -> list[PlannedTest]:
     """Back to no load (to less, the specimen buckles) and up again, from half way and from just behind yield."""
     found = []
-    for top in (0.5 * lab.strain, min(_YIELD_STRAIN, 0.25 * lab.strain)):
+    for top in (0.5 * lab.strain, min(DESIGN.yield_strain, 0.25 * lab.strain)):
         down = lab.legs("down", "", (top, top / lab.usual), (0.0, top / lab.usual))
         pressed = (np.arange(len(down.time)) > down.jumps[0]) & (lab.stress(down) <= 0.0)
         turn = float(down.true_strain[int(np.argmax(pressed))]) if pressed.any() else 0.0
@@ -266,9 +259,9 @@ def dead_weight(lab: Laboratory) -> list[PlannedTest]:
     if not isinstance(lab.model.law, DnlrLaw):
         return []
     law = lab.model.law.law_at(lab.parameters)
-    first = min(_YIELD_STRAIN, lab.strain)
+    first = min(DESIGN.yield_strain, lab.strain)
     ramp = lab.legs("ramp", "", (first, first / lab.usual))
-    nominal = _LOADED * float(np.max(lab.stress(ramp) * np.exp(-ramp.true_strain)))
+    nominal = DESIGN.dead_weight * float(np.max(lab.stress(ramp) * np.exp(-ramp.true_strain)))
     longest = max(view.duration for view in lab.model.views)
     time, strain = _hanging(law, nominal, longest, lab.samples)
     if np.max(strain) > lab.strain:  # taken down in time
@@ -284,7 +277,7 @@ def dead_weight(lab: Laboratory) -> list[PlannedTest]:
 
 def _hanging(law: Law, nominal: float, longest: float, samples: int) -> tuple[FloatArray, FloatArray]:
     """Time [s] and true strain under a constant force over the initial section [MPa], each of shape (n_samples,)."""
-    put_on = min(_HANGING, longest / 50.0)
+    put_on = min(DESIGN.loading_time, longest / 50.0)
     later = put_on + np.geomspace(put_on / _LOADING_SAMPLES, longest - put_on, samples - _LOADING_SAMPLES - 1)
     time = np.append(np.linspace(0.0, put_on, _LOADING_SAMPLES + 1), later)
     force = nominal * np.minimum(time / put_on, 1.0)

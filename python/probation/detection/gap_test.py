@@ -11,7 +11,7 @@ import numpy as np
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
 from probation.noise.joint_noise import jointly_whitened
 from probation.noise.local_noise import local_noise_sd, samples_within
-from probation.noise.smooth_basis import WAVES, smooth_basis
+from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import orthonormal, span_of, without
 from probation.settings.detection import DETECTION
 
@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
-
-ORDERS = (2, 5, WAVES)
-"""Smooth gaps are looked for in so many half periods per record: a broad one is found by few, a wavy one by many."""
-
 
 ABSORBED = 1e-8
 """Squared norm of a projected direction over the whole one's, below which the base parameters hide it altogether."""
@@ -39,7 +35,7 @@ class GapTest:
     ----------
     p_value : float
     p_value_low_noise, p_value_high_noise : float
-        The same if the noise were 0.8 and 1.25 times what is estimated.
+        The same if the noise were `low_noise` and `high_noise` of the settings times what is estimated.
     level : float
         Below which a gap is declared.
     statistics : dict of str to float
@@ -69,7 +65,7 @@ class GapTest:
 
     @property
     def robust(self) -> bool:
-        """Whether the verdict is the same at 0.8 and 1.25 times the noise."""
+        """Whether the verdict is the same with less and with more noise."""
         return (self.p_value_low_noise < self.level) == (self.p_value_high_noise < self.level)
 
 
@@ -113,7 +109,7 @@ class GapTester:
         smooth, kept = orthonormal(waves)
         full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
-        for most in ORDERS:  # nested: the smoother columns come first
+        for most in DETECTION.smooth_orders:  # nested: the smoother columns come first
             count = int(np.count_nonzero(order < most))
             if count and (not self._families or count > self._families[-1][1].stop):
                 self._families.append((f"smooth-{most}", slice(0, count)))
@@ -170,7 +166,8 @@ class GapTester:
         directed_scores = directed.T @ seen / local_noise_sd(self._directions, z, whitened.slices)
         products = np.concatenate([smooth.T @ self._with_drift(seen), directed_scores])[None]
         single = self._p_values(products)
-        p = [float(family_p_value(self._smallest(products / f)[0], self._drawn)) for f in (1.0, 0.8, 1.25)]
+        levels = (1.0, DETECTION.low_noise, DETECTION.high_noise)
+        p = [float(family_p_value(self._smallest(products / noise)[0], self._drawn)) for noise in levels]
         statistics = {name: float(np.sum(products[0, part] ** 2)) for name, part in self._families}
         scores: dict[str, float] = {}
         for name, score in zip(self._effects, products[0, self._effect_slice], strict=True):

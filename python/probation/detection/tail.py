@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, ndtr, stdtr
 
+from probation.settings.detection import DETECTION
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-ENOUGH = 20
-"""Draws beyond the observed value that make a bootstrap p-value; fewer, and the tail is continued."""
 
 MANY = 300
 """Points of the table that serves more values than that."""
@@ -50,8 +49,8 @@ def chi_square_tail(size: FloatArray | float, freedom: FloatArray | int, spread:
 def family_p_value(observed: FloatArray | float, drawn: FloatArray) -> FloatArray:
     """P(min p <= observed) from draws of the smallest p-value of a family (Westfall & Young, single step).
 
-    Where fewer than `ENOUGH` draws lie below, P(min p <= x) is continued in proportion to x, as it is for any family
-    of p-values far out; so the resolution has no end.
+    Where fewer than `draws_beyond` draws lie below, P(min p <= x) is continued in proportion to x, as it is for any
+    family of p-values far out; so the resolution has no end.
 
     Parameters
     ----------
@@ -64,7 +63,7 @@ def family_p_value(observed: FloatArray | float, drawn: FloatArray) -> FloatArra
     size = len(ordered)
     values = np.asarray(observed, dtype=np.float64)
     below = np.searchsorted(ordered, values, side="right")
-    enough = min(ENOUGH, size)
+    enough = min(DETECTION.draws_beyond, size)
     border = max(float(ordered[enough - 1]), 1e-300)
     continued = enough / size * np.minimum(values / border, 1.0)
     return np.asarray(np.where(below >= enough, (below + 1.0) / (size + 1.0), continued), dtype=np.float64)

@@ -5,12 +5,7 @@ from __future__ import annotations
 from time import monotonic
 
 from probation.errors import InputError
-
-FOR_THE_SEARCH = 0.6
-"""Part of the budget after which no further hypothesis is begun: checks, shares and intervals take the rest."""
-
-FOR_THE_DESIGN = 0.75
-"""Part after which what the tests can discriminate, and the next test, are no longer begun."""
+from probation.settings.search import SEARCH
 
 
 class Budget:
@@ -33,7 +28,7 @@ class Budget:
         self.seconds = seconds
         self._start = monotonic()
 
-    def spent(self, part: float = FOR_THE_SEARCH) -> bool:
+    def spent(self, part: float = SEARCH.budget_of_search) -> bool:
         """Whether so much of it is gone."""
         return self.seconds is not None and monotonic() - self._start > part * self.seconds
 

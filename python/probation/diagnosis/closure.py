@@ -8,20 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import ndtr, stdtrit
 
+from probation.settings.evidence import EVIDENCE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
-
-DRAWS = 1000
-ENOUGH = 6
-"""Records from which on they are resampled."""
-
-BLOCKS = 8
-"""Contiguous parts that stand in for records where there is only one."""
-
-COVERAGE = 0.9
 
 
 @dataclass(frozen=True)
@@ -89,7 +82,7 @@ class Piece:
 
     def blocks(self) -> list[Piece]:
         """Contiguous parts of a whole record."""
-        parts = np.array_split(np.arange(len(self.before)), BLOCKS)
+        parts = np.array_split(np.arange(len(self.before)), EVIDENCE.closure_blocks)
         return [
             Piece(self.before[part], self.after[part], self.noise, slice(int(part[0]), int(part[-1]) + 1))
             for part in parts
@@ -131,10 +124,10 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         if len(parts) > 2:
             found = closure_of_blocks(parts, rng)
             return Closure(*known, value, found, "contiguous parts of the one record, resampled")
-    if len(pieces) >= ENOUGH:
-        chosen = rng.integers(len(pieces), size=(DRAWS, len(pieces)))
+    if len(pieces) >= EVIDENCE.fewest_resampled:
+        chosen = rng.integers(len(pieces), size=(EVIDENCE.closure_draws, len(pieces)))
         how = "records resampled, the noise level's error included"
-        noise = np.exp(level * rng.standard_normal((DRAWS, len(pieces))))
+        noise = np.exp(level * rng.standard_normal((EVIDENCE.closure_draws, len(pieces))))
         draws = _ratio(before[chosen], after[chosen], np.take_along_axis(floor * noise, chosen, axis=1))
     else:
         how = "noise drawn: too few records to resample them"
@@ -143,14 +136,18 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         both = np.array([float(piece.before @ piece.after) for piece in pieces]) - floor
         alike = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
         slow = np.array([piece.noise.slow_inflation for piece in pieces])
-        common, first, apart = rng.standard_normal((3, DRAWS, len(pieces)))
+        common, first, apart = rng.standard_normal((3, EVIDENCE.closure_draws, len(pieces)))
         met = first, alike * first + np.sqrt(1.0 - alike**2) * apart
         drawn = [
             each + own * common + 2.0 * np.sqrt(part * floor / count * slow) * cross
             for each, part, cross in zip((before, after), left, met, strict=True)
         ]
-        draws = _ratio(drawn[0], drawn[1], floor * np.exp(level * rng.standard_normal((DRAWS, len(pieces)))))
-    return Closure(*known, value, _interval(draws, value, len(pieces) if len(pieces) >= ENOUGH else None), how)
+        draws = _ratio(
+            drawn[0], drawn[1], floor * np.exp(level * rng.standard_normal((EVIDENCE.closure_draws, len(pieces))))
+        )
+    return Closure(
+        *known, value, _interval(draws, value, len(pieces) if len(pieces) >= EVIDENCE.fewest_resampled else None), how
+    )
 
 
 def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple[float, float]:
@@ -158,9 +155,11 @@ def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple
     before = np.array([float(piece.before @ piece.before) for piece in parts])
     after = np.array([float(piece.after @ piece.after) for piece in parts])
     floor = np.array([float(np.sum(piece.floor)) for piece in parts])
-    chosen = rng.integers(len(parts), size=(DRAWS, len(parts)))
+    chosen = rng.integers(len(parts), size=(EVIDENCE.closure_draws, len(parts)))
     level = np.sqrt(parts[0].noise.level_variance + parts[0].noise.shape_variance)
-    draws = _ratio(before[chosen], after[chosen], floor[chosen] * np.exp(level * rng.standard_normal((DRAWS, 1))))
+    draws = _ratio(
+        before[chosen], after[chosen], floor[chosen] * np.exp(level * rng.standard_normal((EVIDENCE.closure_draws, 1)))
+    )
     value = 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum())
     return _interval(draws, value, len(parts))
 
@@ -172,7 +171,7 @@ def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArr
 
 def _interval(draws: FloatArray, value: float, resampled: int | None = None) -> tuple[float, float]:
     """Quantiles of the draws; of so few resampled parts further out: "expanded percentiles" (Hesterberg 2015)."""
-    tail = 0.5 - 0.5 * COVERAGE
+    tail = 0.5 - 0.5 * EVIDENCE.closure_coverage
     if resampled is not None:
         tail = float(ndtr(np.sqrt(resampled / (resampled - 1.0)) * stdtrit(resampled - 1, tail)))
     low, high = np.nanquantile(draws, [tail, 1.0 - tail])

@@ -12,7 +12,7 @@ from probation.design.isolability import isolability
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
-from probation.diagnosis.budget import FOR_THE_DESIGN, Budget
+from probation.diagnosis.budget import Budget
 from probation.diagnosis.calibration import calibration_of
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
@@ -31,13 +31,15 @@ from probation.effects.visible import visible
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
-from probation.inference.gap import TOLERANCE, as_tolerance, find_gap, predictions
+from probation.inference.gap import as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.parallel import usual_threads
 from probation.progress import Part, shows_progress
 from probation.records.checks import require_signal
+from probation.settings.detection import DETECTION
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -68,7 +70,7 @@ def diagnose(
     threads: int | None = None,
     design: bool = True,
     budget: float | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = DETECTION.tolerance,
     progress: Callable[[float], None] | None = None,
 ) -> Diagnosis:
     """Diagnose the gap between the campaign's base law and its records.
@@ -292,7 +294,7 @@ def _designed(
     seed: int,
 ) -> tuple[tuple[NextTest, ...], Isolability | None]:
     """The next test, and what these tests can discriminate."""
-    if budget.spent(FOR_THE_DESIGN):
+    if budget.spent(SEARCH.budget_of_design):
         skipping.part("the next test, and what these tests can discriminate", budget.why)
         return (), None
     following: tuple[NextTest, ...] | None = None

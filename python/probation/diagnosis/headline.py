@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effect
-from probation.inference.gap import TOLERANCE
+from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
 from probation.wording import listed, percent, percentage
 
@@ -49,7 +49,7 @@ def headline(
     *,
     worse: Sequence[Worse] = (),
     judge: str | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = DETECTION.tolerance,
 ) -> str:
     """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 

@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
-DRAWS = 400
-
-
 def all_but_one(campaign: Campaign, gap: Gap) -> tuple[Campaign, str | None]:
     """The campaign with every record fitted but one held-out one, and the id of that one.
 
@@ -101,7 +98,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
         rise = float(np.mean(last**2 - first**2))
         if rise <= 0.0:
             continue
-        by_noise = float(np.std(noise.simulate(rng, DRAWS) @ change))
+        by_noise = float(np.std(noise.simulate(rng, EVIDENCE.held_out_draws) @ change))
         by_parameters = float(np.linalg.norm(columns[rows].T @ last))
         scatter = 2.0 * float(np.hypot(by_noise, by_parameters)) / count
         if rise + float(np.mean(change**2)) > EVIDENCE.held_out_misfit * scatter:

@@ -14,15 +14,12 @@ from probation.inference.evidence import evidence
 from probation.inference.refit import Coordinates, Refit, refit
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import without
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from probation.diagnosis.skipped import Skipping
     from probation.inference.base_fit import BaseFit
     from probation.inference.candidate import WhitenedColumns
-
-SHARP_STEPS = 6
-SHARP_PLACES = 3
-"""Forms and places of an effect with a frequency or an instant that are refitted, those with the best score."""
 
 
 def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skipping) -> list[Hypothesis]:
@@ -54,13 +51,13 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
         if _sharp(chosen[0]):
             # A start that was read off the residual: only a refit says how narrow the peak is.
             tried[key[0]] = tried.get(key[0], 0) + 1
-            if tried[key[0]] > SHARP_PLACES:
+            if tried[key[0]] > SEARCH.sharp_places:
                 continue
             column = columns.columns[entries[0][1]]
             start = chosen[0].parameters.copy()
             start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
             try:
-                chosen = [refit(chosen[0].problem, start, most_steps=SHARP_STEPS)]
+                chosen = [refit(chosen[0].problem, start, most_steps=SEARCH.sharp_steps)]
             except UNSOLVABLE as error:
                 skipping.hypothesis([column.cause], error)
                 continue

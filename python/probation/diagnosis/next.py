@@ -19,10 +19,6 @@ if TYPE_CHECKING:
     from probation.inference.base_fit import BaseFit
 
 
-MOST_TESTS = 5
-"""Tests that are listed."""
-
-
 def is_stretched(base: BaseFit) -> bool:
     """Whether any record is: the tests that can be planned are tension tests."""
     return any(float(np.max(view.recorded_strain)) > 0.0 for view in base.model.views)
@@ -88,5 +84,5 @@ def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, .
             probability_after=each.probability_after,
             cost=each.test.cost,
         )
-        for each in (first, *helpful[: MOST_TESTS - 1])
+        for each in (first, *helpful[: DESIGN.listed_tests - 1])
     )

@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
 
 
-TINY = 1e-12
-"""Smaller p-values are reported as this."""
-
-
 class HasProbability(Protocol):
     """Anything with a probability."""
 
@@ -159,7 +155,9 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     """
     none = next(each for each in weighed if not each.effects)
     probability = (
-        max(p_value, TINY) ** (1.0 - EVIDENCE.undeclared_gap_power) / EVIDENCE.undeclared_gap_power * none.probability
+        max(p_value, EVIDENCE.least_p_value) ** (1.0 - EVIDENCE.undeclared_gap_power)
+        / EVIDENCE.undeclared_gap_power
+        * none.probability
     )
     weighed = normalised([replace(each, probability=probability) if each is none else each for each in weighed])
     most = max(each.probability for each in weighed)
@@ -180,7 +178,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
         Of the test for a gap.
     """
     none = next(each for each in weighed if not each.effects)
-    p_value = max(p_value, TINY)
+    p_value = max(p_value, EVIDENCE.least_p_value)
     odds = -e * p_value * log(p_value) * EVIDENCE.no_effect / (1.0 - EVIDENCE.no_effect)
     most = odds / (1.0 + odds)
     rest = 1.0 - none.probability

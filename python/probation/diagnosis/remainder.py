@@ -17,6 +17,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.records.noise import scatter
 from probation.results.data import LEFT_OUT
+from probation.settings.remainder import REMAINDER
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -33,18 +34,6 @@ if TYPE_CHECKING:
 
 Acts = Literal["added", "factor"]
 
-SIZES = (2, 4, 6)
-"""Coefficients of a free function: a straight line, and cubic splines."""
-
-PARTS = 8
-"""Contiguous parts of a record that are left out one by one where whole records cannot be."""
-
-ROUNDS = 3
-"""Linearisations of the law, each jointly with the best function of the one before: a gap biases its parameters."""
-
-CERTAIN = 4.0
-"""Standard errors of the noise's mean square by which what is left must exceed it."""
-
 RIDGE, SMOOTH = 1e-6, 1e-4
 """Precision of a coefficient, and of its difference from the mean of its neighbours, over the mean information on one:
 between values that no sample has, a function runs straight."""
@@ -53,17 +42,8 @@ PER_COEFFICIENT, PER_PHASE, IN_PARTS = 0.002, 0.01, 0.2
 """By how much more a function must explain for each coefficient, for acting in one phase only, and where it was judged
 on parts of records though there are several: a neighbouring part tells more than another test."""
 
-WORTH_TELLING = 0.2
-"""Part of the remainder below which a variable is not reported."""
-
-MOST = 4
-"""Variables that are reported."""
-
 POINTS = 300
 """Samples and points of the function that are kept for the figure."""
-
-LEFT = 0.25
-"""Mean square left beyond the noise's, over it, from which on what an explanation leaves is described."""
 
 
 @dataclass(frozen=True)
@@ -238,7 +218,7 @@ class _Trial(NamedTuple):
 
 def is_left(closure: Closure) -> bool:
     """Whether more than noise is left."""
-    return closure.after_MPa**2 > (1.0 + LEFT) * closure.noise_MPa**2
+    return closure.after_MPa**2 > (1.0 + REMAINDER.least_remainder) * closure.noise_MPa**2
 
 
 def remainder_of(
@@ -262,7 +242,7 @@ def remainder_of(
     phases = phases_of(views)
     problem = _Problem(base, found, found.parameters, phases, closure.noise_MPa)
     before = problem.before
-    for _ in range(ROUNDS):
+    for _ in range(REMAINDER.linearisations):
         trials = sorted(
             (problem.trial(term, before) for term in _terms(variables, problem)), key=lambda each: -each.rank
         )
@@ -274,7 +254,7 @@ def remainder_of(
     best: dict[str, _Trial] = {}
     for trial in trials:
         best.setdefault(trial.term.variable.name, trial)
-    leading = [each for each in best.values() if each.explained > WORTH_TELLING][:MOST]
+    leading = [each for each in best.values() if each.explained > REMAINDER.least_part][: REMAINDER.most_variables]
     depends_on = tuple(
         Dependence(
             variable=trial.term.variable.name,
@@ -305,8 +285,8 @@ def _terms(variables: Sequence[Variable], problem: _Problem) -> Iterator[_Term]:
         for when in (None, *problem.phases):
             inside = variable.values[problem.inside(when)]
             distinct = len(np.unique(np.round(inside, 6)))
-            for size in SIZES:
-                if size < distinct or size == SIZES[0]:
+            for size in REMAINDER.function_sizes:
+                if size < distinct or size == REMAINDER.function_sizes[0]:
                     yield from (_Term(variable, when, acts, size) for acts in ("added", "factor"))
 
 
@@ -337,7 +317,7 @@ class _Problem:
         ]
         self._noise = min(noise, float(np.sqrt(sum(rough) / len(self._missing))))
         records = [np.arange(part.start, part.stop) for part in self._slices]
-        parts = [np.array(block) for rows in records for block in np.array_split(rows, PARTS)]
+        parts = [np.array(block) for rows in records for block in np.array_split(rows, REMAINDER.left_out_parts)]
         self._folds: dict[Literal["records", "parts"], list[NDArray[np.int_]]] = {"records": records, "parts": parts}
         self.before: dict[str, float] = {
             kind: self._square_left_out(None, folds) for kind, folds in self._folds.items() if len(folds) > 1
@@ -359,7 +339,7 @@ class _Problem:
         kind: Literal["records", "parts"] = "records" if self._is_elsewhere(term) else "parts"
         before, least = before_of[kind], self._noise**2
         after = self._square_left_out(term, self._folds[kind])
-        surely = before - least > CERTAIN * np.sqrt(2.0 / len(self._missing)) * least
+        surely = before - least > REMAINDER.certain * np.sqrt(2.0 / len(self._missing)) * least
         explained = 1.0 - (after - least) / (before - least) if surely else 0.0
         rank = explained - PER_COEFFICIENT * term.size - PER_PHASE * (term.when is not None)
         return _Trial(term, explained, kind, rank - IN_PARTS * (kind == "parts" and len(self._slices) > 1))
@@ -469,7 +449,7 @@ def _weights(noise: NoiseModel) -> FloatArray:
 
 
 def _is_smooth(term: _Term) -> bool:
-    return not term.variable.is_category and term.size > SIZES[0]
+    return not term.variable.is_category and term.size > REMAINDER.function_sizes[0]
 
 
 def _regular(normal: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
@@ -501,7 +481,7 @@ def _basis(values: FloatArray, samples: FloatArray, term: _Term) -> FloatArray:
     if high <= low:
         return np.column_stack([np.ones(len(values)), np.zeros((len(values), term.size - 1))])
     x = (np.clip(values, low, high) - low) / (high - low)
-    if term.size == SIZES[0]:
+    if term.size == REMAINDER.function_sizes[0]:
         return np.column_stack([np.ones(len(x)), x])
     inner = np.quantile((samples - low) / (high - low), np.linspace(0.0, 1.0, term.size - 2)[1:-1])
     knots = np.concatenate([np.zeros(4), np.clip(inner, 1e-6, 1.0 - 1e-6), np.ones(4)])

@@ -15,6 +15,7 @@ from probation.diagnosis.next import as_answer
 from probation.diagnosis.variables import every_phase
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
+from probation.settings.remainder import REMAINDER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,21 +25,6 @@ if TYPE_CHECKING:
     from probation.diagnosis.result import NextTest
     from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit
-
-RIVALS = 3
-"""Variables that a test is planned for."""
-
-INSTANTS = 40
-"""Instants of a planned test that count: what a free function leaves is alike from sample to sample."""
-
-WARMER = 15.0
-"""Change of temperature of a planned test [°C]."""
-
-VISITED = 0.02
-"""Part of its samples that a test must have in the phase in which the leading function acts."""
-
-DOUBT = 0.05
-"""Added to the part that a function leaves, for the odds between variables."""
 
 CHANGE_WITH_A_REPEAT = ("order",)
 """Variables that differ in the repeat of a record: of all others the record itself has told already."""
@@ -59,10 +45,14 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
     left : Remainder
     threads, seed : int
     """
-    rivals = [each for each in left.functions if each.dependence.variable not in NOT_PLANNED][:RIVALS]
+    rivals = [each for each in left.functions if each.dependence.variable not in NOT_PLANNED][
+        : REMAINDER.planned_variables
+    ]
     if len(rivals) < 2:
         return ()
-    odds = np.array([each.dependence.explained / (1.0 - each.dependence.explained + DOUBT) for each in rivals])
+    odds = np.array(
+        [each.dependence.explained / (1.0 - each.dependence.explained + REMAINDER.doubt) for each in rivals]
+    )
     prior = odds / odds.sum()
     error = rivals[0].error_MPa
     answers = [[each.dependence.variable] for each in rivals]
@@ -88,12 +78,14 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
 def _visits(view: RecordView, leading: FreeFunction) -> bool:
     """Whether a test enters the phase in which the leading function acts."""
     when = leading.term.when
-    return when is None or int(every_phase((view,), leading.least)[when].sum()) > VISITED * len(view.data)
+    return when is None or int(every_phase((view,), leading.least)[when].sum()) > REMAINDER.least_in_phase * len(
+        view.data
+    )
 
 
 def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) -> Prediction:
     stress, spread = rival.on(view)
-    some = np.unique(np.linspace(0, len(stress) - 1, INSTANTS).astype(int))
+    some = np.unique(np.linspace(0, len(stress) - 1, REMAINDER.planned_instants).astype(int))
     return Prediction(owner, 1.0, stress[some] / error, spread[some] / error)
 
 
@@ -110,7 +102,7 @@ def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[Planne
     if usual is None or "temperature" not in known:
         return tests
     again = next(iter(repeats(Laboratory.of(base.model, base.parameters))))
-    for change in (WARMER, -WARMER):
+    for change in (REMAINDER.planned_warming, -REMAINDER.planned_warming):
         what = f"{again.what}, at {usual + change:.0f} °C"
         test = replace(again, name="other_temperature", what=what, repeats=None)
         view = planned_view(test.name, test.time, test.true_strain, test.jumps, views)

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.variables import PHASES
+from probation.settings.remainder import REMAINDER
 from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.diagnosis.remainder import Dependence, Remainder, RemainderCurve
-
-ALIKE = 0.05
-"""Difference in what two variables explain below which the records do not tell which of them it is."""
 
 
 def description(
@@ -46,7 +44,7 @@ def description(
     judged = "records left out" if first.judged_on == "records" else "parts of the records left out"
     text = f"{size} is a function of {function_name(first)}, which closes {percent(first.explained)} of it in {judged}"
     text += f": {_size(curve)}"
-    alike = [function_name(each) for each in others if each.explained > first.explained - ALIKE]
+    alike = [function_name(each) for each in others if each.explained > first.explained - REMAINDER.not_discriminated]
     if alike:
         text += f"; these records do not tell it from a function of {listed(alike)}"
     return f"{text}."

@@ -9,11 +9,11 @@ import numpy as np
 
 from probation._arrays import one_of
 from probation.diagnosis.calibration import Calibration
-from probation.inference.gap import TOLERANCE
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, rows_frame
 from probation.results.rendering import Result
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -318,7 +318,7 @@ class Diagnosis(Result, Stored):
     judged_on: str | None = None
     scatter: Scatter | None = None
     hangs_on_scatter: bool = False
-    tolerance: float = TOLERANCE
+    tolerance: float = DETECTION.tolerance
     matters: bool = True
     calibration: Calibration = field(default_factory=lambda: Calibration(inside=True))
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from probation.settings.remainder import REMAINDER
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -17,20 +19,8 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
-MOVING = 0.02
-"""Strain rate over the record's largest below which the strain is held."""
-
-BELOW = 0.003
-"""Part of the campaign's largest strain by which the strain is below its largest so far where it reloads."""
-
-PARTS = 60
-"""Part of a record over which the strain rate is averaged."""
-
 COVERED, FEWEST = 0.03, 20
 """Part of all samples, and samples, that a phase must hold, and that must lie outside it."""
-
-NEARLY = 1e-3
-"""Range of a variable, over its largest value, below which it is one value."""
 
 PHASES: Mapping[str, str] = {
     "loading": "while the strain grows",
@@ -79,7 +69,7 @@ def variables_of(views: Sequence[RecordView], specimens: Sequence[str]) -> list[
     return [
         each
         for each in every_variable(views, specimens)
-        if np.ptp(each.values) > NEARLY * max(float(np.max(np.abs(each.values))), 1e-300)
+        if np.ptp(each.values) > REMAINDER.least_range * max(float(np.max(np.abs(each.values))), 1e-300)
     ]
 
 
@@ -155,7 +145,7 @@ def phases_of(views: Sequence[RecordView]) -> dict[str, NDArray[np.bool_]]:
 
 def least_below(views: Sequence[RecordView]) -> float:
     """Strain below the largest so far from which on a specimen is unloaded, not noisy."""
-    return BELOW * max(float(np.max(view.true_strain)) for view in views)
+    return REMAINDER.least_below * max(float(np.max(view.true_strain)) for view in views)
 
 
 def every_phase(views: Sequence[RecordView], least: float) -> dict[str, NDArray[np.bool_]]:
@@ -177,16 +167,20 @@ def every_phase(views: Sequence[RecordView], least: float) -> dict[str, NDArray[
 def _rate(view: RecordView) -> FloatArray:
     """Strain rate with its sign, averaged over a small part of the record, shape (n_samples,) [1/s]."""
     strain, time = view.sampled(view.true_strain), view.sampled(view.time)
-    return np.asarray(uniform_filter1d(np.gradient(strain, time), max(len(time) // PARTS, 1), mode="nearest"))
+    return np.asarray(
+        uniform_filter1d(np.gradient(strain, time), max(len(time) // REMAINDER.rate_window, 1), mode="nearest")
+    )
 
 
 def _direction(view: RecordView) -> FloatArray:
     """1 where the strain grows, -1 where it falls, 0 where it is held; shape (n_samples,)."""
     rate = _rate(view)
-    return np.where(np.abs(rate) > MOVING * float(np.max(np.abs(rate), initial=0.0)), np.sign(rate), 0.0)
+    return np.where(
+        np.abs(rate) > REMAINDER.least_moving_rate * float(np.max(np.abs(rate), initial=0.0)), np.sign(rate), 0.0
+    )
 
 
 def _decades(view: RecordView) -> FloatArray:
     """Decadic logarithm of the modulus of the strain rate, not far below the record's usual one."""
     rate = np.abs(_rate(view))
-    return np.asarray(np.log10(np.maximum(rate, MOVING * max(float(np.max(rate)), 1e-12))))
+    return np.asarray(np.log10(np.maximum(rate, REMAINDER.least_moving_rate * max(float(np.max(rate)), 1e-12))))

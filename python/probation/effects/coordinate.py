@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from probation.settings.effects import EFFECTS
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Values
@@ -27,16 +29,6 @@ Coordinate: TypeAlias = Literal[
 
 CoordinateHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
 """A coordinate that an effect works out itself, with its values in this record; shape (n,)."""
-
-DECADES = 2.0
-"""Decades around the reference rate beyond which the rate of a dwell or a jump counts as the last one."""
-
-FIRST = 1e-3
-"""Time over a record's duration below which its logarithm counts as that."""
-
-
-PARTS = 60
-"""Part of a record over which the rate is averaged."""
 
 NEARLY = 1e-6
 """Range of a coordinate over its largest value, below which it is one value."""
@@ -59,14 +51,14 @@ def is_one_value(low: float, high: float, coordinate: Coordinate | CoordinateHoo
 
 def _decades(view: RecordView) -> FloatArray:
     """Decades of the rate, averaged over a small part of the record: noise of the strain is no change of the rate."""
-    decades = np.clip(view.log_rate / np.log(10.0), -DECADES, DECADES)
-    half = len(view) // (2 * PARTS)
+    decades = np.clip(view.log_rate / np.log(10.0), -EFFECTS.rate_decades, EFFECTS.rate_decades)
+    half = len(view) // (2 * EFFECTS.rate_window)
     window = np.full(2 * half + 1, 1.0 / (2 * half + 1))
     return np.convolve(np.pad(decades, half, mode="edge"), window, mode="valid")
 
 
 def _log_time(view: RecordView) -> FloatArray:
-    return np.log(np.maximum(view.elapsed, FIRST * view.duration))
+    return np.log(np.maximum(view.elapsed, EFFECTS.first_time * view.duration))
 
 
 def _temperature(view: RecordView) -> FloatArray:

@@ -13,27 +13,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from probation.settings.effects import EFFECTS
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, Form, Values
     from probation.effects.record_view import RecordView
-
-GAIN = 0.3
-"""Standard deviation of a large relative error of the force or the section [-]: a wrong range, a wrong width."""
-
-FORCE = 0.2
-"""Standard deviation of a large error of the force, as a part of the largest force [-]."""
-
-TRAVEL = 0.3
-"""Standard deviation of what frame or slack take of the largest elongation [-]; beyond 0.9 nothing is left."""
-
-LARGEST_TRAVEL = 0.9
-"""Largest part of the elongation that frame or slack take [-]."""
-
-STARTS = (0.05, 0.2, 0.5)
-"""Parts of the largest elongation from which searches begin [-]: what is linear at first is not so further on."""
 
 
 def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
@@ -84,15 +71,15 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
 
 def _gain(effect: Effect, size: _Size) -> Form:
     del size
-    return _widened(effect.form("factor"), GAIN, -0.9, 4.0)
+    return _widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0)
 
 
 def _offset(effect: Effect, size: _Size) -> Form:
-    return _widened(effect.form("constant"), FORCE * size.force, -size.force, size.force)
+    return _widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force)
 
 
 def _drift(effect: Effect, size: _Size) -> Form:
-    return _widened(effect.form("over_record"), FORCE * size.force, -size.force, size.force)
+    return _widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force)
 
 
 def _compliance(effect: Effect, size: _Size) -> Form:
@@ -115,7 +102,13 @@ def _slack(effect: Effect, size: _Size) -> Form:
 
 def _of_travel(form: Form, whole: float) -> Form:
     """Searched for from several sizes; `whole` is the amplitude that would take all of the elongation."""
-    return _widened(form, TRAVEL * whole, 0.0, LARGEST_TRAVEL * whole, tuple(part * whole for part in STARTS))
+    return _widened(
+        form,
+        EFFECTS.large_travel * whole,
+        0.0,
+        EFFECTS.largest_travel * whole,
+        tuple(part * whole for part in EFFECTS.travel_starts),
+    )
 
 
 _LARGE: dict[str, Callable[[Effect, _Size], Form]] = {

@@ -14,6 +14,7 @@ from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
 from probation.records.noise import stress_noise
+from probation.settings.effects import EFFECTS
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -26,9 +27,6 @@ if TYPE_CHECKING:
     from probation.smoothing.excitation import Excitation
 
 _MOVING = 10.0 * RATE_FLOOR
-
-BACKLASH = 1e-3
-"""Part of a record's range of strain within which its noise stays: 1e-3 where it is strained by 1."""
 
 
 class Measured(NamedTuple):
@@ -156,8 +154,8 @@ class RecordView:
 
     @cached_property
     def strain_behind_backlash(self) -> FloatArray:
-        """The strain behind a backlash of `BACKLASH` of its range, shape (n,): noise does not lengthen its path."""
-        width = BACKLASH * float(np.ptp(self.true_strain))
+        """The strain behind a backlash of `backlash` of its range, shape (n,): noise does not lengthen its path."""
+        width = EFFECTS.backlash * float(np.ptp(self.true_strain))
         behind, path = float(self.true_strain[0]), []
         for strain in self.true_strain.tolist():
             behind = min(max(behind, strain - width), strain + width)

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.effects import EFFECTS
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
-
-LEAST_RETURN = 0.02
-"""Part of the campaign's largest strain by which a strain that is taken back is more than its noise [-]."""
 
 
 def visible(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
@@ -38,5 +37,5 @@ def unloads(views: Sequence[RecordView]) -> bool:
     """Whether the strain is taken back anywhere, by more than its noise."""
     largest = max(float(np.max(view.largest_strain)) for view in views)
     return largest > 0.0 and any(
-        float(np.max(view.largest_strain - view.true_strain)) > LEAST_RETURN * largest for view in views
+        float(np.max(view.largest_strain - view.true_strain)) > EFFECTS.least_return * largest for view in views
     )

@@ -6,20 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.effects import EFFECTS
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-
-DIFFERENT = 1.0
-"""Difference of temperatures that is more than their scatter [°C]: a laboratory keeps its room to 2 °C (ISO 291)."""
-
-USUAL_WORK_TO_HEAT = 0.5
-"""Warming by work without any loss [°C/MPa]: one over density times heat capacity, polyethylene."""
-
-WORK_TO_HEAT = 1.0
-"""Most warming that work can give [°C/MPa]: one over a density times heat capacity of 1 MJ/(m^3 °C), an elastomer's."""
 
 
 def all_known(views: Sequence[RecordView]) -> bool:
@@ -35,7 +28,7 @@ def all_measured(views: Sequence[RecordView]) -> bool:
 def starts_differ(views: Sequence[RecordView]) -> bool:
     """Whether every record has a temperature and they do not start alike."""
     starts = [float(view.temperature[0]) for view in views if view.temperature is not None]
-    return len(starts) == len(views) and float(np.ptp(starts)) > DIFFERENT
+    return len(starts) == len(views) and float(np.ptp(starts)) > EFFECTS.different_temperature
 
 
 def work_can_warm(view: RecordView) -> bool:
@@ -47,7 +40,10 @@ def work_can_warm(view: RecordView) -> bool:
     if rise is None:
         return True
     seen = view.sampled(rise)
-    return bool(np.all(seen <= WORK_TO_HEAT * work_so_far(view) + DIFFERENT) and np.all(seen >= -DIFFERENT))
+    return bool(
+        np.all(seen <= EFFECTS.largest_heating * work_so_far(view) + EFFECTS.different_temperature)
+        and np.all(seen >= -EFFECTS.different_temperature)
+    )
 
 
 def work_so_far(view: RecordView) -> FloatArray:
@@ -62,14 +58,18 @@ def measured_beside_work(view: RecordView) -> str:
     rise = view.measured_rise
     if rise is None:
         return ""
-    most = USUAL_WORK_TO_HEAT * float(work_so_far(view)[-1])
+    most = EFFECTS.usual_heating * float(work_so_far(view)[-1])
     return f"{view.id} was measured to warm by {np.max(rise):.1f} °C; all its work as heat would be {most:.1f} °C"
 
 
 def warms_by_work(views: Sequence[RecordView]) -> bool:
     """Whether every record has a temperature, some rise while they are strained, and work can do it."""
     rises = [float(np.max(view.measured_rise)) for view in views if view.measured_rise is not None]
-    return all_known(views) and max(rises, default=0.0) > DIFFERENT and all(work_can_warm(view) for view in views)
+    return (
+        all_known(views)
+        and max(rises, default=0.0) > EFFECTS.different_temperature
+        and all(work_can_warm(view) for view in views)
+    )
 
 
 def changes_without_work(views: Sequence[RecordView]) -> bool:

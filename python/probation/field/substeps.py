@@ -10,7 +10,6 @@ import numpy as np
 from probation.field.errors import drawn_errors
 from probation.field.pixels import Pixels, identify_pixels, with_more_noise
 from probation.field.source import SHORTEST
-from probation.identify.scheme_error import MOST_SUBSTEPS
 from probation.law.schemes import SA3
 from probation.settings.certificate import CERTIFICATE
 
@@ -54,12 +53,13 @@ def needed_substeps(
     again = identify_pixels(precise, time, more_strain, more_stress, used, REFERENCE_SUBSTEPS)
     errors = drawn_errors(reference, [(alone, again)], level, together)
     steps = 1
-    while steps < MOST_SUBSTEPS:
+    while steps < CERTIFICATE.most_substeps:
         shift = _shift(identify_pixels(way, time, strain, stress, used, steps), reference, errors)
         if shift <= CERTIFICATE.negligible_scheme_shift:
             break
         steps = min(
-            max(int(np.ceil(steps * np.sqrt(shift / CERTIFICATE.negligible_scheme_shift))), steps + 1), MOST_SUBSTEPS
+            max(int(np.ceil(steps * np.sqrt(shift / CERTIFICATE.negligible_scheme_shift))), steps + 1),
+            CERTIFICATE.most_substeps,
         )
     return steps
 

@@ -15,6 +15,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.time_range import time_range
 from probation.law.schemes import scheme_of
 from probation.noise.segments import leftover
+from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
@@ -26,15 +27,6 @@ if TYPE_CHECKING:
 
 FIRST, STIFFER, FAR = 20, 1.3, 3.0
 """Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
-
-BEYOND_CHANCE = 3.0
-"""Standard deviations by which the stress must show the recorded strain to be real before it is taken as it is."""
-
-PARTS = 8
-"""Parts of a record in which the local noise variance is estimated where strains are chosen ..."""
-
-QUIETEST = 0.01
-"""... and the least of it, over the mean."""
 
 
 def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
@@ -102,12 +94,12 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
             favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / variance))
             told_apart += float(np.sum((rough[0] - rough[1]) ** 2 / variance))
     # Were the wiggles noise, the sum would have the mean -told_apart and the variance 4 told_apart.
-    by_chance = 2.0 * BEYOND_CHANCE * np.sqrt(told_apart) - told_apart
+    by_chance = 2.0 * NOISE.strain_beyond_chance * np.sqrt(told_apart) - told_apart
     return chosen | raw if favours_raw > max(by_chance, 0.0) else chosen
 
 
 def _local_noise_variance(residual: FloatArray) -> FloatArray:
     """Variance of the rough part of a residual along its record, shape (n,): a force's noise grows with the stretch."""
     rough = np.pad(np.diff(residual, 2), 1, mode="edge") ** 2
-    power = uniform_filter1d(rough, max(len(rough) // PARTS, 1), mode="nearest")
-    return np.asarray(np.maximum(power, QUIETEST * float(np.mean(power)) + 1e-300), dtype=np.float64)
+    power = uniform_filter1d(rough, max(len(rough) // NOISE.local_parts, 1), mode="nearest")
+    return np.asarray(np.maximum(power, NOISE.least_local_variance * float(np.mean(power)) + 1e-300), dtype=np.float64)

@@ -15,10 +15,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
-SHORTEST = 24
-"""Samples below which there is no telling."""
-
-
 @dataclass(frozen=True, eq=False)
 class Bias(WithCurves):
     """Low-frequency part of one fit residual (model minus data).
@@ -64,7 +60,7 @@ class Bias(WithCurves):
 
 def low_frequency(residual: FloatArray) -> FloatArray:
     """The residual through a moving parabola over `CERTIFICATE.bias_window` of the record, shape (n_times,) [MPa]."""
-    if len(residual) < SHORTEST:
+    if len(residual) < CERTIFICATE.fewest_for_bias:
         return np.full_like(residual, residual.mean())
     return moving_parabola(residual, _window(len(residual)))
 
@@ -89,7 +85,7 @@ def bias_of(
     """
     low = low_frequency(residual)
     window = _window(len(residual))
-    short = len(residual) < SHORTEST
+    short = len(residual) < CERTIFICATE.fewest_for_bias
     passed = 1.0 / np.sqrt(len(residual)) if short else float(np.linalg.norm(parabola_weights(window)))
     deviation = np.full_like(low, passed * long_run)
     if not short:  # near an end the parabola is held by one side only

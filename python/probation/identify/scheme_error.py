@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from probation.inference.problem import Problem
 
 
-MOST_SUBSTEPS = 16
-"""Most steps of the scheme from sample to sample that a fit takes by itself, on long records."""
-
 ENOUGH_INSTANTS = 4000
 """On short records it may take more, up to this many instants in all: they cost next to nothing."""
 
@@ -58,7 +55,7 @@ def needed_substeps(weighted: Weighted, views: Sequence[RecordView], at_least: i
     """
     problem, parameters = weighted.problem, weighted.parameters
     known, jacobian = known_of(weighted)
-    most = max(MOST_SUBSTEPS, ENOUGH_INSTANTS // max(problem.lengths))
+    most = max(CERTIFICATE.most_substeps, ENOUGH_INSTANTS // max(problem.lengths))
     steps = at_least
     while True:  # once would do, were the steps always short enough for the order to show
         shift = scheme_error(problem, [view.with_substeps(steps) for view in views], parameters, jacobian, known)[1]

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from probation.law.modal import Law
     from probation.smoothing.methods import Method as ExcitationMethod
 
-DRAWS = 24
-"""Of longer records, the strain is drawn again so often to see what its noise does to the parameters."""
-
 
 def share_of_error(law: Law, noise: StrainNoise, gain: FloatArray, error: FloatArray) -> FloatArray:
     """Error of each parameter by strain noise, over what is known of it without; shape (free,) [-].
@@ -53,12 +50,12 @@ def resampled(view: RecordView, law: Law, gain: FloatArray, method: ExcitationMe
     base = _stress(view, law)
     moved = []
     record, drive = view.record, view.excitation
-    for _ in range(DRAWS):
+    for _ in range(CERTIFICATE.strain_draws):
         noisy = drive.true_strain + drive.strain_noise * random.standard_normal(len(record))
         again = excite(replace(record, true_strain=noisy, sha256=""), method)
         moved.append(gain @ (_stress(view.smoothed_as(again), law) - base))
     shifts = np.array(moved)
-    return np.asarray(shifts.T @ shifts / DRAWS, dtype=np.float64)
+    return np.asarray(shifts.T @ shifts / CERTIFICATE.strain_draws, dtype=np.float64)
 
 
 def strain_noise_warnings(views: Sequence[RecordView], law: Law) -> list[str]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.law.schemes import scheme_of
-from probation.records.noise import LEAST_NOISE, scatter
+from probation.records.noise import scatter
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,7 +43,7 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
         square = 0.0
         for record in campaign.identify:
             coarse, fine = (predicted(found, excitations[record.id], count) for count in (steps, 2 * steps))
-            least = LEAST_NOISE * float(np.max(np.abs(record.true_stress)))
+            least = NOISE.least_noise * float(np.max(np.abs(record.true_stress)))
             noise = max(scatter(record.time, record.true_stress - fine), least)
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
         # Halving the step leaves a quarter of the error.

@@ -19,8 +19,8 @@ from probation.identify.strain_noise import left_over, propagated_at_end, resamp
 from probation.inference.residual_noise import with_residual_noise
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.excitation import excite
-from probation.smoothing.segments import CLEAN
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -128,7 +128,7 @@ def _smoothly_driven(
     """
     views = [
         view.smoothed_as(excite(view.record, "spline")).with_scheme("sa3")
-        if len(view.record) <= LARGEST and view.excitation.strain_noise >= CLEAN and _is_bare(view)
+        if len(view.record) <= LARGEST and view.excitation.strain_noise >= SMOOTHING.clean and _is_bare(view)
         else view
         for view in problem.views
     ]
@@ -160,7 +160,7 @@ def _strain_noises(
                 added = moved if added is None else added + moved
             continue
         noise: StrainNoise | None = None
-        if view.excitation.strain_noise >= CLEAN:
+        if view.excitation.strain_noise >= SMOOTHING.clean:
             noise = StrainNoise.of(view.excitation, view.scheme, view.stride)
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation.noise.span import without
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
     from probation.noise.whitener import Whitener
 
 Key: TypeAlias = "tuple[str, str, tuple[str, ...] | None]"
-
-LARGEST_START = 2.0
-"""Searches begin within so many prior scales: what is linear at first need not be so further on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +100,7 @@ class WhitenedColumns:
             if column.cause.form.threshold:
                 start = column.values[0]
             else:
-                largest = LARGEST_START * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
+                largest = SEARCH.largest_start * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
                 start = float(np.clip(wanted, -largest, largest))
             found.append(Candidate(column.cause, (start, *column.values[1:]), gain))
         return sorted(found, key=lambda each: -each.gain)

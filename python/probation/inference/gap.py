@@ -19,6 +19,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,13 +31,6 @@ if TYPE_CHECKING:
     from probation.inference.screen import Column
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
-
-TOLERANCE = 0.001
-"""Gap, over the largest stress of its record, that is said not to matter: a fifth of what the force of a testing
-machine of class 0.5 (ISO 7500-1) may err by."""
-
-FRACTION = 0.5
-"""Gap, over the noise, below which it is declared only if it survives other models of the noise."""
 
 TWO_SIDED = 1.96
 """Standard errors on either side of an estimate that hold 95 %."""
@@ -170,7 +164,7 @@ class Gap:
         """
         return max(self._looked_at, key=lambda each: each.relative)
 
-    def matters(self, tolerance: float = TOLERANCE) -> bool:
+    def matters(self, tolerance: float = DETECTION.tolerance) -> bool:
         """Whether the gap may be larger than so much of a record's largest stress, in any record that holds it."""
         return self.exists and max(each.relative_interval[1] for each in self._looked_at) >= tolerance
 
@@ -251,7 +245,9 @@ def _survivor(whitened: Whitened, signals: Sequence[Column], sizes: Mapping[str,
     """
     test = _tested(whitened, signals, seed)
     noises = whitened.noises
-    if not test.rejected or any(sizes[noise.name].rms_MPa > FRACTION * _rms(noise.deviation) for noise in noises):
+    if not test.rejected or any(
+        sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
+    ):
         return test
     other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))

@@ -9,7 +9,8 @@ import numpy as np
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.strain_noise import StrainNoise, leading_directions
 from probation.records.noise import scatter
-from probation.smoothing.segments import CLEAN
+from probation.settings.noise import NOISE
+from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
 STRAIN_STEP = 1e-6
 """Largest strain by which a law without tangents is probed [-]."""
-
-NEGLIGIBLE = 0.1
-"""Propagated noise along one direction, over the scatter of the stress from sample to sample, that is left out."""
 
 
 def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray | None:
@@ -41,7 +39,7 @@ def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> F
         None where the strain has no noise.
     """
     excitation = view.excitation
-    if excitation.strain_noise < CLEAN:
+    if excitation.strain_noise < SMOOTHING.clean:
         return None
     if isinstance(law, DnlrLaw):
         noise = StrainNoise.of(excitation, view.scheme, view.stride)
@@ -50,7 +48,7 @@ def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> F
         columns = _by_differences(law, view, parameters)
     left, size, _ = np.linalg.svd(columns, full_matrices=False)
     level = scatter(view.sampled(view.time), view.data)
-    kept = size > NEGLIGIBLE * level
+    kept = size > NOISE.negligible_propagated * level
     return np.asarray(left[:, kept] * size[kept])
 
 

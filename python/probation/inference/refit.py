@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.least_squares import FIRST_DAMPING, Bounds, NormalPrior, minimise
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from probation.inference.problem import Problem
 
 MOST_STEPS = 15
-SETTLED = 0.02
-"""A step that would lower the objective by less than this ends a search: it is small against what noise does to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +120,7 @@ def refit(
     start: FloatArray,
     *,
     most_steps: int = MOST_STEPS,
-    settled: float = SETTLED,
+    settled: float = SEARCH.settled,
     held: NDArray[np.bool_] | None = None,
 ) -> Refit:
     """Minimise |L r|^2 + prior from a start (`least_squares.minimise`).

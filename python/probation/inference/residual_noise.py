@@ -14,6 +14,7 @@ from probation.noise.model import NoiseModel
 from probation.noise.outliers import without_outliers
 from probation.noise.white_level import white_level
 from probation.noise.whiteness import is_white
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
     from probation.inference.problem import Problem
     from probation.inference.strain_noise import StrainNoise
     from probation.noise.record_residual import RecordResidual
-
-SHORTEST = 30
-"""Samples of a record below which its stress noise is taken as white."""
 
 
 def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequence[StrainNoise | None]) -> Problem:
@@ -54,7 +52,7 @@ def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequen
         for (view, rows), own in zip(problem.model.parts, strain, strict=True)
     ]
     smooth = [index for index, own in enumerate(strain) if own is None or own.strain is not None]
-    smooth = [index for index in smooth if len(residuals[index]) >= SHORTEST]
+    smooth = [index for index in smooth if len(residuals[index]) >= NOISE.fewest_for_correlation]
     estimated = dict(zip(smooth, estimate_noise([residuals[index] for index in smooth]), strict=True))
     noises, strains = [], list(strain)
     for index, (each, own) in enumerate(zip(residuals, strain, strict=True)):

@@ -16,7 +16,7 @@ import numpy as np
 from probation.inference.deviations import AREA, START, deviation_names, kind_of_deviation
 from probation.inference.parameter import SYMBOLS, outside_name
 from probation.noise.outliers import without_outliers
-from probation.records.specimens import USUAL
+from probation.records.specimens import DEVIATIONS
 from probation.settings.noise import NOISE
 from probation.wording import listed, percentage
 
@@ -130,7 +130,7 @@ def scatter_of(
     if not isinstance(specimens.scatter, str):
         stated = specimens.scatter
         return Scatter(names, tuple(stated.get(kind_of_deviation(name), 0.0) for name in names), None, count, "stated")
-    usual = tuple(USUAL[kind_of_deviation(name)] for name in names)
+    usual = tuple(NOISE.specimen_scatter[DEVIATIONS.index(kind_of_deviation(name))] for name in names)
     groups = [group for group in replicates(records) if len({_owners(records)[index] for index in group}) > 1]
     if not groups:
         return Scatter(names, usual, None, count, "assumed")

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from probation.inference.discrepancy import Discrepancy
     from probation.inference.refit import Refit
 
-SIZES = 10.0 ** np.arange(0.5, 9.0, 0.5)
+SIZES = np.geomspace(*EVIDENCE.unknown_range, 17)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 
 

@@ -30,8 +30,6 @@ _CENTRES = np.sqrt(_EDGES[1:] * _EDGES[:-1])
 GRID, REFINED = 21, 3
 """Values of phi and theta that are searched, and the half-width of the later searches in their steps."""
 
-MOST_THETA = 0.97
-
 
 @dataclass(frozen=True)
 class Arma:
@@ -228,13 +226,17 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
 
 def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:
     """Least deviance over phi and theta, on ever finer grids, and where it is."""
-    steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(MOST_THETA)]) / (GRID - 1)
+    steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(NOISE.largest_moving_average)]) / (
+        GRID - 1
+    )
     middle = np.array([np.arctanh(most_phi) - np.arctanh(0.7), 0.0]) / 2.0
     reach, deviance, best = (GRID - 1) // 2, np.inf, (0.0, 0.0)
     for _ in range(4):
         offsets = np.arange(-reach, reach + 1)
         phi = np.minimum(np.tanh(middle[0] + steps[0] * offsets), most_phi)
-        theta = np.clip(np.tanh(middle[1] + steps[1] * offsets), -MOST_THETA, MOST_THETA)
+        theta = np.clip(
+            np.tanh(middle[1] + steps[1] * offsets), -NOISE.largest_moving_average, NOISE.largest_moving_average
+        )
         rise = np.outer((1.0 + phi**2) / (1.0 - phi) ** 2, (1.0 + theta) ** 2 / (1.0 + theta**2))
         table = np.where(rise >= NOISE.least_rise, _deviance(binned, _table(phi, theta)), np.inf)
         row, column = np.unravel_index(int(np.argmin(table)), table.shape)

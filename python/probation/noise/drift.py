@@ -24,16 +24,11 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 
-SIZES = np.append(0.0, np.geomspace(0.5, 100.0, 20))
-USUAL = 5.0
-"""Relative variances at the first half period that are tried, and beyond which they are less and less probable."""
+SIZES = np.append(0.0, np.geomspace(*NOISE.drift_range, 20))
+"""Relative variances at the first half period that are tried."""
 
-
-BIASES = np.append(0.0, np.geomspace(10.0, 1e7, 13))
+BIASES = np.append(0.0, np.geomspace(*NOISE.bias_range, 13))
 """The same for a bias whose power falls as 1/order^3, extrapolated to the first half period."""
-
-
-FEW = 64
 
 
 def estimate_drift(whitened: Whitened) -> float:
@@ -48,10 +43,10 @@ def estimate_drift(whitened: Whitened) -> float:
     whitened : Whitened
         Without any drift in its noises.
     """
-    score = -np.log1p(SIZES / USUAL)
+    score = -np.log1p(SIZES / NOISE.usual_drift)
     for part in whitened.slices:
         count = part.stop - part.start
-        if count < FEW:
+        if count < NOISE.fewest_for_drift:
             continue
         order = np.arange(NOISE.lowest_drift_order, count // NOISE.highest_drift_order)
         power = dct(whitened.residual[part], type=2, norm="ortho")[order] ** 2

@@ -12,7 +12,7 @@ from probation.noise.arma import Periodogram
 from probation.noise.growth import growth_of
 from probation.noise.outliers import find_outliers, without_outliers
 from probation.noise.quantisation import quantisation_noise, quantisation_step
-from probation.noise.segments import BLOCK, DEGREE, in_segments, legendre
+from probation.noise.segments import DEGREE, in_segments, legendre
 from probation.noise.smooth_basis import WAVES, smooth_basis, waves
 from probation.noise.span import span_of
 from probation.records.noise import scatter
@@ -84,7 +84,7 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
         growth, profile = growth_of(record, values, coarse)
         whole = _whole(values, waves(count, 2), 2, profile)
         return replace(nothing, growth=growth, profile=profile, rough=whole, source="the difference from its repeat")
-    quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= BLOCK]
+    quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= NOISE.shortest_segment]
     if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= NOISE.quiet_samples:
         segments = [residual[part] for part in quiet]
         rough = _rough(segments, [np.ones(len(part)) for part in segments], degree=3, robust=False)

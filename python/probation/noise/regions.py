@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -16,12 +18,6 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
 
 Kind = Literal["time", "strain", "rate", "phase", "record"]
-
-FINEST = 16
-"""Time intervals go down to this fraction of a record, and to `FEWEST` samples."""
-
-FEWEST = 3
-"""Samples that a region needs."""
 
 PHASES = {1.0: "loading", 0.0: "dwell", -1.0: "unloading"}
 
@@ -50,7 +46,7 @@ def time_regions(records: Sequence[RecordResidual]) -> list[Region]:
     for index, record in enumerate(records):
         count = len(record)
         pieces = 1
-        while pieces <= FINEST and count // pieces >= FEWEST:
+        while pieces <= NOISE.finest_region and count // pieces >= NOISE.fewest_of_a_region:
             shifts = (0.0, 0.5) if pieces >= 4 else (0.0,)
             for shift in shifts:
                 borders = ((np.arange(pieces + 1 - (shift > 0)) + shift) * count / pieces).round().astype(int)
@@ -106,5 +102,7 @@ def runs(inside: NDArray[np.bool_], bridge: int = 0, least: int = 1) -> list[sli
 
 
 def _region(kind: Kind, label: str, inside: list[NDArray[np.bool_]]) -> list[Region]:
-    members = tuple((index, mask) for index, mask in enumerate(inside) if np.count_nonzero(mask) >= FEWEST)
+    members = tuple(
+        (index, mask) for index, mask in enumerate(inside) if np.count_nonzero(mask) >= NOISE.fewest_of_a_region
+    )
     return [Region(kind, label, members)] if members else []

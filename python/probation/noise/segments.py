@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -16,13 +18,10 @@ if TYPE_CHECKING:
 BLOCKS, DEGREE = 12, 5
 """The finest smooth basis: polynomials of this degree on so many segments of a record."""
 
-BLOCK = 40
-"""Least samples of a stretch."""
-
 
 def in_segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
     """Segments of nearly equal length that end at the jumps, without those that are too short to tell anything."""
-    return [part for part in _segments(values, jumps) if len(part) >= BLOCK // 2]
+    return [part for part in _segments(values, jumps) if len(part) >= NOISE.shortest_segment // 2]
 
 
 def leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:
@@ -42,7 +41,7 @@ def legendre(count: int, degree: int) -> FloatArray:
 
 
 def _segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
-    target = max(len(values) // BLOCKS, BLOCK)
+    target = max(len(values) // BLOCKS, NOISE.shortest_segment)
     borders = [0, *sorted(jumps), len(values)]
     return [
         part

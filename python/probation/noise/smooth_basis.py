@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 WAVES = 12
 """Cosine waves along a record: half periods 0 to 11."""
 
-FADES = ((0.1, 5), (0.02, 9))
-"""Time constants of the transients, as fractions of their segment, and the order they are taken in at."""
-
 
 @dataclass(frozen=True, eq=False)
 class SmoothBasis:
@@ -72,7 +69,7 @@ def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES)
         if last - first < 20:
             continue
         since = (time[first : last + 1] - time[first]) / (time[last] - time[first])
-        for constant, order in FADES:
+        for constant, order in NOISE.transient_times:
             if order < most:
                 fade = np.zeros(count)
                 fade[first : last + 1] = np.exp(-since / constant)

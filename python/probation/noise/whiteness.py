@@ -8,12 +8,10 @@ import numpy as np
 from scipy.special import chdtrc
 
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-LAGS = 20
-"""That this test looks at, and a tenth of the samples at most."""
 
 
 def correlation_lags(residual: FloatArray) -> int:
@@ -40,7 +38,7 @@ def mean_inflation(residual: FloatArray) -> float:
 
 def is_white(innovation: FloatArray) -> bool:
     """Whether innovations (n,) are white, in the long run and by Ljung and Box's test."""
-    count, lags = len(innovation), min(LAGS, len(innovation) // 10)
+    count, lags = len(innovation), min(NOISE.tested_lags, len(innovation) // 10)
     centred = innovation - innovation.mean()
     variance = float(centred @ centred)
     if correlation_lags(innovation) > 0:

@@ -15,14 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from probation.settings.reading import READING
+
 FloatArray = NDArray[np.float64]
 
 _STEPS = 400  # of the grid on which rates are compared, over the shorter record
 _SMOOTHED = 4  # steps of the grid that a rate is taken over, either way
-_OVERLAP = 0.5  # of the shorter record: less in common is no match
-_UNKNOWN = 0.25  # of the shorter record: a shift that is known no better is not known
-_RIVAL = 3.0  # times the least rest: a minimum elsewhere below it may be the right one
-_ONSET = 0.3  # of the largest value: up to there a signal is looked at for its onset
 _FEWEST = 10  # samples of an onset
 _FEWEST_STEPS = 20  # of the grid in the shorter record: fewer tell no shift
 _FINE = 20  # shifts in a step of the grid, about the best one
@@ -88,8 +86,8 @@ def estimate_shift(
         return Shift(float(time[0] - strain_time[0]), np.inf, "rates of strain, displacement and force", ())
     grid, rate = _rate(strain_time, strain, step)
     known = [_rate(time, values, step) for values in (displacement, -force)]
-    lowest = float(time[0] - strain_time[-1]) + _OVERLAP * shorter
-    highest = float(time[-1] - strain_time[0]) - _OVERLAP * shorter
+    lowest = float(time[0] - strain_time[-1]) + READING.clock_overlap * shorter
+    highest = float(time[-1] - strain_time[0]) - READING.clock_overlap * shorter
     coarse = np.arange(lowest, highest + step, step)
     rests = np.array([_square(_rest(grid, rate, known, shift)) for shift in coarse])
     best = coarse[int(np.argmin(rests))]
@@ -102,7 +100,7 @@ def estimate_shift(
     others = _others(coarse, rests, value, 4 * _SMOOTHED * step)
     tried, order = np.unique(np.concatenate([coarse, fine]), return_index=True)
     misfit = np.concatenate([rests, fine_rests])[order] / max(_square(rate), 1e-300)
-    unknown = at_the_edge or bool(others) or se > _UNKNOWN * shorter or not rate.any()
+    unknown = at_the_edge or bool(others) or se > READING.clock_unknown * shorter or not rate.any()
     se = np.inf if unknown else max(se, step / _FINE)
     return Shift(value, se, "rates of strain, displacement and force", others, tried, misfit)
 
@@ -110,7 +108,7 @@ def estimate_shift(
 def _others(shifts: FloatArray, rests: FloatArray, value: float, apart: float) -> tuple[float, ...]:
     """Shifts apart from the best one at which the rest is a minimum too, and not much larger."""
     inner = np.flatnonzero((rests[1:-1] <= rests[:-2]) & (rests[1:-1] <= rests[2:])) + 1
-    rivals = [at for at in inner if abs(shifts[at] - value) > apart and rests[at] < _RIVAL * rests.min()]
+    rivals = [at for at in inner if abs(shifts[at] - value) > apart and rests[at] < READING.clock_rival * rests.min()]
     return tuple(float(shifts[at]) for at in sorted(rivals, key=lambda at: float(rests[at]))[:3])
 
 
@@ -144,7 +142,7 @@ class _Onset(NamedTuple):
 def _onset(time: FloatArray, values: FloatArray) -> _Onset:
     """Find when a signal leaves its rest."""
     size = np.abs(values - np.median(values[: max(len(values) // 50, 3)]))
-    end = max(int(np.argmax(size > _ONSET * size.max())) + 1, _FEWEST)
+    end = max(int(np.argmax(size > READING.clock_onset * size.max())) + 1, _FEWEST)
     start, signal = time[:end], values[:end]
     step = max(float(np.ptp(start)) / _STEPS, 1e-12)
     candidates = np.arange(start[0], start[-1] - 2.0 * step, step)

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.noise import NOISE
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.records.record import Record
-
-LEAST_NOISE = 1e-6
-"""Least noise of a record, as a fraction of its stress range: a synthetic record has much weight, not all of it."""
 
 _NORMAL_CONSISTENCY = 1.482602218505602  # standard deviation over median absolute deviation
 
@@ -50,4 +49,4 @@ def stress_noise(record: Record) -> float:
     """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `scatter`; never 0."""
     stated = record.noise.stress_MPa
     noise = scatter(record.time, record.true_stress) if stated is None else stated
-    return max(noise, LEAST_NOISE * float(np.ptp(record.true_stress)), 1e-12)
+    return max(noise, NOISE.least_noise * float(np.ptp(record.true_stress)), 1e-12)

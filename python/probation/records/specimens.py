@@ -9,9 +9,6 @@ from probation.errors import InputError
 DEVIATIONS = ("unrelaxed_modulus", "tau", "hardening_modulus", "area", "strain_offset")
 """What may differ: relative, but for the offset of the strain; tau is tau_max or alpha."""
 
-USUAL = dict(zip(DEVIATIONS, (0.02, 0.03, 0.03, 0.01, 1e-3), strict=True))
-"""Standard deviations that are assumed where no replicates show them [-]: chosen, see docs/diagnosis-method.md, 10."""
-
 LARGEST_SCATTER = 1.0
 """Largest standard deviation that a campaign may state [-]."""
 
@@ -27,10 +24,10 @@ class Specimens:
     Attributes
     ----------
     scatter : {"estimate", "none"} or dict of str to float
-        "estimate": from replicates where there are any, else as `USUAL` has it. "none": specimens are alike but for
-        noise, as in virtual campaigns. A table of standard deviations by name, of `DEVIATIONS`: relative for
-        ``unrelaxed_modulus``, ``tau`` (tau_max or alpha), ``hardening_modulus`` and ``area``, strain for
-        ``strain_offset``; a name left out has none.
+        "estimate": from replicates where there are any, else `specimen_scatter` of the settings. "none": specimens are
+        alike but for noise, as in virtual campaigns. A table of standard deviations by name, of `DEVIATIONS`:
+        relative for ``unrelaxed_modulus``, ``tau`` (tau_max or alpha), ``hardening_modulus`` and ``area``, strain
+        for ``strain_offset``; a name left out has none.
 
     Raises
     ------

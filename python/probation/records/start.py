@@ -15,13 +15,12 @@ from probation._complaint import quoted
 from probation.errors import InputError
 from probation.records.noise import scatter
 from probation.records.record import Record
+from probation.settings.reading import READING
 
 FloatArray = NDArray[np.float64]
 
 STARTS = ("relaxed", "loaded")
 
-_FAR = 0.02  # share of the largest strain or stress; a force reading before a test rests within 1 %
-_NOISES = 5.0  # standard deviations: less happens by chance in a campaign of many records
 _AHEAD = 4.0  # times the first strain: how far the strain rate at the start is looked for
 _FEWEST = 10  # samples behind the strain rate at the start
 
@@ -75,7 +74,7 @@ def with_loading(record: Record) -> Record:
 
 def _is_far(time: FloatArray, values: FloatArray) -> bool:
     first, largest = abs(float(values[0])), float(np.abs(values).max())
-    return first > max(_FAR * largest, _NOISES * scatter(time, values))
+    return first > max(READING.far_start * largest, READING.start_noise * scatter(time, values))
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:
@@ -91,7 +90,11 @@ def _line_before(record: Record) -> tuple[float, float] | None:
     rate, first = np.polyfit(time[:count], driven[:count], 1)
     noise = scatter(record.time, driven)
     uncertain = noise / (np.sqrt(count) * float(np.std(time[:count])))
-    if abs(first) <= _NOISES * noise or abs(rate) <= _NOISES * uncertain or not 0.0 < first / rate < time[-1]:
+    if (
+        abs(first) <= READING.start_noise * noise
+        or abs(rate) <= READING.start_noise * uncertain
+        or not 0.0 < first / rate < time[-1]
+    ):
         return None
     duration = float(first / rate)
     return duration, float(strain[0]) / duration

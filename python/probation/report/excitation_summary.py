@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.report.table import Table
-from probation.smoothing.answer import CORRELATED, spread
+from probation.settings.smoothing import SMOOTHING
+from probation.smoothing.answer import spread
 from probation.smoothing.comparison import Closeness
 from probation.wording import percentage, plus_minus
 
@@ -65,7 +66,7 @@ def facts(answer: RecordExcitation) -> tuple[tuple[str, str], ...]:
 
 def _correlation(answer: RecordExcitation) -> str:
     grown = answer.excitation.noise_inflation
-    return "" if grown <= CORRELATED else f", correlated from sample to sample (×{grown:.2g})"
+    return "" if grown <= SMOOTHING.correlated else f", correlated from sample to sample (×{grown:.2g})"
 
 
 def comparison_summary(found: Comparison) -> str:

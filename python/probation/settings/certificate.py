@@ -11,6 +11,20 @@ from probation.settings.setting import setting
 class CertificateSettings:
     """When a parameter is known, a law is intrinsic, and noise is white."""
 
+    bias_lengths: tuple[float, float] = setting(
+        (0.02, 0.3),
+        "Correlation lengths of a bias that are averaged over, shortest and longest.",
+        unit="record",
+        origin="chosen",
+        used_in="certificate/bias.py",
+    )
+    bias_variances: tuple[float, float] = setting(
+        (1e-3, 1e6),
+        "Variances of a bias that are tried, least and largest.",
+        unit="variance of a block's noise",
+        origin="chosen",
+        used_in="certificate/bias.py",
+    )
     bias_blocks: int = setting(
         150,
         "A bias is seen on means over so many blocks of samples.",
@@ -162,6 +176,34 @@ class CertificateSettings:
         unit="noise",
         origin="chosen",
         used_in="identify/substeps.py",
+    )
+    fewest_for_bias: int = setting(
+        24,
+        "Samples below which a bias is not looked for.",
+        unit="samples",
+        origin="chosen",
+        used_in="identify/bias.py",
+    )
+    strain_draws: int = setting(
+        24,
+        "Draws of the strain noise, of records too long for a matrix of it.",
+        unit="draws",
+        origin="chosen",
+        used_in="identify/strain_noise.py",
+    )
+    most_substeps: int = setting(
+        16,
+        "Steps of the scheme from sample to sample that a fit takes at most by itself, on long records.",
+        unit="steps",
+        origin="chosen",
+        used_in="identify/scheme_error.py",
+    )
+    fewest_for_hardening: int = setting(
+        3,
+        "Samples of the regression of hardening.",
+        unit="samples",
+        origin="chosen",
+        used_in="certificate/hardening.py",
     )
 
 

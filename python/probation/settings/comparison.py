@@ -60,6 +60,13 @@ class ComparisonSettings:
         origin="chosen",
         used_in="comparison/reference.py",
     )
+    branch_ends: int = setting(
+        3,
+        "Samples at the ends of a branch that are taken as they are, not as a smooth curve.",
+        unit="samples",
+        origin="chosen",
+        used_in="comparison/measured_law.py",
+    )
 
 
 COMPARISON = ComparisonSettings()

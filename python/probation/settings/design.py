@@ -130,6 +130,55 @@ class DesignSettings:
         origin="chosen",
         used_in="diagnosis/next.py",
     )
+    draws: int = setting(
+        400,
+        "Draws of the answers of a planned test.",
+        unit="draws",
+        origin="chosen",
+        used_in="design/next_test.py",
+    )
+    strain_draws: int = setting(
+        5,
+        "Draws of the strain noise with which a smoother is tried; the one in the middle counts.",
+        unit="draws",
+        origin="chosen",
+        used_in="design/planned_strain.py",
+    )
+    dead_weight: float = setting(
+        0.6,
+        "Load of a planned creep test.",
+        unit="yield force",
+        origin="chosen",
+        used_in="design/planned_tests.py",
+    )
+    yield_strain: float = setting(
+        0.1,
+        "Strain at which the yield force is read.",
+        unit="true strain",
+        origin="chosen",
+        used_in="design/planned_tests.py",
+    )
+    loading_time: float = setting(
+        10.0,
+        "Time in which the dead weight is applied, or a fiftieth of the test.",
+        unit="s",
+        origin="chosen",
+        used_in="design/planned_tests.py",
+    )
+    bias_worth_naming: float = setting(
+        0.25,
+        "Part of the largest bias from which on another one is named too.",
+        unit="largest bias",
+        origin="chosen",
+        used_in="design/isolability_words.py",
+    )
+    listed_tests: int = setting(
+        5,
+        "Tests that are listed.",
+        unit="tests",
+        origin="chosen",
+        used_in="diagnosis/next.py",
+    )
 
 
 DESIGN = DesignSettings()

@@ -21,6 +21,51 @@ class DetectionSettings:
         origin="chosen",
         used_in="detection/gap_test.py",
     )
+    low_noise: float = setting(
+        0.8,
+        "Noise, over what is estimated, with which the test for a gap is repeated: less than estimated.",
+        unit="-",
+        origin="chosen",
+        used_in="detection/gap_test.py",
+    )
+    high_noise: float = setting(
+        1.25,
+        "The same for more than estimated; a gap below `fraction_of_noise` must be significant there, too.",
+        unit="-",
+        origin="chosen",
+        used_in="detection/gap_test.py",
+    )
+    fraction_of_noise: float = setting(
+        0.5,
+        (
+            "Gap, over the noise, below which it is declared only if it is significant with other models of the noise, "
+            "too."
+        ),
+        unit="noise",
+        origin="chosen",
+        used_in="inference/gap.py",
+    )
+    tolerance: float = setting(
+        0.001,
+        (
+            "Gap, over the largest stress of its record, that is said not to matter: a fifth of the permissible error "
+            "of force of a testing machine of class 0.5."
+        ),
+        unit="largest stress",
+        origin="chosen",
+        source="ISO 7500-1",
+        used_in="inference/gap.py",
+    )
+    smooth_orders: tuple[int, ...] = setting(
+        (2, 5, 12),
+        (
+            "Half periods per record of the smooth waves of each test: a broad gap is detected with few, a wavy one "
+            "with many; the last is all that `smooth_basis` has."
+        ),
+        unit="half periods",
+        origin="chosen",
+        used_in="detection/gap_test.py",
+    )
     record_order: int = setting(
         6,
         "Order of the smooth waves that are tested in one record alone.",
@@ -244,6 +289,13 @@ class DetectionSettings:
         unit="-",
         origin="chosen",
         used_in="diagnosis/signatures.py",
+    )
+    draws_beyond: int = setting(
+        20,
+        "Draws beyond the observed value that make a bootstrap p-value; with fewer the tail is extrapolated.",
+        unit="draws",
+        origin="chosen",
+        used_in="detection/tail.py",
     )
 
 

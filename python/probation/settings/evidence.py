@@ -187,6 +187,13 @@ class EvidenceSettings:
         origin="chosen",
         used_in="inference/form_error.py",
     )
+    unknown_range: tuple[float, float] = setting(
+        (10.0**0.5, 10.0**8.5),
+        "Energy of an unknown effect in one record, least and largest; log-uniform.",
+        unit="noise variance",
+        origin="chosen",
+        used_in="inference/unknown.py",
+    )
     unknown_of_the_strain: float = setting(
         0.2,
         "Prior share of an unknown effect that is one function of the strain.",
@@ -323,6 +330,55 @@ class EvidenceSettings:
         unit="probability",
         origin="chosen",
         used_in="diagnosis/attribution.py",
+    )
+    negligible_form_error: float = setting(
+        1e-3,
+        "Mean relative error of a form below which it is taken for exact.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/evidence.py",
+    )
+    least_p_value: float = setting(
+        1e-12,
+        "Smaller p-values are reported as this.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/probabilities.py",
+    )
+    held_out_draws: int = setting(
+        400,
+        "Draws of the parameters with which a held-out record is predicted.",
+        unit="draws",
+        origin="chosen",
+        used_in="diagnosis/held_out.py",
+    )
+    closure_draws: int = setting(
+        1000,
+        "Bootstrap draws of the interval of the explained fraction.",
+        unit="draws",
+        origin="chosen",
+        used_in="diagnosis/closure.py",
+    )
+    fewest_resampled: int = setting(
+        6,
+        "Records from which on that bootstrap resamples whole records.",
+        unit="records",
+        origin="chosen",
+        used_in="diagnosis/closure.py",
+    )
+    closure_blocks: int = setting(
+        8,
+        "Contiguous parts that are resampled instead where there is one record.",
+        unit="parts",
+        origin="chosen",
+        used_in="diagnosis/closure.py",
+    )
+    closure_coverage: float = setting(
+        0.9,
+        "Coverage of the interval of the explained fraction.",
+        unit="probability",
+        origin="chosen",
+        used_in="diagnosis/closure.py",
     )
 
 

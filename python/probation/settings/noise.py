@@ -373,6 +373,130 @@ class NoiseSettings:
         source="Gelman 2006",
         used_in="inference/scatter.py",
     )
+    usual_drift: float = setting(
+        5.0,
+        "Relative variance of a drift at the first half period beyond which a larger one is less and less probable.",
+        unit="white noise variance",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    specimen_scatter: tuple[float, ...] = setting(
+        (0.02, 0.03, 0.03, 0.01, 1e-3),
+        (
+            "Standard deviations from specimen to specimen of E_u, tau_max, G and the area (relative) and of the "
+            "offset of the strain, where no replicates show them."
+        ),
+        unit="-",
+        origin="chosen",
+        source="docs/diagnosis-method.md, section 10",
+        used_in="inference/scatter.py",
+    )
+    drift_range: tuple[float, float] = setting(
+        (0.5, 100.0),
+        "Relative variances of a drift at the first half period that are tried beside 0, least and largest.",
+        unit="white noise variance",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    bias_range: tuple[float, float] = setting(
+        (10.0, 1e7),
+        "The same of a bias of one record, whose power falls as 1/order³.",
+        unit="white noise variance",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    fewest_for_drift: int = setting(
+        64,
+        "Samples below which a record says nothing of drift.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/drift.py",
+    )
+    shortest_segment: int = setting(
+        40,
+        "Samples of the shortest segment with a noise of its own.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/segments.py",
+    )
+    tested_lags: int = setting(
+        20,
+        "Lags of the test for whiteness, and a tenth of the samples at most.",
+        unit="samples",
+        origin="chosen",
+        source="Ljung & Box 1978",
+        used_in="noise/whiteness.py",
+    )
+    transient_times: tuple[tuple[float, int], ...] = setting(
+        ((0.1, 5), (0.02, 9)),
+        "Time constants of the transients of a smooth gap, and the order in which each is tested.",
+        unit="segment, half periods",
+        origin="chosen",
+        used_in="noise/smooth_basis.py",
+    )
+    largest_moving_average: float = setting(
+        0.97,
+        "Largest moving-average coefficient of the noise.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/arma.py",
+    )
+    finest_region: int = setting(
+        16,
+        "Regions in time are no shorter than one over this of a record.",
+        unit="-",
+        origin="chosen",
+        used_in="noise/regions.py",
+    )
+    fewest_of_a_region: int = setting(
+        3,
+        "Samples of the smallest region.",
+        unit="samples",
+        origin="chosen",
+        used_in="noise/regions.py",
+    )
+    fewest_for_correlation: int = setting(
+        30,
+        "Samples below which the stress noise of a record is taken as white.",
+        unit="samples",
+        origin="chosen",
+        used_in="inference/residual_noise.py",
+    )
+    least_noise: float = setting(
+        1e-6,
+        "Least noise of a record: synthetic records without noise do not get all of the weight.",
+        unit="stress range",
+        origin="chosen",
+        used_in="records/noise.py",
+    )
+    negligible_propagated: float = setting(
+        0.1,
+        "Propagated strain noise along one direction, over the scatter of the stress, that is left out.",
+        unit="-",
+        origin="chosen",
+        used_in="inference/propagated.py",
+    )
+    strain_beyond_chance: float = setting(
+        3.0,
+        "Standard deviations by which the stress must show that the recorded strain is real before it is not smoothed.",
+        unit="standard deviations",
+        origin="chosen",
+        used_in="identify/base.py",
+    )
+    local_parts: int = setting(
+        8,
+        "Parts of a record in which the local noise variance is estimated for that choice.",
+        unit="parts",
+        origin="chosen",
+        used_in="identify/base.py",
+    )
+    least_local_variance: float = setting(
+        0.01,
+        "Least local noise variance in that choice, over its mean.",
+        unit="-",
+        origin="chosen",
+        used_in="identify/base.py",
+    )
 
 
 NOISE = NoiseSettings()

@@ -7,22 +7,32 @@ from typing import Any
 
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.companion import COMPANION
 from probation.settings.comparison import COMPARISON
 from probation.settings.design import DESIGN
 from probation.settings.detection import DETECTION
+from probation.settings.effects import EFFECTS
 from probation.settings.evidence import EVIDENCE
 from probation.settings.noise import NOISE
+from probation.settings.reading import READING
+from probation.settings.remainder import REMAINDER
 from probation.settings.search import SEARCH
+from probation.settings.smoothing import SMOOTHING
 
 GROUPS: dict[str, Any] = {
+    "reading": READING,
+    "smoothing": SMOOTHING,
     "detection": DETECTION,
+    "effects": EFFECTS,
     "noise": NOISE,
     "evidence": EVIDENCE,
     "calibrated": CALIBRATED,
     "search": SEARCH,
+    "remainder": REMAINDER,
     "design": DESIGN,
     "comparison": COMPARISON,
     "certificate": CERTIFICATE,
+    "companion": COMPANION,
 }
 """By the file in ``probation/settings``."""
 
@@ -54,8 +64,8 @@ def settings_page() -> str:
     return "\n".join(parts)
 
 
-def _value(value: float | tuple[float, ...]) -> str:
-    return ", ".join(f"{each:g}" for each in value) if isinstance(value, tuple) else f"{value:g}"
+def _value(value: float | tuple[Any, ...]) -> str:
+    return ", ".join(map(_value, value)) if isinstance(value, tuple) else f"{value:g}"
 
 
 def _origin(known: Any) -> str:

@@ -201,6 +201,48 @@ class SearchSettings:
         origin="chosen",
         used_in="diagnosis/search.py",
     )
+    largest_start: float = setting(
+        2.0,
+        "Prior scales within which searches begin.",
+        unit="prior scales",
+        origin="chosen",
+        used_in="inference/candidate.py",
+    )
+    settled: float = setting(
+        0.02,
+        "A refit ends where a step would lower the objective by less than this.",
+        unit="log evidence",
+        origin="chosen",
+        used_in="inference/refit.py",
+    )
+    sharp_steps: int = setting(
+        6,
+        "Gauss-Newton steps of an effect with a frequency or an instant where there is no gap.",
+        unit="steps",
+        origin="chosen",
+        used_in="diagnosis/linear.py",
+    )
+    sharp_places: int = setting(
+        3,
+        "Forms and places of such an effect that are refitted, those with the best score.",
+        unit="places",
+        origin="chosen",
+        used_in="diagnosis/linear.py",
+    )
+    budget_of_search: float = setting(
+        0.6,
+        "Part of the budget after which no further hypothesis is begun.",
+        unit="budget",
+        origin="chosen",
+        used_in="diagnosis/budget.py",
+    )
+    budget_of_design: float = setting(
+        0.75,
+        "Part of the budget after which isolability and the next test are not begun.",
+        unit="budget",
+        origin="chosen",
+        used_in="diagnosis/diagnose.py",
+    )
 
 
 SEARCH = SearchSettings()

@@ -14,6 +14,7 @@ from probation._arrays import FloatArray
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.results.rendering import Plotted, Result
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import differences
 from probation.smoothing.excitation import Excitation, excite
 from probation.smoothing.necking import NeckingFit, fit_necking
@@ -24,21 +25,6 @@ if TYPE_CHECKING:
 
     from probation.records.record import Record
     from probation.smoothing.methods import Method
-
-NEAR_ZERO = 0.02
-"""Rates below this part of the largest have no relative error worth telling: holds and turning points."""
-
-VARIES = 1.05
-"""A rate that varies by less than this factor is constant."""
-
-UNCERTAIN = 20.0
-"""Standard errors of the rate over their median beyond which a sample does not count in the range of the rate."""
-
-CORRELATED = 1.2
-"""Inflation from which on noise is said to be correlated."""
-
-FAR = 8.0
-"""Residuals beyond so many standard deviations of the noise are warnings."""
 
 CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se_per_s"
 
@@ -107,16 +93,16 @@ class RecordExcitation(Plotted):
     def relative_error(self) -> FloatArray:
         """Standard error over the rate where it is not near zero, shape (at most n_times,) [-]."""
         rate = np.abs(self.excitation.rate)
-        moving = rate > NEAR_ZERO * rate.max()
+        moving = rate > SMOOTHING.near_zero * rate.max()
         return np.asarray(self.excitation.rate_se[moving] / rate[moving])
 
     @property
     def verdict(self) -> str:
         """One line: the rate, how well it is known, its jumps."""
         rate, error = self.excitation.rate, self.excitation.rate_se
-        known = rate[error <= UNCERTAIN * float(np.median(error))]  # a start's few samples are known poorly
+        known = rate[error <= SMOOTHING.uncertain * float(np.median(error))]  # a start's few samples are known poorly
         low, high = float(known.min()), float(known.max())
-        if low > 0.0 and high < VARIES * low:
+        if low > 0.0 and high < SMOOTHING.varies * low:
             said = f"strain rate {float(np.median(rate)):.3g} 1/s"
         elif low > 0.0:
             said = f"strain rate {low:.2g} … {high:.2g} 1/s (×{high / low:.2g})"
@@ -135,7 +121,7 @@ class RecordExcitation(Plotted):
         """What a reader should know."""
         excitation = self.excitation
         warnings = list(self.record.warnings)
-        if excitation.noise_inflation > CORRELATED:
+        if excitation.noise_inflation > SMOOTHING.correlated:
             warnings.append(
                 "neighbouring samples err together: slow averages of the strain noise vary "
                 f"{excitation.noise_inflation:.2g} times as much as white noise; the standard errors say so"
@@ -190,14 +176,15 @@ class RecordExcitation(Plotted):
 
     def _missed(self) -> str:
         """Where the used strain misses the measured one by far more than noise, such as the run-up of a machine."""
-        off = np.flatnonzero(np.abs(self.residual) > FAR * self.excitation.strain_noise)
+        off = np.flatnonzero(np.abs(self.residual) > SMOOTHING.far_residual * self.excitation.strain_noise)
         if self.excitation.operators is None or not off.size or self.excitation.strain_noise == 0.0:
             return ""
         first = ", ".join(f"{self.time[at]:.4g}" for at in off[:3])
+        more = ", …" if off.size > 3 else ""
         return (
-            f"{off.size} sample{'s are' if off.size > 1 else ' is'} off by more than {FAR:.0f} times the noise, at "
-            f"{first}{', …' if off.size > 3 else ''} s: the strain is sharper there than the method follows, or they "
-            "are outliers; raw takes them as they are"
+            f"{off.size} sample{'s are' if off.size > 1 else ' is'} off by more than "
+            f"{SMOOTHING.far_residual:.0f} times the noise, at {first}{more} s: the strain is sharper there than the "
+            "method follows, or they are outliers; raw takes them as they are"
         )
 
 

@@ -11,23 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.records.noise import robust_deviation
+from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-LONGEST = 40
-"""Samples over which an average is looked for at most ..."""
-
 PART = 16
 """... and that part of all samples."""
 
-LEVEL = 1.35
-"""A variance that grows by less than this factor over lags up to `BEYOND` times as long has come to its level."""
-
 BEYOND = 2
-
-ROUGH = 4.0
-"""Factor by which the variance of rough noise grows at most where the lag doubles: 2 for averages, 16 for a curve."""
 
 ORDERS = (2, 4)
 """Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
@@ -49,16 +41,16 @@ def averaged_inflation(values: FloatArray) -> float:
 
 
 def _by_differences(values: FloatArray, order: int) -> float:
-    most = min(LONGEST, len(values) // (PART * order)) * BEYOND
+    most = min(SMOOTHING.longest_average, len(values) // (PART * order)) * BEYOND
     weights = _autocorrelated(order)
     variance = np.array([_variance(values, lag, order) for lag in range(1, most + 1)])
     if most < 2 * BEYOND or variance[0] == 0.0:
         return 1.0
     for lag in range(1, most // BEYOND + 1):
         here = variance[lag - 1]
-        if variance[2 * lag - 1] > ROUGH * here:
+        if variance[2 * lag - 1] > SMOOTHING.rough * here:
             return 1.0
-        if np.max(variance[lag - 1 : BEYOND * lag]) <= LEVEL * here:
+        if np.max(variance[lag - 1 : BEYOND * lag]) <= SMOOTHING.levelled * here:
             return _inflation(variance[: lag - 1], float(np.median(variance[lag - 1 : BEYOND * lag])), weights)
     return 1.0
 

@@ -16,28 +16,17 @@ from probation.law.history import StrainHistory
 from probation.law.refinement import fine_time, refine
 from probation.records.noise import scatter
 from probation.results.data import CURVE, LEFT_OUT, WithCurves
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import differences, differences_error
 from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.smoothing.operators import Operators
 from probation.smoothing.segmented import smooth_segments
-from probation.smoothing.segments import CLEAN, find_jumps
+from probation.smoothing.segments import find_jumps
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation.records.record import Record
-
-RATE_NOISE = 2e-3
-"""Smooth where the differenced strain's noise exceeds this fraction of the typical rate."""
-
-MISSES = 10.0
-"""A smoother that leaves so many times what neighbouring samples scatter by has missed the history itself."""
-
-TURN = 0.02
-"""A segment that comes back by more than this fraction of the record's strain range has no single direction."""
-
-BEYOND_NOISE = 10.0
-"""Standard deviations of its noise by which the strain comes back in earnest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,7 +208,7 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
         smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise, lagging=way.lagging)
     except InputError as error:
         raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
-    if automatic and smoothed.noise > MISSES * max(noise, CLEAN):
+    if automatic and smoothed.noise > SMOOTHING.misses * max(noise, SMOOTHING.clean):
         return _as_measured(record, jumps, noise)
     # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
     noise = smoothed.noise if given is None else noise
@@ -265,13 +254,13 @@ def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
 
 
 def _rate_is_noisy(record: Record, noise: float) -> bool:
-    """Whether three-point differences of the strain scatter by more than `RATE_NOISE` of the typical rate."""
-    if noise < CLEAN:
+    """Whether three-point differences of the strain scatter by more than `rate_noise` of the typical rate."""
+    if noise < SMOOTHING.clean:
         return False
     step = np.diff(record.time)
     typical = np.median(np.abs(np.diff(record.true_strain) / step))
     # (3 e+ - 4 e + e-) / 2 h has sqrt(26) / 2 times the noise over h.
-    return bool(np.sqrt(26.0) / 2.0 * noise / np.median(step) > RATE_NOISE * typical)
+    return bool(np.sqrt(26.0) / 2.0 * noise / np.median(step) > SMOOTHING.rate_noise * typical)
 
 
 def _direction(record: Record, true_strain: FloatArray, jumps: list[int], noise: float) -> FloatArray:
@@ -279,7 +268,7 @@ def _direction(record: Record, true_strain: FloatArray, jumps: list[int], noise:
     direction = np.zeros(len(true_strain) - 1)
     if record.control in ("cyclic", "other"):
         return direction
-    turn = max(TURN * float(np.ptp(true_strain)), BEYOND_NOISE * noise)
+    turn = max(SMOOTHING.turn * float(np.ptp(true_strain)), SMOOTHING.beyond_noise * noise)
     borders = [0, *jumps, len(true_strain) - 1]
     for first, last in pairwise(borders):
         sign = 1.0 if true_strain[last] >= true_strain[first] else -1.0
@@ -287,7 +276,7 @@ def _direction(record: Record, true_strain: FloatArray, jumps: list[int], noise:
         back = np.maximum.accumulate(along) - along
         if np.max(back) <= turn:
             direction[first:last] = sign
-            for fall in _falls(along, BEYOND_NOISE * noise):
+            for fall in _falls(along, SMOOTHING.beyond_noise * noise):
                 direction[first + fall.start : first + fall.stop] = 0.0
     return direction
 

@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 from probation.errors import InputError
 from probation.histories.necking import NECKING_SETS, NeckingHistory
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import NAME, differences, differences_error, differences_transposed
 from probation.smoothing.operators import Operators
 from probation.smoothing.sines import Sines, fit_sines
@@ -25,23 +26,8 @@ if TYPE_CHECKING:
 
 Signal = Literal["strain", "rate"]
 
-FEWEST = 40
-"""Samples that the fit needs."""
-
-BACK = 0.05
-"""A record that comes back by more than this part of its strain range does not neck."""
-
-LEAST_RATIO = 1.5
-"""Largest over smallest rate of a record that necks, at least."""
-
-WORST = 0.05
-"""Largest root mean square that (A-1) may leave, as a part of the strain range."""
-
 REFINED = 4
 """Starts that are refined, of all that are tried."""
-
-OUTLYING = 3.0
-"""Strains that are off by more than so many times the usual residual count less than squared."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +98,7 @@ class TwoSteps:
         robust = self.weights
         if self.signal == "strain":
             size = float(np.median(np.abs(robust * self.first_residual))) or 1.0
-            robust = robust / (1.0 + (robust * self.first_residual / (OUTLYING * size)) ** 2) ** 0.25
+            robust = robust / (1.0 + (robust * self.first_residual / (SMOOTHING.necking_outlier * size)) ** 2) ** 0.25
         first = np.linalg.pinv(robust[:, None] * jacobian, rcond=1e-10) * robust
         if not len(self.sines.frequencies):
             return jacobian, slopes, first
@@ -202,17 +188,17 @@ def _fitted(time_bytes: bytes, strain_bytes: bytes) -> NeckingFit:
     strain = _two_steps("strain", time, true_strain, np.ones_like(time), None)
     extent = float(np.ptp(true_strain))
     missed = float(np.sqrt(np.mean(strain.first_residual**2)))
-    if missed > WORST * extent:
+    if missed > SMOOTHING.necking_misfit * extent:
         raise InputError(
             f"(A-1) misses the strain by {missed:.2g} (rms), {100 * missed / extent:.1f} % of its range; "
-            f"expected a necking record that it describes to {100 * WORST:.0f} %"
+            f"expected a necking record that it describes to {100 * SMOOTHING.necking_misfit:.0f} %"
         )
     rates = strain.history.strain_rate(time - time[0])
     ratio = float(rates.max() / max(float(rates.min()), 1e-300))
-    if ratio < LEAST_RATIO:
+    if ratio < SMOOTHING.necking_rates:
         raise InputError(
-            f"found a strain rate that changes by a factor of {ratio:.3g} only, expected necking ({LEAST_RATIO} or "
-            "more), which (A-1) describes"
+            f"found a strain rate that changes by a factor of {ratio:.3g} only, expected necking "
+            f"({SMOOTHING.necking_rates} or more), which (A-1) describes"
         )
     measured = differences(time, true_strain)
     rate = _two_steps("rate", time, measured, 1.0 / differences_error(time), strain.history)
@@ -267,11 +253,13 @@ def _norms(left: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def _check(time: FloatArray, true_strain: FloatArray) -> None:
-    if len(time) < FEWEST:
-        raise InputError(f"found {len(time)} samples, expected {FEWEST} or more for (A-1) and sines")
+    if len(time) < SMOOTHING.fewest_for_necking:
+        raise InputError(
+            f"found {len(time)} samples, expected {SMOOTHING.fewest_for_necking} or more for (A-1) and sines"
+        )
     extent = float(np.ptp(true_strain))
     back = float(np.max(np.maximum.accumulate(true_strain) - true_strain))
-    if back > BACK * extent:
+    if back > SMOOTHING.necking_return * extent:
         raise InputError(
             f"found a strain that comes back by {back:.2g}, expected the rising strain of a necking specimen, "
             "which (A-1) describes"
@@ -317,7 +305,14 @@ def _fit_formula(
     size *= max(float(np.median(np.abs(found.fun))), 1e-12)  # a second time, outliers held at bay
     loss: Literal["soft_l1", "linear"] = "soft_l1" if signal == "strain" else "linear"
     found = least_squares(
-        residual, found.x, bounds=limits, loss=loss, f_scale=OUTLYING, ftol=1e-13, xtol=1e-13, gtol=1e-13
+        residual,
+        found.x,
+        bounds=limits,
+        loss=loss,
+        f_scale=SMOOTHING.necking_outlier,
+        ftol=1e-13,
+        xtol=1e-13,
+        gtol=1e-13,
     )
     history, offset, _ = solved(found.x)
     return history, offset

@@ -12,26 +12,18 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.averaging import averaged_inflation
 from probation.smoothing.operators import Operators
-from probation.smoothing.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
+from probation.smoothing.smoothed import ROUNDS, Smoothed, inflation, polynomial
 from probation.smoothing.transient import WithTransient
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.smoothing.transient import Transient
 
-SAMPLES_PER_KNOT = 8
-"""Fewer knots than samples by so much: correlated noise has less to hide in."""
-
 FEWEST_KNOTS, MOST_KNOTS, ALL_KNOTS = 40, 250, 500
 """... but at least and at most so many; up to `ALL_KNOTS` where the knots themselves are what holds the curve back."""
-
-EXHAUSTED = 0.9
-"""Degrees of freedom per knot from which on more knots are tried ..."""
-
-BETTER = 0.5
-"""... and kept, if they bring the residual below this part of what it was."""
 
 LEAST_TURNS = 2
 """Rounds in which smoothness and lags settle, at least."""
@@ -41,9 +33,6 @@ COARSE = 120
 
 NEIGHBOURHOOD = 0.05
 """Part of the samples over which the usual spacing is looked up."""
-
-CHANCE = 2.0
-"""Changes of the usual spacing by less than this factor are not by design."""
 
 
 def smooth_cubic(time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
@@ -167,12 +156,12 @@ def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transie
     if count < 4 * order + 2:
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     most = count // 2  # more would leave functions near the ends that no sample determines
-    knots = min(most, max(FEWEST_KNOTS, min(count // SAMPLES_PER_KNOT, MOST_KNOTS)))
+    knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
     found = _with_knots(time, true_strain, order, knots, lags)
-    while found.freedom > EXHAUSTED * knots and knots < min(most, ALL_KNOTS):
+    while found.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
         finer = _with_knots(time, true_strain, order, knots, lags)
-        if finer.noise > BETTER * found.noise:
+        if finer.noise > SMOOTHING.better * found.noise:
             break
         found = finer
     return found
@@ -189,7 +178,7 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
     grown, taken, spent = averaged_inflation(true_strain), np.zeros_like(true_strain), 0.0
     joint: WithTransient | None = None
     for turn in range(ROUNDS):
-        score = Score(basis, true_strain - taken, PRUDENCE * grown)
+        score = Score(basis, true_strain - taken, SMOOTHING.prudence * grown)
         shrink = score.best()
         left = true_strain - taken - basis.values @ (shrink * score.weights)
         before, grown = grown, max(grown, inflation(left))
@@ -227,11 +216,11 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
 def _spacing(x: FloatArray) -> FloatArray:
     """The usual spacing around each sample over that of the record, shape (n,).
 
-    Gaps and jitter leave no trace, nor does a change by less than `CHANCE`.
+    Gaps and jitter leave no trace, nor does a change by less than `changed_spacing`.
     """
     step = np.diff(x)
     width = max(2 * int(0.5 * NEIGHBOURHOOD * len(step)) + 1, 5)
     usual = np.log(median_filter(step, width, mode="nearest") / np.median(step))
-    usual = np.sign(usual) * np.maximum(np.abs(usual) - np.log(CHANCE), 0.0)
+    usual = np.sign(usual) * np.maximum(np.abs(usual) - np.log(SMOOTHING.changed_spacing), 0.0)
     spacing: FloatArray = np.exp(np.concatenate([usual[:1], 0.5 * (usual[1:] + usual[:-1]), usual[-1:]]))
     return spacing

@@ -6,17 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.operators import Operators
-from probation.smoothing.smoothed import PRUDENCE, ROUNDS, Smoothed, inflation, polynomial
+from probation.smoothing.smoothed import ROUNDS, Smoothed, inflation, polynomial
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-ORDER = 3
-"""Of the polynomial: the strain inside the record as of order 2, the rate as of order 4."""
-
-SMALLEST = 7
-"""Smallest window [samples]."""
 
 WINDOWS = 24
 """Windows that are tried, up to the whole segment."""
@@ -31,14 +26,14 @@ AT_ONCE = 4_000_000
 def smooth_savitzky_golay(time: FloatArray, true_strain: FloatArray) -> Smoothed:
     """Smooth by local cubics; on even samples those of `scipy.signal.savgol_filter` with its polynomial ends."""
     count = len(time)
-    if count < SMALLEST + 2:
+    if count < SMOOTHING.smallest_window + 2:
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     largest = count - 1 + count % 2
-    sizes = np.geomspace(SMALLEST, largest, WINDOWS)
+    sizes = np.geomspace(SMOOTHING.smallest_window, largest, WINDOWS)
     tried = [LocalCubics(time, true_strain, window) for window in sorted({2 * int(size / 2) + 1 for size in sizes})]
     grown = 1.0
     for _ in range(ROUNDS):
-        found = tried[int(np.argmin([each.score(PRUDENCE * grown) for each in tried]))]
+        found = tried[int(np.argmin([each.score(SMOOTHING.prudence * grown) for each in tried]))]
         before, grown = grown, max(grown, inflation(true_strain - found.strain))
         if grown < 1.02 * before:
             break
@@ -122,7 +117,9 @@ def _inner(time: FloatArray, window: int) -> tuple[FloatArray, FloatArray]:
     step = np.diff(time)
     if np.ptp(step) <= EVEN * np.median(step):
         spacing = float(step.mean())
-        strain, rate = (savgol_coeffs(window, ORDER, deriv, spacing, use="dot")[None, None] for deriv in (0, 1))
+        strain, rate = (
+            savgol_coeffs(window, SMOOTHING.polynomial_order, deriv, spacing, use="dot")[None, None] for deriv in (0, 1)
+        )
         return strain, rate
     windows = np.lib.stride_tricks.sliding_window_view(time, window)
     batch = max(AT_ONCE // (4 * window), 1)
@@ -136,7 +133,7 @@ def _cubic(windows: FloatArray, at: slice) -> tuple[FloatArray, FloatArray]:
     middle = 0.5 * (windows[:, :1] + windows[:, -1:])
     half = 0.5 * (windows[:, -1:] - windows[:, :1])
     x = (windows - middle) / half
-    powers = np.arange(ORDER + 1)
+    powers = np.arange(SMOOTHING.polynomial_order + 1)
     basis, triangle = np.linalg.qr(x[..., None] ** powers)
     inverse = np.linalg.solve(triangle, basis.transpose(0, 2, 1))
     points = x[:, at, None]

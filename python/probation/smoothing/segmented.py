@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import Smoothed, Smoother, polynomial
 from probation.smoothing.transient import SIDE, Transient, rate_change
@@ -17,15 +18,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.smoothing.smoothed import LaggingSmoother
-
-ENOUGH = 12
-"""A segment with so many samples or more does without the sample at the jump."""
-
-NEAR = 3.0
-"""Sides that differ by fewer standard errors at a jump are averaged there."""
-
-SHORTEST = 4
-"""Segments with fewer samples get a straight line."""
 
 
 def smooth_segments(
@@ -70,7 +62,7 @@ def smooth_segments(
         sides = np.array([before.true_strain[-1], after.true_strain[0]])
         errors = np.array([before.strain_error[-1], after.strain_error[0]])
         share = np.array([0.5, 0.5])
-        if abs(sides[1] - sides[0]) > NEAR * noise * float(np.hypot(*errors)):
+        if abs(sides[1] - sides[0]) > SMOOTHING.same_at_jump * noise * float(np.hypot(*errors)):
             share = (np.abs(sides - true_strain[jump]) == np.abs(sides - true_strain[jump]).min()).astype(np.float64)
             share /= share.sum()
         strain[jump] = float(share @ sides)
@@ -109,13 +101,13 @@ class _Segment:
         lengths = np.diff(borders)
 
         def left_out(inner: int) -> bool:
-            return 0 < inner < len(borders) - 1 and min(lengths[inner - 1], lengths[inner]) > ENOUGH
+            return 0 < inner < len(borders) - 1 and min(lengths[inner - 1], lengths[inner]) > SMOOTHING.without_jump
 
         skip, drop = int(left_out(at)), int(left_out(at + 1))
         whole = time[first : last + 1]
         inside = slice(skip, len(whole) - drop)
         values = true_strain[first : last + 1][inside]
-        few = len(values) < SHORTEST
+        few = len(values) < SMOOTHING.shortest_curve
         if lagging and len(values) > SIDE:
             change = rate_change(time, true_strain, first, borders[at - 1] if at else first, last)
             smoother = partial(

@@ -9,25 +9,14 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from probation import _core
+from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-LEAST_CHANGE = 0.3
-"""A jump changes the slope by this fraction of the steeper side, or more."""
-
-SIGNIFICANCE = 8.0
-"""... and by this many standard errors."""
-
-EVIDENCE = 12.0
-"""... and its corner leaves less than the best cubic does: in the sum of squares, so many variances of the noise."""
-
 SMALLEST_WINDOW, LARGEST_WINDOW = 8, 60
 WIDER = (1, 3, 5)
 """Windows so many times larger are searched: noisier jumps stand out in the larger ones, such as the end of a wait."""
-
-CLEAN = 1e-9
-"""Strain noise below which the samples are taken as they are."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +32,10 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     """Indices at which the strain rate is discontinuous.
 
     Clean samples are searched step by step (`History.find_rate_jumps`). Noisy ones are searched with straight lines
-    through a window on each side: their slopes must differ by `LEAST_CHANGE` of the steeper one and by `SIGNIFICANCE`
-    standard errors (of the samples around, where they scatter more), most so within a window, and the corner between
-    them must describe the samples better than a cubic by `EVIDENCE`. It is put where it leaves least.
+    through a window on each side: their slopes must differ by `least_jump` of the steeper one and by
+    `jump_significance` standard errors (of the samples around, where they scatter more), most so within a window, and
+    the corner between them must describe the samples better than a cubic by `jump_evidence`. It is put where it
+    leaves least.
 
     Parameters
     ----------
@@ -59,7 +49,7 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     list of int
         Increasing; neither end is among them.
     """
-    if noise < CLEAN:
+    if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
     jumps: list[int] = []
     smallest = int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
@@ -79,8 +69,8 @@ def _jumps_in_windows(
     # A slow part of the record may bend without a jump: its slopes are small beside the record's own speed.
     speed = np.median(np.abs(np.concatenate([slopes.before, slopes.after])))
     stands_out = (
-        (change > LEAST_CHANGE * np.maximum(steepest, 0.2 * speed))
-        & (change > SIGNIFICANCE * slopes.standard_error)
+        (change > SMOOTHING.least_jump * np.maximum(steepest, 0.2 * speed))
+        & (change > SMOOTHING.jump_significance * slopes.standard_error)
         & (change == maximum_filter1d(change, window))
     )
     jumps: list[int] = []
@@ -89,7 +79,10 @@ def _jumps_in_windows(
         if any(abs(centre - jump) <= window for jump in known + jumps):
             continue
         corner = _corner(time, true_strain, centre, window, noise)
-        if corner is not None and corner.change > SIGNIFICANCE * slopes.standard_error[index] * corner.scatter / noise:
+        if (
+            corner is not None
+            and corner.change > SMOOTHING.jump_significance * slopes.standard_error[index] * corner.scatter / noise
+        ):
             jumps.append(corner.at)
     return jumps
 
@@ -119,7 +112,7 @@ class _Corner:
 
 
 def _corner(time: FloatArray, values: FloatArray, centre: int, window: int, noise: float) -> _Corner | None:
-    """The corner around `centre` that leaves least, if it leaves `EVIDENCE` less than the best cubic.
+    """The corner around `centre` that leaves least, if it leaves `jump_evidence` less than the best cubic.
 
     A smooth curve that bends much has different slopes on either side, too, but a cubic describes it as well.
     """
@@ -135,4 +128,4 @@ def _corner(time: FloatArray, values: FloatArray, centre: int, window: int, nois
             least, best, change = cost, offset, abs(float(solution[2]))
     scatter = max(float(np.sqrt(least / (len(y) - 3))), noise)
     evidence = float(np.sum((y - smooth(t)) ** 2)) - least
-    return _Corner(centre + best, change, scatter) if evidence > EVIDENCE * scatter**2 else None
+    return _Corner(centre + best, change, scatter) if evidence > SMOOTHING.jump_evidence * scatter**2 else None

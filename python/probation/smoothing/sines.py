@@ -9,21 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import least_squares
 
+from probation.settings.smoothing import SMOOTHING
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
-
-MOST = 8
-"""Most sines that are tried."""
-
-FASTEST = 30.0
-"""Highest frequency [cycles per record]; and never fewer than `SAMPLES` samples to a cycle."""
-
-SLOWEST = 0.5
-"""Lowest frequency [cycles per record]."""
-
-SAMPLES = 8
 
 PATIENCE = 3
 """Sines that are added in vain before the search ends."""
@@ -95,10 +86,10 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
     x, means, sums = _blocks((time - start) / duration, residual, weight)  # frequencies in cycles per record
     fit = partial(_Fit, x, sums, sums * means)
     count = len(x)
-    grid = np.arange(SLOWEST, min(FASTEST, count / SAMPLES), 0.25)
+    grid = np.arange(SMOOTHING.slowest_sine, min(SMOOTHING.fastest_sine, count / SMOOTHING.samples_per_cycle), 0.25)
     turns = np.exp(2j * np.pi * np.outer(grid, x))
     found = [fit(np.empty(0))]
-    while len(found) <= min(MOST, len(grid) // 4) and not _settled(found):
+    while len(found) <= min(SMOOTHING.most_sines, len(grid) // 4) and not _settled(found):
         peak = grid[int(np.argmax(np.abs(turns @ (sums * found[-1].rest))))]
         found.append(_refined(fit, np.append(found[-1].frequencies, peak), float(grid[-1])))
     criteria = _criteria(found)
@@ -159,11 +150,11 @@ def _wave_slopes(t: FloatArray, frequencies: FloatArray) -> FloatArray:
 
 def _refined(fit: Callable[[FloatArray], _Fit], start: FloatArray, highest: float) -> _Fit:
     """The frequencies near `start` that leave the least."""
-    inside = np.clip(start, SLOWEST + 1e-6, highest - 1e-6)
+    inside = np.clip(start, SMOOTHING.slowest_sine + 1e-6, highest - 1e-6)
     size = float(np.std(fit(inside).rest)) or 1.0
 
     def rest(frequencies: FloatArray) -> FloatArray:
         return fit(frequencies).rest / size
 
-    found = least_squares(rest, inside, bounds=(SLOWEST, highest), max_nfev=60)
+    found = least_squares(rest, inside, bounds=(SMOOTHING.slowest_sine, highest), max_nfev=60)
     return fit(np.asarray(found.x))

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from probation.smoothing.transient import Transient
 
 
-PRUDENCE = 1.4
-"""Each degree of freedom counts this often in the cross-validation, which otherwise follows the noise now and then."""
-
 ROUNDS = 20
 """Most rounds between smoothness and the autocorrelation of the residual."""
 

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.smoothing import SMOOTHING
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -23,14 +25,6 @@ INTERVALS = (0.5, 1.0, 2.0, 4.0)
 
 SIDE = 12
 """Samples beside a border whose slope is the rate there."""
-
-
-CAUTION = 12.0
-"""Twice the logarithm of the odds against lags from which on they are left out: what the strain does not show plainly
-the stress may, since the law is stiffest at a start."""
-
-LEAST_NOISE = 1e-6
-"""Of a strain without noise, over the lags."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +102,14 @@ class WithTransient:
             Standard deviation of their slow noise [-].
         """
         left = lags.strain - smooth(lags.strain)
-        variance = max(noise, LEAST_NOISE * float(np.max(np.abs(lags.strain), initial=0.0)), 1e-150) ** 2
+        variance = (
+            max(noise, SMOOTHING.least_strain_noise * float(np.max(np.abs(lags.strain), initial=0.0)), 1e-150) ** 2
+        )
         normal = np.eye(left.shape[1]) + lags.strain.T @ left / variance
         covariance = np.asarray(np.linalg.inv(normal) / variance, dtype=np.float64)
         pull = left.T @ values
         evidence = float(pull @ covariance @ pull) / variance - float(np.linalg.slogdet(normal)[1])
-        return cls(lags, left, covariance @ left.T, covariance) if evidence > -CAUTION else None
+        return cls(lags, left, covariance @ left.T, covariance) if evidence > -SMOOTHING.lag_caution else None
 
     @property
     def freedom(self) -> float:

@@ -8,14 +8,12 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.law.modification import Modification
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.effects.record_view import RecordView
-
-_FEWEST = 3
-"""Records from which on a change from test to test is more than a difference of two specimens."""
 
 _LOSS = EffectParameter(
     "log_modulus_loss", "", -1.0, 1.5, 0.1, "moisture takes some tenths of a polyamide's modulus; ageing adds some"
@@ -49,7 +47,7 @@ def _changed(view: RecordView, loss: float, power: float) -> Modification:
 
 
 def _several(views: Sequence[RecordView]) -> bool:
-    return len({view.specimen_id or view.id for view in views}) >= _FEWEST
+    return len({view.specimen_id or view.id for view in views}) >= EFFECTS.fewest_in_order
 
 
 EFFECT = Effect(

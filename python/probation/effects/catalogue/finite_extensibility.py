@@ -8,13 +8,11 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.law.modification import Modification
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-
-_LOCKED = 0.95
-"""Part of the locking limit from which on the stiffening goes on straight: the law stays finite beyond."""
 
 _AMPLITUDE = EffectParameter(
     name="inverse_extensibility",
@@ -29,8 +27,8 @@ _AMPLITUDE = EffectParameter(
 def _gent(view: RecordView, values: Values) -> Modification:
     """Gent: G over 1 - a (I_1 - 3), a = 1 / J_m."""
     used = values[0] * view.first_invariant
-    free = 1.0 - np.minimum(used, _LOCKED)
-    return Modification(hardening_factor=1.0 / free + np.maximum(used - _LOCKED, 0.0) / free**2)
+    free = 1.0 - np.minimum(used, EFFECTS.locked)
+    return Modification(hardening_factor=1.0 / free + np.maximum(used - EFFECTS.locked, 0.0) / free**2)
 
 
 def _langevin(view: RecordView, values: Values) -> Modification | None:
@@ -44,14 +42,16 @@ def _langevin(view: RecordView, values: Values) -> Modification | None:
 
 
 def _stiffening(part: FloatArray) -> FloatArray:
-    """L^-1(y) / 3y, straight beyond `_LOCKED`."""
-    y = np.minimum(part, _LOCKED)
+    """L^-1(y) / 3y, straight beyond `locked`."""
+    y = np.minimum(part, EFFECTS.locked)
     found = inverse_langevin(y) / (3.0 * y)
-    beyond = part > _LOCKED
+    beyond = part > EFFECTS.locked
     if np.any(beyond):
         step = 1e-4
-        low, high = inverse_langevin(np.array([_LOCKED - step, _LOCKED])) / (3.0 * np.array([_LOCKED - step, _LOCKED]))
-        found = found + (high - low) / step * np.maximum(part - _LOCKED, 0.0)
+        low, high = inverse_langevin(np.array([EFFECTS.locked - step, EFFECTS.locked])) / (
+            3.0 * np.array([EFFECTS.locked - step, EFFECTS.locked])
+        )
+        found = found + (high - low) / step * np.maximum(part - EFFECTS.locked, 0.0)
     return found
 
 

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-
-_SURGE = 2.0
-"""Largest over median strain rate, under grips at one speed, from which on a section necks."""
 
 _ONSET = EffectParameter(
     name="neck_strain",
@@ -51,7 +49,7 @@ def _necks(views: Sequence[RecordView]) -> bool:
     for view in views:
         if view.control == "displacement-rate":
             rate = view.rate
-            if float(np.max(rate)) > _SURGE * float(np.median(rate)):
+            if float(np.max(rate)) > EFFECTS.necking_rate_ratio * float(np.median(rate)):
                 return True
     return False
 

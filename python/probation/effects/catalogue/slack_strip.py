@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
 _LOADED, _NONE = 0.1, 0.02
 """Parts of the largest force above which a record has been loaded, and within which there is no force."""
-
-_FEWEST = 5
-"""Samples without force in a row that are more than a crossing of zero."""
 
 _SIZE = EffectParameter("slack_part", "", 0.0, 1.0, 1.0, "a thin strip buckles at once (1), a stout bar never (0)")
 
@@ -35,7 +33,7 @@ def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
     back = view.sampled(view.true_strain) < view.sampled(view.largest_strain)
     slack = loaded & back & (np.abs(force) < _NONE * largest)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], slack.astype(np.int8), [0]])))
-    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a >= _FEWEST]
+    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a >= EFFECTS.fewest_slack]
 
 
 def _inside(view: RecordView) -> NDArray[np.bool_]:

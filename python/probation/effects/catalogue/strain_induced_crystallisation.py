@@ -8,15 +8,13 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.law.modification import Modification
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
-
-_STRETCHED = 0.5
-"""Largest strain of a campaign from which on crystals may form: a stretch of 1.65."""
 
 _ONSET = EffectParameter(
     name="onset_strain",
@@ -59,7 +57,7 @@ def _carried(view: RecordView, values: Values) -> Modification:
 
 
 def _stretched(views: Sequence[RecordView]) -> bool:
-    return max(float(np.max(view.largest_strain)) for view in views) > _STRETCHED
+    return max(float(np.max(view.largest_strain)) for view in views) > EFFECTS.crystallising_strain
 
 
 EFFECT = Effect(

@@ -3,11 +3,9 @@
 import numpy as np
 
 from probation.records.record import FloatArray, Record
+from probation.settings.reading import READING
 
 _STRETCHES = 20
-_STEADY = 0.1  # relative scatter of the rate over stretches below which a rate counts as constant
-_STILL = 0.05  # of the fastest stretch: slower is a hold
-_HELD = 0.5  # share of the time that stands still, from which on the test is a hold
 
 
 def guess_control(record: Record) -> str:
@@ -21,8 +19,8 @@ def guess_control(record: Record) -> str:
     fastest = float(np.abs(rates).max())
     if fastest == 0.0:
         return "other"
-    moving = rates[np.abs(rates) > _STILL * fastest]
-    if len(rates) - len(moving) >= _HELD * len(rates):
+    moving = rates[np.abs(rates) > READING.still_rate * fastest]
+    if len(rates) - len(moving) >= READING.held_share * len(rates):
         return "hold"
     if (moving > 0).any() and (moving < 0).any():
         return "cyclic"
@@ -32,7 +30,7 @@ def guess_control(record: Record) -> str:
     }
     scatter = {name: float(np.std(values) / abs(np.mean(values))) for name, values in drives.items() if values.mean()}
     steadiest = min(scatter, key=lambda name: scatter[name], default="other")
-    return steadiest if steadiest == "other" or scatter[steadiest] < _STEADY else "other"
+    return steadiest if steadiest == "other" or scatter[steadiest] < READING.steady_rate else "other"
 
 
 def _rates(time: FloatArray, strain: FloatArray) -> FloatArray:
