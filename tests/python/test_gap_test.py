@@ -9,11 +9,13 @@ from scipy.optimize import least_squares
 import probation
 from campaigns import gap_noise
 from probation.detection.gap_test import GapTester, gap_test
+from probation.detection.sharp_gap import with_sharp
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
 from probation.noise.arma import Arma
 from probation.noise.estimate import estimate_noise
 from probation.noise.model import NoiseModel
 from probation.noise.whitening import Whitened
+from probation.settings.detection import DETECTION
 
 COUNT = 300
 
@@ -125,6 +127,18 @@ def test_the_verdict_is_also_given_for_less_and_for_more_noise():
     found = gap_test(whitened)
     assert found.p_value_low_noise <= found.p_value <= found.p_value_high_noise
     assert sum(found.record_share.values()) == pytest.approx(1.0)
+
+
+def test_a_sharp_gap_is_also_judged_with_less_and_with_more_noise():
+    """A wave of 40 cycles, which no smooth curve follows: at 1.25 times the noise its power counts 1.56 times less."""
+    bias = [0.0 * t.time for t in gap_noise.campaign(COUNT)]
+    bias[4] = 0.7 * gap_noise.SIGMA * np.sin(80 * np.pi * np.arange(COUNT) / COUNT)
+    whitened = Whitened.of(gap_noise.records("white", np.random.default_rng(5), COUNT, bias))
+    found = with_sharp(gap_test(whitened), whitened)
+    assert found.p_value == pytest.approx(found.p_values["lines"] / DETECTION.sharp_share)
+    assert found.p_value < 1e-3
+    assert found.p_value_low_noise < 0.1 * found.p_value
+    assert found.p_value_high_noise > 10.0 * found.p_value
 
 
 def test_an_effect_that_the_base_parameters_absorb_is_left_out():
