@@ -15,7 +15,7 @@ from probation.effects.cause import Cause
 from probation.inference import evidence as module
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.evidence import evidence
-from probation.inference.form_error import form_columns
+from probation.inference.form_error import form_freedom
 from probation.settings.evidence import EVIDENCE
 
 COUNT = 60
@@ -134,7 +134,10 @@ def test_the_forms_error_makes_it_the_density_of_correlated_data():
     waves = np.zeros((len(y), len(discrepancy)))
     for own, rows, place in zip(discrepancy.columns, discrepancy.slices, discrepancy.places, strict=True):
         waves[rows, place] = own
-    done = [float(np.sum((found.residual - base.residual)[rows] ** 2)) for rows in discrepancy.slices]
+    done = [
+        EVIDENCE.rig_form_error**2 * float(np.sum((found.residual - base.residual)[rows] ** 2))
+        for rows in discrepancy.slices
+    ]
     scores = []
     for error, weight in zip(EVIDENCE.form_errors, EVIDENCE.form_error_weights, strict=True):
         variance = np.concatenate(
@@ -157,8 +160,14 @@ def with_its_freedom(views, *effects):
     base = problem.solved(law, views)
     found = problem.solved(law, views, [Cause(each, each.forms[0]) for each in effects])
     discrepancy = Discrepancy.of(problem.whitened(base))
-    forms = form_columns(found, problem.whitener(views))
-    return evidence(found, base, discrepancy, forms=forms, unknown=False), found, forms, discrepancy, base
+    forms = form_freedom(found, problem.whitener(views))
+    return evidence(found, base, discrepancy, forms=forms, unknown=False), found, forms.columns, discrepancy, base
+
+
+def freedom_of(views, *effects):
+    """The freedom of the forms of some effects, refitted."""
+    found = problem.solved(problem.bar(), views, [Cause(each, each.forms[0]) for each in effects])
+    return form_freedom(found, problem.whitener(views))
 
 
 def test_the_freedom_of_a_form_is_integrated_over_exactly():
@@ -170,7 +179,7 @@ def test_the_freedom_of_a_form_is_integrated_over_exactly():
     y = np.concatenate([view.data for view in views]) / problem.SIGMA
     design = np.tile(np.column_stack([80.0 * STRAIN, np.sin(np.pi * STRAIN)]) / problem.SIGMA, (2, 1))
     free = forms - design @ np.linalg.lstsq(design, forms)[0]
-    done = discrepancy.energy(found.residual - base.residual)
+    done = EVIDENCE.rig_form_error**2 * discrepancy.energy(found.residual - base.residual)
     scores = []
     for error, weight in zip(EVIDENCE.form_errors, EVIDENCE.form_error_weights, strict=True):
         factor = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
@@ -193,6 +202,22 @@ def test_the_freedom_is_along_the_effects_own_coordinate_alike_in_all_records():
     of_the_force = replace(bump(), coordinate="force")
     other = with_its_freedom(views, of_the_force)[2]
     assert np.linalg.norm(other - forms) > 0.1 * np.linalg.norm(forms)
+
+
+def test_the_rest_of_two_effects_is_free_as_they_are_by_what_each_does():
+    """A fault of the rig has a quarter of a material's freedom; of both it is the mean variance, by their energies."""
+    views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN) + 4.0 * np.sin(2.0 * np.pi * STRAIN))])
+    rig = bump()
+    material = problem.effect(
+        lambda view, values: values[0] * np.sin(2.0 * np.pi * view.true_strain),
+        problem.parameter("other_size", -50.0, 50.0, 1.0),
+        name="other",
+        kind="material",
+    )
+    assert freedom_of(views, rig).variance == EVIDENCE.rig_form_error**2
+    assert freedom_of(views, material).variance == 1.0
+    assert freedom_of(views).variance == 1.0
+    assert EVIDENCE.rig_form_error**2 < freedom_of(views, rig, material).variance < 1.0
 
 
 def test_a_form_that_is_certainly_right_keeps_its_standard_errors():
@@ -306,9 +331,10 @@ def test_standard_errors_are_those_of_generalised_least_squares(no_form_error):
 
 
 def test_a_form_that_misses_the_truths_by_a_tenth_is_given_wider_standard_errors():
-    right, _ = judged(problem.views([noisy(100.0 * STRAIN + 30.0 * np.sin(np.pi * STRAIN))]), bump(scale=30.0))
+    material = replace(bump(scale=30.0), kind="material")
+    right, _ = judged(problem.views([noisy(100.0 * STRAIN + 30.0 * np.sin(np.pi * STRAIN))]), material)
     wrong = 100.0 * STRAIN + 30.0 * np.sin(np.pi * STRAIN) ** 1.3
-    missed, _ = judged(problem.views([noisy(wrong)]), bump(scale=30.0))
+    missed, _ = judged(problem.views([noisy(wrong)]), material)
     assert missed.form_error > 2.0 * right.form_error
     assert missed.covariance[1, 1] > 4.0 * right.covariance[1, 1]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.gap_test import GapTest, GapTester
-from probation.inference.form_error import form_columns
+from probation.inference.form_error import form_freedom
 from probation.noise.joint_noise import jointly_whitened
 from probation.settings.evidence import EVIDENCE
 
@@ -39,8 +39,9 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
     """
     discrepancy = base.discrepancy
     error = share * EVIDENCE.tolerated_form_error
-    done = discrepancy.energy(found.residual - base.refit.residual)
+    forms = form_freedom(found, base.whitener)
+    done = forms.variance * discrepancy.energy(found.residual - base.refit.residual)
     rest = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
-    allowed = np.hstack([rest, error * form_columns(found, base.whitener)])
+    allowed = np.hstack([rest, error * forms.columns])
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(base.whitened.with_residual(both[:, 0], both[:, 1:]), size=2000, seed=seed)()

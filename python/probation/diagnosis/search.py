@@ -15,8 +15,8 @@ from probation.diagnosis.skipped import Skipping
 from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
-from probation.inference.form_error import form_columns
-from probation.inference.refit import MOST_STEPS, SETTLED, Refit, refit
+from probation.inference.form_error import form_freedom
+from probation.inference.refit import MOST_STEPS, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
@@ -356,7 +356,7 @@ class Search:
                 part = min(
                     (other for keys, other in least.items() if keys < _keys(each)), key=lambda other: other.chi_square
                 )
-                if each.chi_square > part.chi_square + SETTLED:
+                if each.chi_square > part.chi_square + SEARCH.settled:
                     jobs.append((each.model, _with_others_absent(each, part)))
                     before.append(each)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
@@ -386,7 +386,7 @@ class Search:
         return judged
 
     def _weighed(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
-        forms = form_columns(found, self.base.whitener)
+        forms = form_freedom(found, self.base.whitener)
         return Hypothesis(found, evidence(found, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
 
     def _try_with_unknown(self) -> None:

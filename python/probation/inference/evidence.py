@@ -7,10 +7,11 @@ nearly all of it. So what an explanation leaves is let be noise, the freedom of 
     y ~ N(J d, I + s^2 F F^T + B (D + H) B^T),
 
 y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior. F are
-the effects' contributions times smooth functions of their own coordinates (`form_columns`), alike in all records; s is
+the effects' contributions times smooth functions of their own coordinates (`form_freedom`), alike in all records; s is
 the relative error of a form. B are smooth waves over every record, H slow noise along them that whitening has left
 (`noise.nuisance_drift`), D = (s/4)^2 lambda_r v the variance of a discrepancy that is no function of the coordinate:
-lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is integrated out, so that a form
+lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is a quarter as large, in F and in D,
+for a fault of the rig. s is integrated out, so that a form
 that is right is not charged for a freedom that it does not need. "Unknown" is the same with nothing but a discrepancy,
 of any size (Kennedy & O'Hagan 2001; docs/diagnosis-method.md, sections 4 and 7).
 """
@@ -23,6 +24,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
+from probation.inference.form_error import form_size
 from probation.inference.laplace import Linearised
 from probation.inference.unknown import log_evidence_of_unknown
 from probation.noise.span import span_of, without
@@ -31,10 +33,8 @@ from probation.settings.evidence import EVIDENCE
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.inference.discrepancy import Discrepancy
+    from probation.inference.form_error import FormFreedom
     from probation.inference.refit import Refit
-
-NEGLIGIBLE = 1e-3
-"""Mean relative error of a form below which it is taken for exact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ def evidence(
     base: Refit,
     discrepancy: Discrepancy,
     *,
-    forms: FloatArray | None = None,
+    forms: FormFreedom | None = None,
     unknown: bool = True,
 ) -> Evidence:
     """Evidence of an explanation, or of the base law itself.
@@ -78,21 +78,21 @@ def evidence(
     base : Refit
         Of the base law without causes.
     discrepancy : Discrepancy
-    forms : ndarray, shape (N, m), optional
-        Ways in which the forms may be wrong, by the relative size 1; see `form_columns`.
+    forms : FormFreedom, optional
+        Ways in which the forms may be wrong; left out, there is only the rest that is no function of a coordinate.
     unknown : bool
         Whether it is also judged jointly with an unknown effect; else its evidence is -inf.
     """
     plain = Linearised.of(found, discrepancy)
     free = plain
-    if forms is not None and forms.shape[1]:
+    columns: FloatArray | None = None
+    if forms is not None and forms.columns.shape[1]:
         # What the parameters follow is theirs. Left in, it would let the prior draw a large effect back to nothing
         # while the errors of its form, which are part of the effect, stay as large as they were.
-        forms = without(forms, span_of(found.jacobian))
-        free = Linearised.of(found, discrepancy, forms)
-    else:
-        forms = None
-    done = discrepancy.energy(found.residual - base.residual)
+        columns = without(forms.columns, span_of(found.jacobian))
+        free = Linearised.of(found, discrepancy, columns)
+    variance = forms.variance if forms else max((form_size(cause) ** 2 for cause in found.model.causes), default=1.0)
+    done = variance * discrepancy.energy(found.residual - base.residual)
     errors, weights = (EVIDENCE.form_errors, EVIDENCE.form_error_weights) if done.any() else ((0.0,), (1.0,))
 
     def with_error(error: float) -> tuple[Linearised, FloatArray]:
@@ -109,11 +109,11 @@ def evidence(
     posterior = np.exp(np.array(scores) - together)
     form_error = float(posterior @ np.array(errors))
     # A freedom of no size to speak of would cost the covariance's inverse all its digits.
-    size = form_error if form_error >= NEGLIGIBLE else 0.0
+    size = form_error if form_error >= EVIDENCE.negligible_form_error else 0.0
     problem, variances = with_error(size)
     covariance = problem.covariance(variances)
     with_unknown = (
-        log_evidence_of_unknown(problem, found, discrepancy, None if forms is None or size == 0.0 else size * forms)
+        log_evidence_of_unknown(problem, found, discrepancy, None if columns is None or size == 0.0 else size * columns)
         if unknown
         else -np.inf
     )

@@ -9,6 +9,7 @@ that acts much like another modulus little shows, and little may be wrong. A sec
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,8 +29,25 @@ if TYPE_CHECKING:
     from probation.noise.whitener import Whitener
 
 
-def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
-    """Whitened stress of every freedom of every cause, of the relative size 1; shape (N, m).
+@dataclass(frozen=True, eq=False)
+class FormFreedom:
+    """Ways in which the forms of an explanation may be wrong, by the relative size 1.
+
+    Attributes
+    ----------
+    columns : ndarray, shape (N, m)
+        Whitened stress of every polynomial along every cause's coordinate.
+    variance : float
+        Of the rest, which is no function of the coordinate, over that of an effect of the material: less for a fault
+        of the rig, whose form is known better; a mean over the causes by what each of them does to the records.
+    """
+
+    columns: FloatArray
+    variance: float
+
+
+def form_freedom(found: Refit, whitener: Whitener) -> FormFreedom:
+    """The freedom of every cause of an explanation.
 
     Parameters
     ----------
@@ -39,13 +57,22 @@ def form_columns(found: Refit, whitener: Whitener) -> FloatArray:
     """
     model = found.model
     columns = [np.zeros((len(found.residual), 0))]
+    energies, variances = [], []
     law = span_of(found.jacobian[:, : model.base_count])
     for cause, values in model.split(found.parameters)[1]:
         contribution = whitener.columns(model.contribution(found.parameters, cause)[:, None])
         seen = without(contribution, law)
-        size = 1.0 if cause.effect.kind == "material" else EVIDENCE.rig_form_error
+        size = form_size(cause)
         columns.append(size * seen * _waves(cause, values, model.views))
-    return np.hstack(columns)
+        energies.append(float(np.sum(seen**2)))
+        variances.append(size**2)
+    does = np.array(energies) if sum(energies) > 0.0 else np.ones(len(energies))
+    return FormFreedom(np.hstack(columns), float(np.average(variances, weights=does)) if variances else 1.0)
+
+
+def form_size(cause: Cause) -> float:
+    """How far a cause's form may be wrong, over that of an effect of the material."""
+    return 1.0 if cause.effect.kind == "material" else EVIDENCE.rig_form_error
 
 
 def _waves(cause: Cause, at: Values, views: Sequence[RecordView]) -> FloatArray:
