@@ -10,7 +10,7 @@ from probation.field.example import specimen
 from probation.field.example.superposition import superpose
 from probation.field.noise import scatter
 from probation.field.pixels import Pixels
-from probation.field.samples import alike, used_samples
+from probation.field.samples import of_equal_samples, used_samples
 from probation.field.smoothing import smoothed
 
 
@@ -41,7 +41,7 @@ def test_a_lost_start_loses_the_record():
 def test_pixels_that_share_their_instants_come_together():
     mask = np.ones((4, 20), dtype=bool)
     mask[1, 5] = mask[3, 5] = False
-    groups = sorted((pixels.tolist(), int(samples.sum())) for pixels, samples in alike(mask))
+    groups = sorted((pixels.tolist(), int(samples.sum())) for pixels, samples in of_equal_samples(mask))
     assert groups == [([0, 2], 20), ([1, 3], 19)]
 
 

@@ -154,7 +154,7 @@ class CalibratedCompanion:
         InputError
             If the law has another companion relation, or none; otherwise as `Law.sensitivity`.
         """
-        if law.companion is None or not _alike(law.companion, self.relation):
+        if law.companion is None or not _same_relation(law.companion, self.relation):
             raise InputError(f"law.companion is {law.companion}; expected the calibrated relation, {self.relation}")
         if self.covariance is None:
             raise InputError("the covariance of the companion relation is not known; calibrate it with standard errors")
@@ -228,7 +228,7 @@ class CalibratedCompanion:
         return cls(relation, np.array(known.covariance), known.log_scatter, known.unrelaxed_modulus_MPa)
 
 
-def _alike(one: Companion, other: Companion) -> bool:
+def _same_relation(one: Companion, other: Companion) -> bool:
     """The same relation, wherever it was calibrated."""
     names = [each.name for each in fields(one) if each.name != "calibrated"]  # type: ignore[arg-type]
     return type(one) is type(other) and all(getattr(one, name) == getattr(other, name) for name in names)

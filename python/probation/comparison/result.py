@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+from probation.diagnosis.result import EffectSize
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.rendering import Plotted, Summarised
 
@@ -19,24 +20,14 @@ Verdict = Literal["nothing_changed", "changed", "unknown_change"]
 
 
 @dataclass(frozen=True)
-class ChangedParameter:
+class ChangedParameter(EffectSize):
     """The size of a change.
 
     Attributes
     ----------
-    effect, name, unit : str
-        `name` carries the unit, too.
-    records : tuple of str
-        Ids of the records that it acts in.
-    value : float
     interval95 : (float, float)
     """
 
-    effect: str
-    name: str
-    unit: str
-    records: tuple[str, ...]
-    value: float
     interval95: tuple[float, float]
 
 

@@ -82,13 +82,13 @@ class _Share:
         Whether it reaches there.
     along : ndarray, shape (K,)
         Products of its residual with the bumps, whitened and projected.
-    alike : ndarray, shape (K, K)
+    overlap : ndarray, shape (K, K)
         Products of these with each other.
     """
 
     seen: NDArray[np.bool_]
     along: FloatArray
-    alike: FloatArray
+    overlap: FloatArray
 
 
 def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> _Share | None:
@@ -106,15 +106,15 @@ def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> 
 
 def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray[np.intp], width: float) -> Recurring:
     along = np.sum([share.along for share in shares.values()], axis=0)
-    alike = np.sum([share.alike for share in shares.values()], axis=0)
-    scores = along[shared] / np.sqrt(np.diag(alike)[shared])
+    overlap = np.sum([share.overlap for share in shares.values()], axis=0)
+    scores = along[shared] / np.sqrt(np.diag(overlap)[shared])
     best = int(np.argmax(np.abs(scores)))
     at = int(shared[best])
     squares, count, freedom = 0.0, 0, 0.0
     for share in shares.values():
-        norm = np.sqrt(np.diag(share.alike)[share.seen])
-        rest = (share.along - along[at] / alike[at, at] * share.alike[:, at])[share.seen] / norm
-        cosines = share.alike[np.ix_(share.seen, share.seen)] / np.outer(norm, norm)
+        norm = np.sqrt(np.diag(share.overlap)[share.seen])
+        rest = (share.along - along[at] / overlap[at, at] * share.overlap[:, at])[share.seen] / norm
+        cosines = share.overlap[np.ix_(share.seen, share.seen)] / np.outer(norm, norm)
         squares += float(rest @ rest)
         count += len(norm)
         freedom += len(norm) ** 2 / float(np.sum(cosines**2))
@@ -122,7 +122,7 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
     # A burst of noise sits in one record: the others have to say the same without it.
     speaking = sorted(shares.values(), key=lambda share: -share.along[at] * scores[best])[1:]
     said = sum(float(share.along[at]) for share in speaking) * np.sign(scores[best])
-    size = said / np.sqrt(sum(float(share.alike[at, at]) for share in speaking)) / loud
+    size = said / np.sqrt(sum(float(share.overlap[at, at]) for share in speaking)) / loud
     single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
     tried = len(DETECTION.bump_widths) * len(shared)
     p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))

@@ -132,12 +132,12 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     else:
         how = "noise drawn: too few records to resample them"
         left = np.maximum(before - floor, 0.0), np.maximum(after - floor, 0.0)
-        # The same noise meets what there was of a gap and what is left of it, as far as they are alike.
+        # The same noise meets what there was of a gap and what is left of it, as far as they are correlated.
         both = np.array([float(piece.before @ piece.after) for piece in pieces]) - floor
-        alike = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
+        correlation = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
         slow = np.array([piece.noise.slow_inflation for piece in pieces])
         common, first, apart = rng.standard_normal((3, EVIDENCE.closure_draws, len(pieces)))
-        met = first, alike * first + np.sqrt(1.0 - alike**2) * apart
+        met = first, correlation * first + np.sqrt(1.0 - correlation**2) * apart
         drawn = [
             each + own * common + 2.0 * np.sqrt(part * floor / count * slow) * cross
             for each, part, cross in zip((before, after), left, met, strict=True)

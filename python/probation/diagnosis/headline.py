@@ -73,7 +73,7 @@ def headline(
         also = " and predicts those held out" if gap.held_out else ""
         return (
             f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g}){_of_specimens(gap)}."
+            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g}){_scatter_clause(gap)}."
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
@@ -100,7 +100,7 @@ def headline(
     return f"{missed}; {found}."
 
 
-def _of_specimens(gap: Gap) -> str:
+def _scatter_clause(gap: Gap) -> str:
     """How far specimens differ, where that is known or decides the verdict."""
     if not gap.hangs_on_scatter:
         return f"; {gap.scatter.text}" if gap.scatter.source == "replicates" else ""

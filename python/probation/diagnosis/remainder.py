@@ -15,6 +15,7 @@ from probation.diagnosis.remainder_words import description
 from probation.diagnosis.variables import every_phase, every_variable, least_below, phases_of, variables_of
 from probation.inference.model import CampaignModel
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.own_deviations import specimen_columns
 from probation.records.noise import scatter
 from probation.results.data import LEFT_OUT
 from probation.settings.remainder import REMAINDER
@@ -304,7 +305,8 @@ class _Problem:
         residual, jacobian = found.model.residual_and_jacobian(parameters)
         self._missing = -residual
         self._stress = residual + found.model.data
-        own = _of_specimens(base.whitened.noises, base.whitener.slices)
+        specimens = specimen_columns(base.whitened.noises, base.whitener.slices)
+        own = np.hstack([np.zeros((len(residual), 0)), *specimens])
         self._count = jacobian.shape[1]
         self._tangent = np.hstack([jacobian * found.coordinates.slopes(parameters), own])
         self._precision = np.append(found.coordinates.prior.precision, np.ones(own.shape[1]))
@@ -429,16 +431,6 @@ class _Problem:
             used = self._weight[rows] > 0.0
             total += float(np.sum((self._missing[rows] - raw[rows] @ solved)[used] ** 2))
         return total / max(int(np.count_nonzero(self._weight)), 1)
-
-
-def _of_specimens(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> FloatArray:
-    """What the deviations of every specimen do, of one standard deviation each, shape (n_samples, m) [MPa]."""
-    blocks: dict[str, FloatArray] = {}
-    for noise, rows in zip(noises, slices, strict=True):
-        if noise.specimen is not None:
-            shape = (slices[-1].stop, noise.specimen.shape[1])
-            blocks.setdefault(noise.specimen_id or noise.name, np.zeros(shape))[rows] = noise.specimen
-    return np.hstack(list(blocks.values())) if blocks else np.zeros((slices[-1].stop, 0))
 
 
 def _weights(noise: NoiseModel) -> FloatArray:

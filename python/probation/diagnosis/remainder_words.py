@@ -44,9 +44,9 @@ def description(
     judged = "records left out" if first.judged_on == "records" else "parts of the records left out"
     text = f"{size} is a function of {function_name(first)}, which closes {percent(first.explained)} of it in {judged}"
     text += f": {_size(curve)}"
-    alike = [function_name(each) for each in others if each.explained > first.explained - REMAINDER.not_discriminated]
-    if alike:
-        text += f"; these records do not tell it from a function of {listed(alike)}"
+    rivals = [function_name(each) for each in others if each.explained > first.explained - REMAINDER.not_discriminated]
+    if rivals:
+        text += f"; these records do not tell it from a function of {listed(rivals)}"
     return f"{text}."
 
 

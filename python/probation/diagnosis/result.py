@@ -47,20 +47,16 @@ class BaseParameter:
 
 
 @dataclass(frozen=True)
-class CauseParameter:
-    """A parameter of an explanation's effect.
+class EffectSize:
+    """The value of an effect's parameter.
 
     Attributes
     ----------
     effect, name, unit : str
-        `name` carries the unit, too.
+        `name` includes the unit.
     records : tuple of str
         Ids of the records that it acts in.
     value : float
-    se : float or None
-        None where the data say nothing beyond the prior.
-    bound : {"lower", "upper"} or None
-        The physical bound at which it ended.
     """
 
     effect: str
@@ -68,6 +64,20 @@ class CauseParameter:
     unit: str
     records: tuple[str, ...]
     value: float
+
+
+@dataclass(frozen=True)
+class CauseParameter(EffectSize):
+    """A parameter of an explanation's effect.
+
+    Attributes
+    ----------
+    se : float or None
+        None where the data say nothing beyond the prior.
+    bound : {"lower", "upper"} or None
+        The physical bound at which it ended.
+    """
+
     se: float | None
     bound: Literal["lower", "upper"] | None = None
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.noise import NORMAL_CONSISTENCY
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.field.samples import IndexArray
@@ -14,7 +16,6 @@ if TYPE_CHECKING:
 SPAN, MOST = 10, 16
 """Samples of a part of the record with a noise of its own, at least, and parts at most."""
 
-_MEDIAN_TO_DEVIATION = 1.482602218505602  # of a normal distribution
 _FEW = 3.8  # over the number of differences: by how much the square of their median is too large in the mean
 
 
@@ -55,7 +56,7 @@ def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> Flo
 def _deviation(differences: FloatArray) -> FloatArray:
     """From the moduli of differences, along the rows."""
     few = np.sqrt(1.0 + _FEW / differences.shape[1])
-    return np.asarray(_MEDIAN_TO_DEVIATION / few * np.median(differences, axis=1))
+    return np.asarray(NORMAL_CONSISTENCY / few * np.median(differences, axis=1))
 
 
 def _pooled(deviation: FloatArray, neighbourhood: IndexArray) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from probation.bulk import identify_many
 from probation.field.between import between
 from probation.field.noise import scatter
-from probation.field.samples import alike, bridged
+from probation.field.samples import bridged, of_equal_samples
 from probation.field.smoothing import smoothed_records
 from probation.field.source import SHORTEST
 from probation.field.status import Status
@@ -92,7 +92,7 @@ def identify_pixels(
     empty = np.where(used.any(axis=1), Status.TOO_FEW_SAMPLES, Status.NO_DATA).astype(np.int8)
     found = Pixels(np.full((count, 3), np.nan), np.full((count, 3), np.nan), np.full(count, np.nan), empty)
     drawn = smoothed_records(time, strain, used) if way.smoothing else strain
-    for pixels, samples in alike(used):
+    for pixels, samples in of_equal_samples(used):
         if np.count_nonzero(samples) < SHORTEST:
             continue
         fine, driving = between(time[samples], drawn[np.ix_(pixels, samples)], substeps, smooth=way.smoothing)

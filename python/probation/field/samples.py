@@ -44,7 +44,7 @@ def used_samples(strain: Samples, stress: Samples) -> BoolArray:
     return np.asarray(there & (np.arange(there.shape[1]) < length[:, None]) & there[:, :1])
 
 
-def alike(used: BoolArray) -> Iterator[tuple[IndexArray, BoolArray]]:
+def of_equal_samples(used: BoolArray) -> Iterator[tuple[IndexArray, BoolArray]]:
     """Pixels that use the same samples, together: they share one time grid.
 
     Yields
@@ -72,7 +72,7 @@ def bridged(
     values : ndarray, shape (len(pixels), samples in all)
     """
     within = np.maximum.accumulate(used[:, ::-1], axis=1)[:, ::-1]
-    for pixels, samples in alike(within):
+    for pixels, samples in of_equal_samples(within):
         some = values[np.ix_(pixels, samples)].astype(np.float64)
         there = used[np.ix_(pixels, samples)]
         instants = time[samples]

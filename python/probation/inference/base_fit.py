@@ -24,7 +24,7 @@ from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
-from probation.noise.own_deviations import own_deviations, specimens_of
+from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
@@ -56,9 +56,10 @@ def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    alike = like_an_effect(drift)
+    of_effects = like_an_effect(drift)
     return tuple(
-        with_drift(noise, alike, drift - alike, record.time) for noise, record in zip(noises, residuals, strict=True)
+        with_drift(noise, of_effects, drift - of_effects, record.time)
+        for noise, record in zip(noises, residuals, strict=True)
     )
 
 
@@ -207,7 +208,7 @@ class BaseFit:
 
     def of_specimens(self) -> list[FloatArray]:
         """What each specimen's deviations do to all identify records, of one standard deviation, white; (N, k)."""
-        return _of_specimens(self.whitened.noises, self.whitener)
+        return _white_specimens(self.whitened.noises, self.whitener)
 
     @property
     def problem(self) -> Problem:
@@ -312,24 +313,14 @@ def _moved_far(plain: Refit, found: Refit, scattered: Sequence[RecordResidual], 
     """
     whitener, solver = plain.problem.whitener, np.linalg.pinv(plain.jacobian)
     noises = [replace(noise, specimen=each.specimen) for noise, each in zip(whitener.noises, scattered, strict=True)]
-    moved = np.sqrt(sum(np.sum((solver @ columns) ** 2, axis=1) for columns in _of_specimens(noises, whitener)))
+    moved = np.sqrt(sum(np.sum((solver @ columns) ** 2, axis=1) for columns in _white_specimens(noises, whitener)))
     own = max(scatter.deviations) * np.abs(plain.parameters)
     size = np.hypot(own, moved * plain.coordinates.slopes(plain.parameters))
     return bool((np.abs(found.parameters - plain.parameters) > NOISE.farthest_move * size).any())
 
 
-def _of_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[FloatArray]:
-    """What each specimen's deviations do to all records, of one standard deviation, white; each of shape (N, k)."""
-    found = []
-    for members in specimens_of(noises):
-        first = noises[members[0]].specimen
-        if first is None or not first.shape[1]:
-            continue
-        columns = np.zeros((sum(map(len, noises)), first.shape[1]))
-        for index in members:
-            columns[whitener.slices[index]] = noises[index].specimen
-        found.append(whitener.columns(columns))
-    return found
+def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[FloatArray]:
+    return [whitener.columns(columns) for columns in specimen_columns(noises, whitener.slices)]
 
 
 def _settled(

@@ -91,7 +91,7 @@ class Discrepancy:
             places=tuple(places),
             drift=drift,
             common=_over_strain(whitened),
-            specimens=_of_specimens(whitened),
+            specimens=_own_tangents(whitened),
             strain_periodic=strain_periodic,
             log_strain_periodic_share=log_strain_periodic_share,
         )
@@ -135,7 +135,7 @@ def _over_strain(whitened: Whitened) -> FloatArray:
     return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(share))
 
 
-def _of_specimens(whitened: Whitened) -> FloatArray:
+def _own_tangents(whitened: Whitened) -> FloatArray:
     """Orthonormal columns of every record's own tangent; the energies of all sum to 1."""
     if len(whitened.records) < 2:
         return np.zeros((len(whitened), 0))

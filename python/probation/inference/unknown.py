@@ -57,7 +57,7 @@ def log_evidence_of_unknown(
         + discrepancy.log_strain_periodic_share
         + _along(found, discrepancy, forms, discrepancy.strain_periodic),
         np.log(EVIDENCE.unknown_of_the_specimen) + _along(found, discrepancy, forms, discrepancy.specimens),
-        np.log(EVIDENCE.unknown_alike) + _integrated(problem, discrepancy, np.ones(count)),
+        np.log(EVIDENCE.unknown_in_all) + _integrated(problem, discrepancy, np.ones(count)),
         np.log(EVIDENCE.unknown_in_one / count) + float(logsumexp(one)),
         np.log(EVIDENCE.unknown_in_each) + _in_each(problem, discrepancy, left),
     ]

@@ -62,7 +62,9 @@ def estimate_drift(whitened: Whitened) -> float:
 
 def like_an_effect(drift: float) -> float:
     """Relative variance of a drift at the first half period that may go along with an effect."""
-    return float(np.clip(NOISE.drift_share_alike * drift, NOISE.least_drift_alike, NOISE.most_drift_alike))
+    return float(
+        np.clip(NOISE.drift_share_of_effects * drift, NOISE.least_drift_of_effects, NOISE.most_drift_of_effects)
+    )
 
 
 def _scores(order: FloatArray, power: FloatArray) -> FloatArray:

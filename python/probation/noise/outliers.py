@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.noise import NORMAL_CONSISTENCY
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     sides = np.stack(shifts)
     later, earlier = np.median(sides[:arm], axis=0), np.median(sides[arm:], axis=0)
     away = residual - 0.5 * (later + earlier)
-    spread = 1.4826 * float(np.median(np.abs(away)))
+    spread = NORMAL_CONSISTENCY * float(np.median(np.abs(away)))
     spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / 1.645, 1e-300)
     out = (np.abs(away) > NOISE.outlier_distance * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
     for border in (0, *jumps):

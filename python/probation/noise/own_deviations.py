@@ -52,6 +52,20 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
     return parts
 
 
+def specimen_columns(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> list[FloatArray]:
+    """What each specimen's deviations, of one standard deviation, do to all records: of shape (N, k) each [MPa]."""
+    found = []
+    for members in specimens_of(noises):
+        first = noises[members[0]].specimen
+        if first is None or not first.shape[1]:
+            continue
+        columns = np.zeros((slices[-1].stop, first.shape[1]))
+        for index in members:
+            columns[slices[index]] = noises[index].specimen
+        found.append(columns)
+    return found
+
+
 def specimens_of(noises: Sequence[NoiseModel]) -> list[list[int]]:
     """Records of one specimen each, by their indices; without a name a record is a specimen of its own."""
     known: dict[tuple[bool, str], list[int]] = {}

@@ -12,12 +12,13 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.records.record import Record
 
-_NORMAL_CONSISTENCY = 1.482602218505602  # standard deviation over median absolute deviation
+NORMAL_CONSISTENCY = 1.482602218505602
+"""Standard deviation of normal values over the median of their moduli."""
 
 
 def robust_deviation(values: FloatArray) -> float:
     """Standard deviation of normal values (n,), by the median distance to their median: outliers hardly count."""
-    return float(_NORMAL_CONSISTENCY * np.median(np.abs(values - np.median(values))))
+    return float(NORMAL_CONSISTENCY * np.median(np.abs(values - np.median(values))))
 
 
 def scatter(time: FloatArray, values: FloatArray) -> float:

@@ -215,7 +215,7 @@ class EvidenceSettings:
         origin="chosen",
         used_in="inference/unknown.py",
     )
-    unknown_alike: float = setting(
+    unknown_in_all: float = setting(
         0.2,
         "Prior share of one size in all records.",
         unit="probability",

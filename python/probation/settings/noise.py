@@ -86,21 +86,21 @@ class NoiseSettings:
         origin="chosen",
         used_in="noise/drift.py",
     )
-    least_drift_alike: float = setting(
+    least_drift_of_effects: float = setting(
         0.25,
         "Least variance, at the first half period, of a drift along an effect, over the noise's.",
         unit="-",
         origin="chosen",
         used_in="noise/drift.py",
     )
-    drift_share_alike: float = setting(
+    drift_share_of_effects: float = setting(
         0.2,
         "Part of a drift that may go along with an effect.",
         unit="-",
         origin="chosen",
         used_in="noise/drift.py",
     )
-    most_drift_alike: float = setting(
+    most_drift_of_effects: float = setting(
         2.0,
         "Largest variance, at the first half period, of a drift along an effect, over the noise's.",
         unit="-",

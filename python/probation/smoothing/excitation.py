@@ -205,7 +205,9 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
             f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use {DEFAULT!r}"
         )
     try:
-        smoothed = smooth_segments(way.smooth, record.time, record.true_strain, jumps, noise, lagging=way.lagging)
+        smoothed = smooth_segments(
+            way.smooth, record.time, record.true_strain, jumps, noise, lagging=way.smooth_lagging
+        )
     except InputError as error:
         raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
     if automatic and smoothed.noise > SMOOTHING.misses * max(noise, SMOOTHING.clean):

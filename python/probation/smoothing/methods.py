@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 if TYPE_CHECKING:
-    from probation.smoothing.smoothed import Smoother
+    from probation.smoothing.smoothed import LaggingSmoother, Smoother
 
 Method: TypeAlias = str
 
@@ -25,7 +25,7 @@ class Way:
         What it is, in words.
     segmented : bool
         Whether it is done segment by segment between jumps.
-    lagging : bool
+    lags : bool
         Whether it lets the strain lag behind its command after a start or a jump (`smoothing.transient`).
     """
 
@@ -33,12 +33,17 @@ class Way:
     function: str
     title: str
     segmented: bool = True
-    lagging: bool = False
+    lags: bool = False
 
     @cached_property
     def smooth(self) -> Smoother:
         """The function that does it."""
         return cast("Smoother", getattr(import_module(f"{__package__}.{self.module}"), self.function))
+
+    @property
+    def smooth_lagging(self) -> LaggingSmoother | None:
+        """The same function where it takes lags."""
+        return cast("LaggingSmoother", self.smooth) if self.lags else None
 
 
 SMOOTHERS: dict[Method, Way] = {
@@ -46,10 +51,10 @@ SMOOTHERS: dict[Method, Way] = {
         "penalised_spline",
         "smooth_quintic",
         "quintic smoothing spline (generalised cross-validation)",
-        lagging=True,
+        lags=True,
     ),
     "spline": Way(
-        "penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)", lagging=True
+        "penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)", lags=True
     ),
     "savitzky-golay": Way(
         "savitzky_golay", "smooth_savitzky_golay", "local cubics, Savitzky-Golay (generalised cross-validation)"

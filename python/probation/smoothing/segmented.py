@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,7 +27,7 @@ def smooth_segments(
     jumps: Sequence[int],
     noise: float,
     *,
-    lagging: bool = False,
+    lagging: LaggingSmoother | None = None,
 ) -> Smoothed:
     """Smooth each segment by itself.
 
@@ -44,8 +44,8 @@ def smooth_segments(
         Indices at which the rate is discontinuous; increasing, without the ends.
     noise : float
         Standard deviation of the strain noise [-].
-    lagging : bool
-        Whether the strain may lag behind its command at the start of every segment; `smoother` takes lags.
+    lagging : LaggingSmoother, optional
+        In place of `smoother` where the strain may lag behind its command at the start of a segment.
     """
     borders = [0, *jumps, len(time) - 1]
     segments = [_Segment.of(smoother, time, true_strain, borders, at, lagging) for at in range(len(borders) - 1)]
@@ -95,7 +95,7 @@ class _Segment:
         true_strain: FloatArray,
         borders: Sequence[int],
         at: int,
-        lagging: bool,
+        lagging: LaggingSmoother | None,
     ) -> _Segment:
         first, last = borders[at], borders[at + 1]
         lengths = np.diff(borders)
@@ -108,11 +108,9 @@ class _Segment:
         inside = slice(skip, len(whole) - drop)
         values = true_strain[first : last + 1][inside]
         few = len(values) < SMOOTHING.shortest_curve
-        if lagging and len(values) > SIDE:
+        if lagging is not None and len(values) > SIDE:
             change = rate_change(time, true_strain, first, borders[at - 1] if at else first, last)
-            smoother = partial(
-                cast("LaggingSmoother", smoother), lags=Transient.after(whole, change).of_samples(inside)
-            )
+            smoother = partial(lagging, lags=Transient.after(whole, change).of_samples(inside))
         smoothed = polynomial(whole[inside], values, 1) if few else smoother(whole[inside], values)
         return cls(_extended(smoothed, whole, skip, drop), len(values))
 

@@ -12,6 +12,8 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from probation.records.noise import NORMAL_CONSISTENCY
+
 UNITS = {
     "force_offset": "MPa",
     "force_drift": "MPa",
@@ -121,4 +123,4 @@ def _slack(
 
 def _scatter(values: np.ndarray) -> float:
     """Standard deviation of what neighbouring samples do not share, by the median of second differences."""
-    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
+    return float(NORMAL_CONSISTENCY * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
