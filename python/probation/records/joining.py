@@ -74,7 +74,8 @@ def join(path: Path, film: Film, time: FloatArray, force: FloatArray, displaceme
         If the records do not tell the shift, or have too few samples in common.
     """
     if film.shift is None:
-        shift = estimate_shift(time, force, displacement, film.time, film.true_strain)
+        # A displacement is a sum of elongations, so it goes with engineering strain.
+        shift = estimate_shift(time, force, displacement, film.time, np.expm1(film.true_strain))
         if not np.isfinite(shift.se):
             raise _untold(path, film, shift)
     else:
@@ -107,10 +108,11 @@ def _untold(path: Path, film: Film, shift: Shift) -> InputError:
 def _note(film: Film, shift: Shift, left_out: int) -> str:
     known = f" ± {shift.se:.2g} s (one standard error, by {shift.by})" if shift.by else " s, as stated"
     cut = f"; {left_out} samples of the force without strain are left out" if left_out else ""
-    return f"the strain is that of {film.file}, its clock set forward by {_rounded(shift)}{known}{cut}"
+    way = "back" if shift.value < 0.0 else "forward"
+    return f"the strain is that of {film.file}, its clock set {way} by {_rounded(shift)}{known}{cut}"
 
 
 def _rounded(shift: Shift) -> str:
-    """With no more digits than its standard error has."""
+    """How far, with no more digits than its standard error has."""
     digits = max(int(1.0 - np.floor(np.log10(shift.se))), 0) if shift.se > 0.0 else 6
-    return f"{shift.value:.{digits}f}" if shift.se > 0.0 else f"{shift.value:.6g}"
+    return f"{abs(shift.value):.{digits}f}" if shift.se > 0.0 else f"{abs(shift.value):.6g}"

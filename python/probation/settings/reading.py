@@ -26,8 +26,8 @@ class ReadingSettings:
         used_in="records/clock.py",
     )
     clock_rival: float = setting(
-        3.0,
-        "Ratio of the residuals of another shift and of the best one below which the other one may be right.",
+        25.0,
+        "Rise of the squared residual, in its variances, below which another shift than the best one may be right.",
         unit="-",
         origin="chosen",
         used_in="records/clock.py",
