@@ -31,6 +31,7 @@ extensions = [
     "mathml",
     "outside",
     "generated",
+    "explained",
 ]
 exclude_patterns = ["extensions/**", "tutorials/**", "cases/**", "built/**/*.ipynb", "built/**/*.py", "built/**/*.zip"]
 suppress_warnings = ["config.cache"]  # the order of the gallery is a class, which cannot be pickled

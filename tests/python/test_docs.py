@@ -131,3 +131,20 @@ def test_the_generated_reference_holds_every_public_name_command_and_effect(monk
     assert "Area e^(-a (1 - e^(-e / e_c)))" in page  # the equation of a form
     generated.draw_effect(effects(["machine_compliance"])[0], tmp_path / "effect.svg")
     assert (tmp_path / "effect.svg").stat().st_size > 10_000
+
+
+@pytest.fixture(scope="module")
+def explained():
+    """The module that draws the figures of the explanation."""
+    return runpy.run_path(str(DOCS / "extensions" / "explained.py"))
+
+
+def test_every_figure_of_the_explanation_is_drawn_and_shown(explained):
+    shown = {name for page in DOCS.glob("*.md") for name in re.findall(r"explained-(\w+)\.svg", page.read_text())}
+    assert shown == set(explained["FIGURES"])
+
+
+@pytest.mark.parametrize("name", ["law", "clocks", "isolability"])
+def test_a_figure_of_the_explanation_has_labelled_axes(explained, name):
+    figure = explained["FIGURES"][name]()
+    assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
