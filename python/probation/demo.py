@@ -80,7 +80,7 @@ class Step:
 
 
 def identification() -> Outcome:
-    """Identify each synthetic record and set the parameters beside the truth."""
+    """Identify each synthetic record and compare the parameters with the truth."""
     rows, curves, answers, farthest = [], [], {}, 0.0
     for number in _EXPERIMENTS:
         twin = experiment(number, SEED)
@@ -110,7 +110,7 @@ def identification() -> Outcome:
             "Synthetic data of the paper's experiments, made with known parameters and 0.04 MPa of noise, are "
             "identified as a measured record would be. E_u is held at 3220 MPa on experiments 2 and 3, as in the "
             "paper.",
-            Table(headings, tuple(rows), "Parameters beside the truth", left=2),
+            Table(headings, tuple(rows), "Parameters and the truth", left=2),
             picture(plots["stress-strain"], "True stress over true strain, measured and identified; residuals below"),
             picture(plots["sensitivities"], "Scaled sensitivities of the stress in experiment 1"),
             picture(plots["strain-rates"], "What drives the specimen: strain rate over strain (the paper's Figure 1)"),

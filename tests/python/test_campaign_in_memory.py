@@ -152,7 +152,7 @@ def test_what_is_wrong_is_named_by_argument_and_row(changed, message):
         (frame(), {"record": "test"}, "from_dataframe: found no column 'test' for record, expected one of 'time_s'"),
         (frame(), {"columns": {"force": "Loda"}}, "from_dataframe: found no column 'Loda', expected one of"),
         (frame().rename(columns={"Load [kN]": "Stress"}), {}, "'Stress' may be true or engineering: say which"),
-        (frame(Load_N=TIME), {}, "found a second column for force, beside 'Load [kN]'"),
+        (frame(Load_N=TIME), {}, "found a second column for force, in addition to 'Load [kN]'"),
         (TIME, {}, "from_dataframe: found a value of type ndarray, expected a data frame"),
         (pd.DataFrame({1: TIME}), {}, "from_dataframe: found the column name 1, expected names that are text"),
         (pd.DataFrame(), {}, "from_dataframe: found no columns, expected one column of each name"),

@@ -113,7 +113,7 @@ def test_a_bad_table_is_told_by_row_in_one_line(rows, message, tmp_path, capsys)
     ("arguments", "message"),
     [
         ([], "found no CAMPAIGN"),
-        (["x.csv", "--table-2"], "found 'x.csv' beside --table-2"),
+        (["x.csv", "--table-2"], "found 'x.csv' together with --table-2"),
         (["--table-2", "--apply", "out"], "--apply: found a table, expected a campaign"),
         (["--table-2", "--toml", "--json", "-"], "found both --toml and --json -"),
         (["nowhere"], "nowhere"),

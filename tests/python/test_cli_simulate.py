@@ -234,7 +234,7 @@ def test_a_law_that_cannot_be_is_told_in_one_line(values, told, capsys):
 
 def test_tau_max_and_a_companion_relation_exclude_each_other(capsys):
     assert main(["simulate", "--history", "ramp", "--companion", "power:0.03,-1", *LAW]) == 2
-    assert "found it beside --companion, expected alpha" in capsys.readouterr().err
+    assert "found it together with --companion, expected alpha" in capsys.readouterr().err
 
 
 def test_an_existing_answer_is_replaced_whole_or_not_at_all(history, tmp_path):

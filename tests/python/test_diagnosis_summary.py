@@ -127,7 +127,7 @@ def test_checks_say_what_speaks_for_and_what_against():
     assert said(-0.1, 1e-4, 1e-4) == [
         "predicts records left out no better than the base law",
         "each record wants another strength",
-        "a gap is left beside it",
+        "a gap is left in addition",
     ]
     assert said(None, None, 1e-4, effects=("unknown",)) == []
 

@@ -148,7 +148,7 @@ def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypa
     ("arguments", "complaint"),
     [
         ([], "found no file, expected FILE or --compare"),
-        (["--compare", "--csv", "a.csv"], "found --csv beside --compare"),
+        (["--compare", "--csv", "a.csv"], "found --csv together with --compare"),
         (["{file}", "--draws", "3"], "found --draws or --seed without --compare"),
         (["{file}", "--method", "loess"], "invalid choice: 'loess'"),
         (["{file}", "--method", "necking"], "record 'jump', excitation 'necking': found a rate that jumps at 40"),

@@ -177,7 +177,7 @@ def test_a_file_without_time_says_what_to_do(untimed):
 
 
 def test_a_file_with_time_takes_no_rate(percentages):
-    with pytest.raises(InputError, match=r"found the time column 'Time \[s\]' beside test_rate"):
+    with pytest.raises(InputError, match=r"found the time column 'Time \[s\]' together with test_rate"):
         read_record(percentages("True strain"), test_rate="1 1/s")
 
 

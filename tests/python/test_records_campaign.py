@@ -149,7 +149,7 @@ def test_one_temperature_may_stand_for_a_whole_test(load, refusal, folder):
     logged += "".join(f"{at},{0.01 * at},{at},20\n" for at in range(12))
     (folder / "logged.csv").write_text(logged, encoding="utf-8")
     message = refusal('[[record]]\nid = "a"\nfile = "logged.csv"\ntemperature_C = 40.0\n')
-    assert "found it beside a column of temperatures" in message
+    assert "found it together with a column of temperatures" in message
 
 
 def test_a_temperature_log_that_ends_early_is_refused(refusal, folder):

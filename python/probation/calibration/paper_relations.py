@@ -1,4 +1,4 @@
-"""The paper's (11) and (12) beside its own Table 2, and which intercept its Tables 3 and 4 were computed with."""
+"""The paper's (11) and (12) and its own Table 2, and the intercept of its Tables 3 and 4."""
 
 from __future__ import annotations
 

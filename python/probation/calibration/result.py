@@ -165,7 +165,7 @@ class Calibration(Result, Stored):
 
     @property
     def paper(self) -> PaperRelations | None:
-        """The paper's (11) and (12) beside these, where the source is its Table 2."""
+        """The paper's (11) and (12) with these, where the source is its Table 2."""
         from probation.calibration.paper_relations import paper_relations  # noqa: PLC0415 - identifies on the twins
         from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
 
@@ -209,8 +209,8 @@ class Calibration(Result, Stored):
         for each in rivals if self.chosen_by == "cross-validation" else ():
             rms = each.score.rms if each.score else np.nan
             how = "" if each.form.name in self.discriminated else ", not discriminated"
-            told = f"to {percent(rms)} %{how}" if np.isfinite(rms) else "gives no positive time at one of them"
-            sentence += f"; {each.form.name} {told}"
+            error = f"to {percent(rms)} %{how}" if np.isfinite(rms) else "gives no positive time at one of them"
+            sentence += f"; {each.form.name} {error}"
         return sentence
 
     def toml(self) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Prediction(ModelledRecord):
-    """A record beside what the law predicts for it.
+    """A record with what the law predicts for it.
 
     Its `bias_MPa` is the systematic part of the error.
 

@@ -120,7 +120,7 @@ def _source(options: argparse.Namespace) -> Campaign | RateTable:
 
     if options.table_2:
         if options.source:
-            raise InputError(f"found {options.source[0]!r} beside --table-2, expected one of them")
+            raise InputError(f"found {options.source[0]!r} together with --table-2, expected one of them")
         return TABLE_2
     if not options.source:
         raise InputError(

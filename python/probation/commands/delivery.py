@@ -51,7 +51,7 @@ class Output:
     Attributes
     ----------
     what : str
-        As people are told of it: "JSON".
+        Its name in messages: "JSON".
     path : str or None
         Where it goes; "-" is standard output, None nowhere.
     write : callable

@@ -148,7 +148,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
         if getattr(options, name):
             raise InputError(f"found --{name.replace('_', '-')} with --against, expected neither or one of them")
     if not options.campaign:
-        raise InputError("found no campaign, expected CAMPAIGN beside --against")
+        raise InputError("found no campaign, expected CAMPAIGN together with --against")
     pairs: dict[str, list[str]] = {}
     for entry in options.pair:
         record, equals, other = (part.strip() for part in entry.partition("="))

@@ -140,7 +140,7 @@ def _compare(options: argparse.Namespace) -> int:
     given = [name for name in ("file", "record", "csv", "report") if getattr(options, name)]
     if given or options.method != "auto":
         found = {"file": "FILE"}.get(given[0], f"--{given[0]}") if given else "--method"
-        raise InputError(f"found {found} beside --compare, expected only --draws, --seed, --json and --plot")
+        raise InputError(f"found {found} together with --compare, expected only --draws, --seed, --json and --plot")
     with shown("comparing") as advance:
         answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
     deliver(answer.summary(), usual_outputs(answer, options))

@@ -187,7 +187,7 @@ def _source(options: argparse.Namespace) -> Law | Fit | Path:
             raise InputError("found neither SOURCE nor --set, expected a campaign, the JSON of a fit, or parameters")
         return law_from_options(options)
     if options.set or options.companion:
-        raise InputError("found SOURCE beside --set or --companion, expected one of them")
+        raise InputError("found SOURCE together with --set or --companion, expected one of them")
     if len(options.source) == 1 and Path(options.source[0]).suffix.lower() == ".json":
         return Path(options.source[0])
     campaign = campaign_at(options.source, options)

@@ -86,7 +86,7 @@ def make_law(values: dict[str, float], companion: Companion | None) -> Law:
     """
     if companion is not None and "tau_max_s" in values:
         raise InputError(
-            "--set tau_max_s: found it beside --companion, expected alpha; tau_max comes from the companion"
+            "--set tau_max_s: found it together with --companion, expected alpha; tau_max comes from the companion"
         )
     if companion is None and "alpha" in values:
         raise InputError("--set alpha: found it without --companion, expected tau_max_s or a companion relation")

@@ -33,7 +33,7 @@ PER_GAUGE_LENGTH = ("machine_compliance", "strain_offset", "grip_slip")
 """Effects that add a displacement, so that their strain falls with the gauge length."""
 
 _LOOSE = 1e-12
-"""Information on a direction of the parameters below which, beside the others, it is taken as this."""
+"""Information on a direction of the parameters below which it is taken as this."""
 
 
 @dataclass(frozen=True, eq=False)

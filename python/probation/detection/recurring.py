@@ -118,11 +118,11 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
         squares += float(rest @ rest)
         count += len(norm)
         freedom += len(norm) ** 2 / float(np.sum(cosines**2))
-    loud = max(float(np.sqrt(squares / count)), 1.0)
-    # A burst of noise sits in one record: the others have to say the same without it.
-    speaking = sorted(shares.values(), key=lambda share: -share.along[at] * scores[best])[1:]
-    said = sum(float(share.along[at]) for share in speaking) * np.sign(scores[best])
-    size = said / np.sqrt(sum(float(share.overlap[at, at]) for share in speaking)) / loud
+    noise = max(float(np.sqrt(squares / count)), 1.0)
+    # A burst of noise sits in one record: the other records must show the same.
+    others = sorted(shares.values(), key=lambda share: -share.along[at] * scores[best])[1:]
+    product = sum(float(share.along[at]) for share in others) * np.sign(scores[best])
+    size = product / np.sqrt(sum(float(share.overlap[at, at]) for share in others)) / noise
     single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
     tried = len(DETECTION.bump_widths) * len(shared)
     p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))

@@ -157,7 +157,7 @@ def _cause(
 
 
 def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> str:
-    """Of an explanation that the records which were held out speak against."""
+    """Of an explanation that the held-out records contradict."""
     known = titles([name for name in best.effects if name != UNKNOWN])
     return (
         f"nothing in the catalogue explains it; with {known} the misfit would fall from {identify.before_MPa:.3g} to "

@@ -143,8 +143,8 @@ def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:
 def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     """Where no gap is declared: the test's p-value is a datum, too, and no explanation may lead "no effect is needed".
 
-    The test looks for more than the explanations describe, so that a small p-value speaks against "none" even where
-    their evidence does not: its odds are multiplied by the ratio of the densities of p, p^(1 - s) / s with
+    The test looks for more than the explanations describe, so that a small p-value is evidence against "none" even
+    where theirs is not: its odds are multiplied by the ratio of the densities of p, p^(1 - s) / s with
     s = `EVIDENCE.undeclared_gap_power` (Sellke, Bayarri and Berger 2001).
 
     Parameters

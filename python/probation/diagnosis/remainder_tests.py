@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from probation.inference.base_fit import BaseFit
 
 CHANGE_WITH_A_REPEAT = ("order",)
-"""Variables that differ in the repeat of a record: of all others the record itself has told already."""
+"""Variables that differ in the repeat of a record: all others are the same in a repeat."""
 
 NOT_PLANNED = ("specimen",)
 """Variables of which a planned test has no value."""

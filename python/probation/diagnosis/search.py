@@ -196,7 +196,7 @@ class Search:
     def _additions(self, leading: Hypothesis) -> None:
         """One more cause jointly with those of a hypothesis."""
         if self.budget.spent():
-            self.skipping.part(f"a further effect beside {' and '.join(leading.effects)}", self.budget.why)
+            self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
         model, at = leading.refit.model, leading.refit.parameters
         raw = model.residual(at)
@@ -318,7 +318,7 @@ class Search:
     def _refit(self, model: CampaignModel, start: FloatArray, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        Beside a strong gap deviations of many standard deviations cost little, and the misfit counts only along what
+        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
         they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
         of specimens that differ would leave more. Elsewhere a refit of specimens that differ comes first.
         """

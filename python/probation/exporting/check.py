@@ -1,4 +1,4 @@
-"""The round trip: what is read back from an exported text, solved, beside the law."""
+"""The round trip: what is read back from an exported text, solved, and compared with the law."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is to be exported: a law, and what a finite-element code wants to know beside it."""
+"""What is to be exported: a law, and what a finite-element code needs in addition."""
 
 from __future__ import annotations
 

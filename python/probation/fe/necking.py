@@ -195,7 +195,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the bar with the options of the command line and print its figures."""
     parser = argparse.ArgumentParser(prog="python -m probation.fe.necking", description=__doc__)
     add_bar_options(parser)
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="force, centre rate beside Figure 1, and the neck")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="force, centre rate with Figure 1, and the neck")
     parser.add_argument("--json", type=Path, metavar="FILE", help="figures, and time, strain and rate of the centre")
     given = parser.parse_args(arguments)
     try:

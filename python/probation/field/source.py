@@ -250,7 +250,7 @@ def _check_dimensions(path: object, role: str, variable: xr.DataArray, strain: x
     elif role == "initial_area":
         right, expected = set(found) <= {"y", "x"}, "(y, x), one of them or none"
     elif role == "force":
-        right, expected = "time" in found and set(found) <= set(DIMENSIONS), "(time) and no more than y and x beside"
+        right, expected = "time" in found and set(found) <= set(DIMENSIONS), "(time), and y and x at most"
     else:
         right, expected = sorted(found) == sorted(DIMENSIONS), "(y, x, time)"
     if not right:

@@ -31,7 +31,7 @@ REFERENCE_SUBSTEPS = 4
 def needed_substeps(
     way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
 ) -> int:
-    """Steps that make the error of the scheme negligible beside the standard errors, as `fit` takes them.
+    """Steps that make the error of the scheme negligible against the standard errors, as `fit` takes them.
 
     Parameters
     ----------

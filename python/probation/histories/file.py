@@ -88,7 +88,7 @@ def _columns(table: Table) -> dict[str, Column]:
         if role in found:
             raise bad_input(
                 table.path,
-                f"a second column for {role}, beside {quoted(found[role].label)}",
+                f"a second column for {role}, in addition to {quoted(found[role].label)}",
                 "one",
                 row=table.header_row,
                 column=column.label,

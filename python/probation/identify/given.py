@@ -27,7 +27,7 @@ def given(
     *,
     excitation: ExcitationMethod = "auto",
 ) -> Fit:
-    """The campaign's law as it is, beside the records with role "identify".
+    """The campaign's law as it is, with the records of role "identify".
 
     Parameters
     ----------

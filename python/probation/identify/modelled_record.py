@@ -1,4 +1,4 @@
-"""A record beside the stress of a law, identified on it or not, and how far the two are apart."""
+"""A record with the stress of a law, identified on it or not, and how far the two are apart."""
 
 from __future__ import annotations
 

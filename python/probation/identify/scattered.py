@@ -1,4 +1,4 @@
-"""Errors of a fit where specimens differ: of the material's mean, beside those of the specimens that were tested.
+"""Errors of a fit where specimens differ: of the material's mean, and of the specimens that were tested.
 
 docs/uncertainty.md, "Whose errors they are".
 """

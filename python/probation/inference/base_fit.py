@@ -288,7 +288,7 @@ def specimens_hold_the_gap(
 ) -> bool:
     """Whether the records are missed by more after a refit in which specimens may differ.
 
-    Then the law misses the records for another reason. Deviations of many standard deviations cost little beside a
+    Then the law misses the records for another reason. Deviations of many standard deviations cost little against a
     strong gap, and the misfit counts only along what they do not explain: the parameters follow that to values without
     meaning, and no search for an effect can begin there.
 

@@ -108,7 +108,7 @@ def evidence(
     together = float(logsumexp(scores))
     posterior = np.exp(np.array(scores) - together)
     form_error = float(posterior @ np.array(errors))
-    # A freedom of no size to speak of would cost the covariance's inverse all its digits.
+    # A freedom of nearly no size would leave no digits in the covariance's inverse.
     size = form_error if form_error >= EVIDENCE.negligible_form_error else 0.0
     problem, variances = with_error(size)
     covariance = problem.covariance(variances)

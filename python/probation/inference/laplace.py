@@ -59,7 +59,7 @@ class Linearised:
         centre = np.where(flat, x, coordinates.prior.centre)
         precision = np.where(flat, (below + above) ** -2.0, coordinates.prior.precision)
         normal_part = -0.5 * coordinates.prior.precision * (x - coordinates.prior.centre) ** 2
-        # Beside the parameters stand the errors of their forms, standard normal; their integral is a marginal density.
+        # With the parameters, the errors of the forms are integrated over: standard normal amplitudes.
         more = np.zeros((len(residual), 0)) if forms is None else forms
         count = more.shape[1]
         inside = np.hstack([inside, more])

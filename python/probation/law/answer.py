@@ -59,7 +59,7 @@ def law_from_answer(answer: object) -> Law:
     modes = as_whole_number(_entry(law, "law", "modes"), "law.modes")
     if spectrum is not None and len(spectrum.modal_weight) != modes:
         raise InputError(
-            f"law.modes: found {modes} beside a spectrum of {len(spectrum.modal_weight)}, expected as many"
+            f"law.modes: found {modes} together with a spectrum of {len(spectrum.modal_weight)}, expected as many"
         )
     return Law(
         **{_NAMES[key]: as_number(value, f"law.parameters.{key}") for key, value in parameters.items()},

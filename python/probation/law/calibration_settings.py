@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from probation.errors import InputError
 
 CALIBRATION_KEYS = ("calibrated_rates_per_s", "covariance", "log_scatter", "unrelaxed_modulus_MPa")
-"""Optional keys of [law.companion], beside the form and its parameters."""
+"""Optional keys of [law.companion], in addition to the form and its parameters."""
 
 
 @dataclass(frozen=True)

@@ -152,8 +152,8 @@ def as_history(time: ArrayLike | AnyHistory, true_strain: ArrayLike | None = Non
     if is_history(time):
         if true_strain is not None:
             raise InputError(
-                f"true_strain is {true_strain!r} beside a {type(time).__name__}, which has its own; give a scheme by "
-                "its name, scheme=..."
+                f"true_strain is {true_strain!r} together with a {type(time).__name__}, which has its own; give a "
+                "scheme by its name, scheme=..."
             )
         return time if isinstance(time, StrainHistory) else time.strain_history()
     if true_strain is None:

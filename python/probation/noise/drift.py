@@ -35,7 +35,7 @@ def estimate_drift(whitened: Whitened) -> float:
     """Variance of the first half period over the white noise's, the records' common one; power falls as 1/order.
 
     Whittle's likelihood of 1 + c/k + d/k^3, each record with its own level and bias d, one in five with its own c, too:
-    a fault that is sharp in one record must not speak for the others' noise. The mean, and part of a standard deviation
+    a fault that is sharp in one record must not decide on the others' noise. The mean, and part of a standard deviation
     more, since too little makes gaps of noise.
 
     Parameters

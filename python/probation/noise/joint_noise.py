@@ -66,7 +66,7 @@ class _Full:
     def __init__(self, more: FloatArray) -> None:
         matrix = more @ more.T
         diagonal = np.diag_indices_from(matrix)
-        # Beside errors of 1e8 times the noise, 1 is lost in rounding.
+        # With errors of 1e8 times the noise, 1 is lost in rounding.
         matrix[diagonal] += 1.0 + len(matrix) * np.finfo(np.float64).eps * float(matrix[diagonal].max(initial=0.0))
         self.factor = cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
         self.log_determinant = 2.0 * float(np.log(np.diag(self.factor)).sum())

@@ -33,14 +33,14 @@ def _bursts(rough: FloatArray) -> FloatArray | None:
     typical = float(np.median(rough))
     if len(rough) < 4 * NOISE.shortest_burst or typical == 0.0:
         return None
-    loud = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
-    scatter = float(np.median(np.abs(np.log(loud)))) / 0.6745
+    ratio = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
+    scatter = float(np.median(np.abs(np.log(ratio)))) / 0.6745
     least = max(NOISE.burst_ratio, float(np.exp(NOISE.burst_errors * scatter)))
-    if not np.any(loud > least):
+    if not np.any(ratio > least):
         return None
     size = np.ones(len(rough))
     # The window's median falls off before the burst ends.
-    for part in runs(binary_dilation(loud > least, iterations=NOISE.shortest_burst // 4)):
+    for part in runs(binary_dilation(ratio > least, iterations=NOISE.shortest_burst // 4)):
         size[part] = max(float(np.median(rough[part])) / typical, 1.0)
     return size
 

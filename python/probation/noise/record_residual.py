@@ -45,7 +45,7 @@ class RecordResidual:
         Dwells and pre-load segments: the noise is taken there if they are long enough.
     replicate : ndarray, shape (n,) [MPa], optional
         Half-difference noise: (data of this record - data of its repeat)/sqrt(2) at the same instants. It holds no
-        bias, so that the noise is had from it down to the lowest frequencies.
+        bias, so that the noise is estimated from it down to the lowest frequencies.
 
     Raises
     ------

@@ -49,7 +49,7 @@ def waves(count: int, most: int, time: FloatArray | None = None) -> FloatArray:
 def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES) -> SmoothBasis:
     """Slow waves by sample, and exponential fades after the start and after every rate discontinuity.
 
-    A wave says nothing sharp; a law's error after a jump is sharp and known in place, so it is given its own columns.
+    Waves follow nothing sharp; a law's error after a jump is sharp and its place is known, so it has its own columns.
     Never more columns than a quarter of the samples.
 
     Parameters

@@ -48,8 +48,8 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
             if role is not None:
                 label = (named.get(role) or implied[role]).label
                 raise InputError(
-                    f"{table.path}: found the time column {quoted(label)} beside test_rate, expected one of the two; "
-                    "leave test_rate out"
+                    f"{table.path}: found the time column {quoted(label)} together with test_rate, expected one of "
+                    "the two; leave test_rate out"
                 )
             continue
         if role is None and options.strain_from is not None and group == STRAIN_ROLES:
@@ -84,7 +84,7 @@ def _from_headings(table: Table) -> dict[str, Column]:
         if role in implied:
             raise bad_input(
                 table.path,
-                f"a second column for {role}, beside {quoted(implied[role].label)}",
+                f"a second column for {role}, in addition to {quoted(implied[role].label)}",
                 "one",
                 row=table.header_row,
                 column=column.label,

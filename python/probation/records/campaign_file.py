@@ -219,7 +219,9 @@ def _record(folder: Path, entry: TomlTable) -> Record:
     if "temperature_C" not in entry.values:
         return record
     if record.temperature is not None:
-        raise entry.complain("temperature_C", "it beside a column of temperatures", "one of the two", "leave it out")
+        raise entry.complain(
+            "temperature_C", "it together with a column of temperatures", "one of the two", "leave it out"
+        )
     return replace(record, temperature=np.full(len(record), entry.number("temperature_C")))
 
 

@@ -111,7 +111,7 @@ def records_from_frame(
 
 
 class _Lazily(dict[str, FloatArray]):
-    """Columns that are read when they are asked for: a frame may hold text beside them."""
+    """Columns that are read when they are asked for: a frame may also hold text."""
 
     def __init__(self, read: Callable[[str], FloatArray]) -> None:
         super().__init__()

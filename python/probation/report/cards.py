@@ -145,7 +145,7 @@ def fit_line(fit: Fit) -> str:
 
 
 def fit_card(fit: Fit) -> Card:
-    """Parameters, records, and the law beside what was measured."""
+    """Parameters, records, and the law with what was measured."""
     rows = tuple(
         (SYMBOLS[name], p.unit or "–", estimate_text(p), p.status.replace("_", " "))
         for name, p in fit.parameters.items()

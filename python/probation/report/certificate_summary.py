@@ -88,7 +88,7 @@ def identification_table(found: Certificate) -> Table:
 
 
 def hardening_table(found: Certificate) -> Table:
-    """G by regression beside G identified."""
+    """G by regression, and G identified."""
     rows = tuple(
         (
             record,

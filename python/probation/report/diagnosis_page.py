@@ -180,10 +180,10 @@ def _which(found: Diagnosis) -> Section:
         parts.append(f"{rest}.")
     if found.verdict != "no_gap" and found.effects:
         parts.append(
-            "Effect by effect: the probability that it acts, whatever stands beside it, and the part of the squared "
+            "Effect by effect: the probability that it acts, alone or with others, and the part of the squared "
             "gap that it closes. What one effect closes depends on which others were added before it; its share is the "
             "mean over all orders. Where an effect closes nearly all of the gap alone and the others add next to "
-            "nothing beside it, the headline names it alone."
+            "nothing in addition, the headline names it alone."
         )
         parts.append(effects_table(found)[0])
     return Section("Which effect explains it", tuple(parts))

@@ -155,7 +155,7 @@ def checks_text(each: Explanation) -> list[str]:
         same = checks.amplitude_p_value >= SAME
         found.append("one strength suits all records" if same else "each record wants another strength")
     if each.effects and checks.remaining_p_value < DETECTION.gap_level and each.effects != (UNKNOWN,):
-        found.append("a gap is left beside it")
+        found.append("a gap is left in addition")
     elif each.effects and UNKNOWN not in each.effects:
         found.append("what is left may be noise and the form's error")
     return [*found, *(_without_names(note, each) for note in checks.notes)]

@@ -1,4 +1,4 @@
-"""Maps told in words: the verdict first."""
+"""Maps in words: the verdict first."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def noise_text(fit: Fit) -> str:
         "plain": "white noise of the stress",
         "autocorrelated": "autocorrelated noise of the stress",
         "varying": "noise of the stress whose size varies along a record",
-        "strain-noise": "noise of the stress, and of the strain as the law carries it there",
+        "strain-noise": "noise of the stress, and of the strain propagated to it",
         "strain-noise-frozen": "noise of the stress and, at the plain estimate, of the strain",
         "plain, strain noise resampled": "white noise of the stress, and that of the strain drawn again",
     }[fit.weighting]

@@ -25,7 +25,7 @@ _DOTS = 400  # measured points that are drawn
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """One record beside the law.
+    """One record with the law.
 
     Attributes
     ----------

@@ -31,7 +31,7 @@ CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se
 
 @dataclass(frozen=True, eq=False)
 class RecordExcitation(Plotted):
-    """One record's excitation beside what was measured.
+    """One record's smoothed strain history, with what was measured.
 
     `plot` draws strain, residual, and the rate with its band.
 

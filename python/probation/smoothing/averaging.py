@@ -1,4 +1,4 @@
-"""Whether a strain's noise is averaged over neighbouring samples, as a video extensometer does, told before smoothing.
+"""Whether a strain's noise is averaged over neighbouring samples, as in a video extensometer; decided before smoothing.
 
 A smoother that begins by taking the noise as white follows averaged noise, and what it leaves no longer shows it.
 """

@@ -66,7 +66,7 @@ def _jumps_in_windows(
     slopes = _slopes(time, true_strain, window, noise)
     change = np.abs(slopes.after - slopes.before)
     steepest = np.maximum(np.abs(slopes.before), np.abs(slopes.after))
-    # A slow part of the record may bend without a jump: its slopes are small beside the record's own speed.
+    # A slow part of the record may bend without a jump: its slopes are small against the record's own rate.
     speed = np.median(np.abs(np.concatenate([slopes.before, slopes.after])))
     stands_out = (
         (change > SMOOTHING.least_jump * np.maximum(steepest, 0.2 * speed))

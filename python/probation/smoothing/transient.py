@@ -24,7 +24,7 @@ INTERVALS = (0.5, 1.0, 2.0, 4.0)
 """Time constants of the lags, over the sampling interval."""
 
 SIDE = 12
-"""Samples beside a border whose slope is the rate there."""
+"""Samples next to a border whose slope is the rate there."""
 
 
 @dataclass(frozen=True, eq=False)

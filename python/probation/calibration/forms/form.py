@@ -31,7 +31,7 @@ class Form:
         What is regressed where no standard errors are known. With them every form minimises the weighted error of
         ln tau_max.
     reference : bool
-        Shown beside the others, never chosen.
+        Shown with the others, never chosen.
     same_as : str or None
         Another form that is the same function, written otherwise: they differ only in their `measure`, and not at all
         where standard errors are known.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 SMALL = 1e-9
-"""e_HT below which there is no hardening to speak of."""
+"""e_HT below which the hardening is zero to rounding."""
 
 _LAGS = (0.03, 0.15, 0.6)
 """Lags in strain from which searches begin: a lag of some tenths is not what a small one is."""
@@ -36,7 +36,7 @@ _TIME = EffectParameter(
 
 
 def _lag(view: RecordView, time_constant: float) -> FloatArray:
-    """Part of e_HT that is not yet there when it builds up with a time constant; 0 where there is none to speak of."""
+    """Part of e_HT that is not yet there when it builds up with a time constant; 0 where e_HT is zero to rounding."""
     strain = view.haward_thackray_strain
     return _part_of(maxwell_element(view.time, strain, time_constant), strain)
 

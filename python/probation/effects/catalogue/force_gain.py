@@ -23,7 +23,7 @@ EFFECT = Effect(
         "Amplitude: relative excess of the recorded stress. In all records alike it hides in E_u and G."
     ),
     source="ISO 7500-1; ISO 527-1 (measurement of the section)",
-    shows_in="one record beside others; never in all of them, unless E_u or G is held",
+    shows_in="one record compared with others; never in all of them, unless E_u or G is held",
     kind="rig",
     coordinate="force",
     forms=(

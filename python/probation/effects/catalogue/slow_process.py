@@ -28,7 +28,7 @@ _TIME = EffectParameter(
 
 
 def _slow_mode(view: RecordView, values: Values) -> Modification:
-    """A Maxwell element beside the spectrum, whose time no rate shifts."""
+    """A Maxwell element in parallel to the spectrum, whose time no rate shifts."""
     return Modification(extra_modulus=(values[0],), extra_relaxation_time=(values[1],))
 
 

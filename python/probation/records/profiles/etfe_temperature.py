@@ -1,4 +1,4 @@
-"""Profile ``etfe_temperature``: chamber temperatures beside Comitti and Bosi's tests."""
+"""Profile ``etfe_temperature``: chamber temperatures of Comitti and Bosi's tests."""
 
 from probation.records.grid import decimal_mark, read_grid
 from probation.records.options import ReadOptions
