@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 _ONSET = 0.3  # of the largest value: so far the beginning is drawn
 _FEWEST = 10  # samples of it
+_PERFECT = 1e-12  # less than that of the strain is unexplained by rounding alone
 
 
 def initial_figure(made: InitialCampaign) -> Figure:
@@ -60,12 +61,12 @@ def clocks_figure(record: Record) -> Figure:
             start = figure.subplots()
         else:
             misfit, start = figure.subplots(1, 2)
-            misfit.plot(clock.tried, clock.misfit, lw=1.0, color=colour("model"))
+            misfit.semilogy(clock.tried, np.maximum(clock.misfit, _PERFECT), lw=1.0, color=colour("model"))
             misfit.axvspan(
                 clock.value - 2.0 * clock.se, clock.value + 2.0 * clock.se, color=colour("second"), alpha=0.3
             )
             misfit.axvline(clock.value, lw=1.0, color=colour("second"))
-            misfit.set(xlabel="shift of the strain file [s]", ylabel="unexplained part [–]", ylim=(0.0, None))
+            misfit.set(xlabel="shift of the strain file [s]", ylabel="unexplained part [–]")
         _draw_start(start, record)
     return figure
 
