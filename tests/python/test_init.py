@@ -168,15 +168,29 @@ def test_questions_are_asked_with_a_default(lab, tmp_path, monkeypatch, capsys):
     assert asked == [
         ("gauge_length", ""),
         ("area", ""),
-        ("control", "displacement-rate"),
         ("role", "identify"),
         ("column:Strain (%)", "engineering"),
         ("column:Stress (MPa)", "engineering"),
-        ("control", "displacement-rate"),
         ("role", "identify"),
     ]
+    assert {record.control for record in made.campaign.records} == {"displacement-rate"}
     for record in made.campaign.records:
         assert record.true_stress == pytest.approx(STRESS * (1 + STRAIN), abs=1e-3)
+
+
+def test_how_a_test_was_driven_is_asked_only_where_the_strain_does_not_tell(tmp_path):
+    time = np.linspace(0.0, 20.0, 101)
+    rows = zip(time, 0.01 * (np.exp(time / 8.0) - 1.0), 2.0 * time, strict=True)
+    path = tmp_path / "faster.csv"
+    path.write_text("time_s,true_strain,true_stress_MPa\n" + "".join(f"{t},{e},{s}\n" for t, e, s in rows))
+    asked = []
+
+    def ask(question):
+        asked.append(question.key)
+        return "other" if question.key == "control" else ""
+
+    init_campaign([path], tmp_path / "made", ask=ask)
+    assert asked == ["control", "role"]
 
 
 def test_an_answer_is_the_default_of_the_next_file_and_a_bad_one_is_asked_again(monkeypatch, capsys):

@@ -267,7 +267,7 @@ def _check_moves(path: Path, record: Record) -> None:
 
 
 def _driven(record: Record, choices: Mapping[str, str | None], ask: Ask | None) -> Record:
-    """The record with its control and role, as said, asked or guessed."""
+    """The record with its control and role, as said, guessed, or asked: the control only where no guess is made."""
 
     def chosen(key: str, known: tuple[str, ...], text: str, default: str) -> str:
         answer = choices[key] or _answer(Question(record.id, key, text, f"--{key} …", default, known), ask)
@@ -275,7 +275,9 @@ def _driven(record: Record, choices: Mapping[str, str | None], ask: Ask | None) 
             raise InputError(f"{key}: found {quoted(answer)}; {suggestion(answer, known)}")
         return answer
 
-    control = chosen("control", CONTROLS, "way the test was driven", guess_control(record))
+    control = choices["control"] or guess_control(record)
+    if control == "other" or control not in CONTROLS:
+        control = chosen("control", CONTROLS, "way the test was driven", "other")
     role = chosen("role", RECORD_ROLES, "role: identify on it, or hold it out and only predict it", "identify")
     return replace(record, control=control, role=role)
 
