@@ -63,8 +63,6 @@ class RecordFits:
     rates : tuple of RecordRate
     fits : tuple of Fit
         One per record; E_u held where it is shared.
-    own_modulus : tuple of (float, float or None)
-        E_u and its standard error of each record by itself [MPa].
     unrelaxed_modulus : float or None
         The shared one [MPa].
     unrelaxed_modulus_se : float
@@ -78,7 +76,6 @@ class RecordFits:
     table: RateTable
     rates: tuple[RecordRate, ...]
     fits: tuple[Fit, ...]
-    own_modulus: tuple[tuple[float, float | None], ...]
     unrelaxed_modulus: float | None
     unrelaxed_modulus_se: float
     log_slope: FloatArray
@@ -148,7 +145,7 @@ def fit_records(
         labels=tuple(record.id for record in records),
         source=f"campaign {campaign.name}",
     )
-    return RecordFits(table, rates, fits, own, shared, shared_se, slope, spread)
+    return RecordFits(table, rates, fits, shared, shared_se, slope, spread)
 
 
 def spread_warnings(rates: tuple[RecordRate, ...]) -> list[str]:

@@ -28,8 +28,6 @@ class Recurring:
     ----------
     true_strain : float
         Its middle.
-    width_strain : float
-        Its standard deviation.
     records : tuple of str
         That reach there.
     p_value : float
@@ -37,7 +35,6 @@ class Recurring:
     """
 
     true_strain: float
-    width_strain: float
     records: tuple[str, ...]
     p_value: float
 
@@ -68,7 +65,7 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
         reached = np.sum([share.seen for share in shares.values()], axis=0)
         shared = np.flatnonzero(reached >= 2)
         if shared.size:
-            found.append(_strongest(shares, places, shared, width))
+            found.append(_strongest(shares, places, shared))
     return tuple(sorted(found, key=lambda each: each.p_value))
 
 
@@ -104,7 +101,7 @@ def _share(whitened: Whitened, index: int, places: FloatArray, width: float) -> 
     return _Share(seen, bumps.T @ left, bumps.T @ bumps) if seen.any() else None
 
 
-def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray[np.intp], width: float) -> Recurring:
+def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray[np.intp]) -> Recurring:
     along = np.sum([share.along for share in shares.values()], axis=0)
     overlap = np.sum([share.overlap for share in shares.values()], axis=0)
     scores = along[shared] / np.sqrt(np.diag(overlap)[shared])
@@ -127,4 +124,4 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
     tried = len(DETECTION.bump_widths) * len(shared)
     p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
     names = tuple(name for name, share in shares.items() if share.seen[at])
-    return Recurring(float(places[at]), width, names, p_value)
+    return Recurring(float(places[at]), names, p_value)

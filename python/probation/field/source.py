@@ -62,8 +62,6 @@ class FieldSource:
         Rows and columns.
     chunks : (int, int)
         Rows and columns that lie together in the file; the shape where it is not chunked.
-    chunk_times : int
-        Instants that lie together.
     sparse : bool
         Whether chunks that are not there hold no data.
     """
@@ -74,7 +72,6 @@ class FieldSource:
     time: FloatArray = field(repr=False)
     shape: tuple[int, int]
     chunks: tuple[int, int]
-    chunk_times: int
     sparse: bool = False
 
     @property
@@ -180,7 +177,6 @@ def open_field(
             time,
             (sizes["y"], sizes["x"]),
             (int(chunks.get("y", sizes["y"])), int(chunks.get("x", sizes["x"]))),
-            int(chunks.get("time", len(time))),
             sparse,
         )
 

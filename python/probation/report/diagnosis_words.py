@@ -49,11 +49,6 @@ def explanation_name(each: Explanation, found: Diagnosis) -> str:
     return f"{name}, in {len(each.records)} of {len(fitted)} records"
 
 
-def explanation_of(effects: Sequence[str], found: Diagnosis) -> Explanation | None:
-    """The most probable explanation with those effects."""
-    return next((each for each in found.explanations if each.effects == tuple(effects)), None)
-
-
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)

@@ -97,14 +97,6 @@ class Excitation(WithCurves):
     def _made(self) -> Operators | None:
         return None if self.operators is None else self.operators()
 
-    def strain_covariance(self) -> FloatArray:
-        """Covariance of `true_strain` from white noise of `strain_noise`, shape (n_times, n_times) [-]."""
-        operator = self.strain_operator()
-        if operator is None:
-            return self.strain_noise**2 * np.eye(len(self.time))
-        covariance: FloatArray = self.strain_noise**2 * operator @ operator.T
-        return covariance
-
     def rate_covariance(self) -> FloatArray | None:
         """Covariance of `strain_rate` from white noise of `strain_noise`, shape (n_times, n_times) [1/s^2].
 

@@ -36,14 +36,11 @@ class Sines:
         A, then B.
     start : float [s]
         Where t is zero.
-    criteria : tuple of float
-        The criterion with 0, 1, 2, … sines; the lowest won.
     """
 
     frequencies: FloatArray
     weights: FloatArray
     start: float
-    criteria: tuple[float, ...]
 
     def __call__(self, time: FloatArray) -> FloatArray:
         """The sum at `time` [s], shape (n_times,)."""
@@ -92,10 +89,9 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
     while len(found) <= min(SMOOTHING.most_sines, len(grid) // 4) and not _settled(found):
         peak = grid[int(np.argmax(np.abs(turns @ (sums * found[-1].rest))))]
         found.append(_refined(fit, np.append(found[-1].frequencies, peak), float(grid[-1])))
-    criteria = _criteria(found)
-    best = found[int(np.argmin(criteria))].frequencies
+    best = found[int(np.argmin(_criteria(found)))].frequencies
     whole = _Fit((time - start) / duration, weight, weight * residual, best)
-    return Sines(best / duration, whole.weights, start, tuple(criteria))
+    return Sines(best / duration, whole.weights, start)
 
 
 def _settled(found: Sequence[_Fit]) -> bool:
