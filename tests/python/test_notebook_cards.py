@@ -152,3 +152,21 @@ def test_every_result_has_a_card_and_a_line(name):
     found = getattr(__import__(f"probation.{module}", fromlist=[kind]), kind)
     assert hasattr(found, "_repr_html_")
     assert found.__repr__.__qualname__ == "InOneLine.__repr__"
+
+
+def test_what_holds_curves_has_a_short_repr():
+    campaign = few_records(names=("slow", "middle"))
+    found = probation.fit(campaign, "sa2", gap=False)
+    record = campaign.records[0]
+    for each in (
+        found.predict(record.time, record.true_strain),
+        found.records["slow"],
+        found.law.spectrum,
+        probation.excite(record),
+        probation.named_history("ramp"),
+        probation.Reference.of(campaign),
+    ):
+        assert "\n" not in repr(each)
+        assert len(repr(each)) < 700
+        assert repr(each).startswith(f"{type(each).__name__}(")
+    assert "time=<array of 150>" in repr(found.records["slow"])

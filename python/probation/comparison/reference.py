@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._short_repr import ShortRepr
 from probation.comparison.measured_law import reference_branches
 from probation.comparison.noise import own_residual, record_noises
 from probation.effects.record_view import views_of
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Reference:
+class Reference(ShortRepr):
     """What is known of the reference campaign; make one with `of`, to hold several campaigns against it.
 
     Attributes

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from probation._arrays import as_samples
+from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.history import StrainHistory
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class ImposedHistory:
+class ImposedHistory(ShortRepr):
     """A history to simulate.
 
     Attributes

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from probation._arrays import as_number
+from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.history import as_history
 from probation.results.frames import data_frame, over_time
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class StressBand(Plotted):
+class StressBand(ShortRepr, Plotted):
     """A predicted stress with what is known of it; the bands hold at each instant by itself.
 
     `plot` draws the stress with both bands over strain.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
+from probation._short_repr import ShortRepr
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
@@ -41,7 +42,7 @@ METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex"
 
 
 @dataclass(frozen=True, eq=False)
-class RecordFit(ModelledRecord):
+class RecordFit(ShortRepr, ModelledRecord):
     """One record against the identified law.
 
     Its `noise_MPa` is the high-frequency part of the fit residual; all of it where the noise model (correlation,

@@ -18,6 +18,7 @@ from probation._arrays import (
     as_whole_number,
     held_samples,
 )
+from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.companion import Companion
 from probation.law.history import AnyHistory, StrainHistory, as_history, history_arguments, is_history
@@ -49,7 +50,7 @@ _FOLLOWS_PARAMETERS = frozenset({"initial_stress"})
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(ShortRepr):
     """The modes: relaxation times as fractions of tau_max, and weights.
 
     Parameters

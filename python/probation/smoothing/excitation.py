@@ -11,6 +11,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray, one_of
+from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.history import StrainHistory
 from probation.law.refinement import fine_time, refine
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Excitation(WithCurves):
+class Excitation(ShortRepr, WithCurves):
     """Strain and rate as the law sees them.
 
     Attributes
