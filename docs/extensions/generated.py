@@ -42,7 +42,8 @@ GROUPS = {
     "Diagnose": ("diagnose", "Diagnosis", "compare", "Comparison", "Reference", "CallableLaw"),
     "Plan tests": ("plan", "Plan"),
     "What an effect changes in the law": (
-        "Modification", "SelfHeating", "StressActivation", "PowerActivation", "RateShift", "InitialStress", "Direction",
+        "Modification", "SelfHeating", "StressActivation", "PowerActivation", "RateShift", "InitialStress",
+        "OtherSpectrum", "Direction",
     ),
     "Simulate and export": ("simulate", "Simulation", "export", "Export"),
     "Errors": ("InputError", "ConvergenceError"),

@@ -30,7 +30,15 @@ from .law.direction import Direction
 from .law.history import StrainHistory
 from .law.kinematics import haward_thackray_strain
 from .law.modal import Law, Spectrum
-from .law.modification import InitialStress, Modification, PowerActivation, RateShift, SelfHeating, StressActivation
+from .law.modification import (
+    InitialStress,
+    Modification,
+    OtherSpectrum,
+    PowerActivation,
+    RateShift,
+    SelfHeating,
+    StressActivation,
+)
 from .law.ramp import ramp_stress
 from .law.reduction import Reduction, reduce_spectrum
 from .law.schemes import BE2, CVODE, SA2, SA3, Exact
@@ -77,6 +85,7 @@ __all__ = [
     "LawSettings",
     "Modification",
     "Noise",
+    "OtherSpectrum",
     "Plan",
     "PowerActivation",
     "PowerLaw",

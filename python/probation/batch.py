@@ -65,8 +65,8 @@ def stresses(
         E_u [MPa], tau_max [s] or alpha [-], G [MPa] of each set.
     history : StrainHistory
     modification : Modification, optional
-        What an effect changes in the law, but for `rate_shift`, `weight_exponent` and `initial_stress`: these change
-        the law itself with its parameters.
+        What an effect changes in the law, but for `rate_shift`, `weight_exponent`, `other_spectrum` and
+        `initial_stress`: these change the law itself with its parameters.
     threads : int, optional
         All cores if left out.
     out : ndarray, shape (sets, n_times), optional
@@ -248,7 +248,7 @@ def normal_equations(
     return _core.normal_equations(solver, engine_law(law), _engine_change(record.modification), stress)
 
 
-_PART_OF_THE_LAW = frozenset({"rate_shift", "weight_exponent", "initial_stress"})
+_PART_OF_THE_LAW = frozenset({"rate_shift", "weight_exponent", "initial_stress", "other_spectrum"})
 """Changes that are resolved with the law's parameters, one set at a time."""
 
 

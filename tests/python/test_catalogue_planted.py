@@ -266,7 +266,6 @@ def test_effects_are_considered_only_where_records_could_show_them():
         "temperature_dependence",
         "mullins_softening",
         "back_stress",
-        "strain_induced_crystallisation",
         "change_between_tests",
         "cell_hysteresis",
         "slack_strip",

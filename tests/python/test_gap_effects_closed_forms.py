@@ -1,6 +1,7 @@
 """Each effect beside its closed form, or an independent integration of what it says."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+from scipy.special import erfcx
 
 import probation
 from probation.effects.catalogue.finite_extensibility import inverse_langevin
@@ -15,6 +17,7 @@ from probation.effects.catalogue.force_strain_lag import delayed
 from probation.effects.cause import cause
 from probation.effects.maxwell_element import maxwell_element, maxwell_element_in_strain
 from probation.effects.record_view import views_of
+from probation.effects.relaxation_spectra import cole_cole, stretched_exponential
 from probation.inference.callable_law import CallableLaw
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
@@ -196,6 +199,39 @@ def test_weights_follow_another_power_of_the_times():
     np.testing.assert_allclose(found[2:], expected, rtol=1e-4)
 
 
+def relaxation_after_a_step(form, values, part):
+    """E_u e times the law's own relaxation and a part of another's, after a quick stretch to 0.01."""
+    time = np.concatenate([[0.0, 1e-7], np.geomspace(1e-2, 20.0, 200)])
+    strain = np.where(time > 0.0, 0.01, 0.0)
+    record = Record(id="step", time=time, true_strain=strain, true_stress=0 * time, noise=Noise(0.04, 0.0))
+    law = probation.Law(unrelaxed_modulus=3000.0, tau_max=6.0, hardening_modulus=0.0)
+    own = law.stress(time, strain, scheme="sa2")
+    found, _ = predicted(law, record, "spectrum_shape", form, (part, *values), scheme="sa2")
+    return time[2:], (found - (1.0 - part) * own)[2:] / (30.0 * part)
+
+
+@pytest.mark.parametrize("part", [0.3, 1.0])
+def test_a_fractional_maxwell_element_relaxes_by_mittag_lefflers_function(part):
+    """Of the exponent 1/2: e^z erfc(sqrt z), z = t / t_0, t_0 = 0.1 tau_max."""
+    time, found = relaxation_after_a_step("cole_cole", (0.1, 0.5), part)
+    np.testing.assert_allclose(found, erfcx(np.sqrt(time / 0.6)), atol=0.002)
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.5, 0.8])
+def test_a_stretched_exponential_relaxes_as_it_says(exponent):
+    time, found = relaxation_after_a_step("stretched_exponential", (0.1, exponent), 1.0)
+    np.testing.assert_allclose(found, np.exp(-((time / 0.6) ** exponent)), atol=0.002)
+
+
+@pytest.mark.parametrize("distribution", [cole_cole, stretched_exponential])
+def test_near_the_exponent_1_a_distribution_is_a_single_time(distribution):
+    """No times below t_0, all above it; between, the part that has times up to t only grows with t."""
+    np.testing.assert_allclose(distribution(np.array([0.5, 2.0]), 0.999), [0.0, 1.0], atol=2e-3)
+    parts = distribution(np.geomspace(1e-12, 1e12, 500), 0.5)
+    assert np.all(np.diff(parts) >= 0.0)
+    np.testing.assert_allclose(parts[[0, -1]], [0.0, 1.0], atol=2e-6)
+
+
 HEATING, COOLING, LOSS = 0.4, 5e-3, 0.004
 
 
@@ -255,6 +291,7 @@ def up_and_down():
         ("saturating", (0.3, 0.4), lambda e: math.exp(-0.3 * (1.0 - math.exp(-e / 0.4)))),
         ("growing", (0.2, 1.5), lambda e: math.exp(-0.2 * e**1.5)),
         ("about_a_strain", (0.3, 0.4, 5.0), lambda e: math.exp(-0.3 * e**5 / (e**5 + 0.4**5))),
+        ("beyond_a_strain", (0.3, 0.4, 0.2), lambda e: 1.0 - 0.3 * (1.0 - math.exp(-(e - 0.4) / 0.2))),
     ],
 )
 def test_damage_is_the_area_lost_and_stays(form, values, left):
@@ -287,6 +324,16 @@ def test_an_aged_start_relaxes_more_slowly():
     expected = solve_ivp(slope, (0.0, 100.0), [0.0], "LSODA", record.time, rtol=1e-10, atol=1e-10).y[0]
     found, _ = predicted(law, record, "structural_softening", "relaxation_time", (0.8, 0.1), scheme="sa3", substeps=4)
     np.testing.assert_allclose(found, expected, atol=2e-4)
+
+
+def test_a_stress_that_falls_as_the_work_warms_is_scaled():
+    """Relaxed at all times, without cooling: G e_HT (1 - a w), w the recorded work."""
+    record = ramp(samples=2001)
+    stress = 2.0 * probation.haward_thackray_strain(record.true_strain)
+    found, _ = predicted(QUICK, replace(record, true_stress=stress), "self_heating", "of_the_stress", (0.02, 1e-5))
+    strain = record.true_strain
+    work = np.expm1(2.0 * strain) + 2.0 * np.expm1(-strain)
+    np.testing.assert_allclose(found[200:], (stress * (1.0 - 0.02 * work))[200:], rtol=2e-3)
 
 
 def test_a_slow_process_adds_a_maxwell_element():
@@ -372,6 +419,16 @@ def test_a_drift_of_the_force_reaches_its_size_at_the_end():
     np.testing.assert_allclose(found - 1000.0 * strain, 2e-3 * time * np.exp(strain), atol=1e-10)
 
 
+def test_a_drift_of_the_force_settles():
+    """By ln(1 + t / t_0): half of it after (sqrt(1 + 1 / x) - 1) x of the record, x = t_0 over its duration."""
+    found, time, strain = faulty("force_drift", "logarithmic", (0.6, 0.01))
+    drift = found * np.exp(-strain)
+    drift -= faulty("force_drift", "logarithmic", (0.0, 0.01))[0] * np.exp(-strain)
+    assert drift[-1] == pytest.approx(0.6, rel=1e-9)
+    half = 0.01 * (math.sqrt(101.0) - 1.0) * time[-1]
+    assert np.interp(half, time, drift) == pytest.approx(0.3, rel=1e-3)
+
+
 def test_a_wrong_section_is_a_factor():
     found, _, strain = faulty("force_gain", "factor", (-0.03,))
     np.testing.assert_allclose(found, 970.0 * strain, rtol=1e-12)
@@ -404,6 +461,48 @@ def test_a_late_force_is_that_of_an_earlier_strain():
     )
     found, time, strain = faulty("force_strain_lag", "delay", (1.7,), law=law)
     np.testing.assert_allclose(found, 0.2 * np.maximum(time - 1.7, 0.0) * np.exp(strain), atol=1e-9)
+
+
+def test_a_filtered_force_is_a_ramp_behind_by_its_time_constant():
+    """F = k t through a filter of first order: k (t - c (1 - e^(-t / c)))."""
+    law = CallableLaw(
+        lambda time, strain, parameters, modification: parameters[0] * time * np.exp(strain),
+        ("k",),
+        (0.2,),
+        (0.0,),
+        (9.0,),
+    )
+    found, time, strain = faulty("force_strain_lag", "filter", (1.7,), law=law)
+    expected = 0.2 * (time + 1.7 * np.expm1(-time / 1.7))
+    np.testing.assert_allclose(found, expected * np.exp(strain), atol=1e-9)
+    late, *_ = faulty("force_strain_lag", "delay", (1.7,), law=law)
+    np.testing.assert_allclose(found[-100:], late[-100:], rtol=1e-4)
+
+
+def strip(lost):
+    """An elastic bar whose recorded strain is `lost(nominal stress)` more than its own, as a record."""
+    seen = np.linspace(0.0, 0.3, 2000)
+    nominal = 1000.0 * seen * np.exp(-seen)
+    strain = seen + lost(nominal)
+    return seen, Record(
+        id="strip", time=np.arange(2000.0), true_strain=strain, true_stress=nominal * np.exp(strain),
+        noise=Noise(0.04, 0.0),
+    )  # fmt: skip
+
+
+def test_a_bent_strip_is_pulled_straight():
+    """The face that was measured has a n / (n + n_c) more, n the nominal stress; at most a."""
+    seen, record = strip(lambda nominal: 0.01 * nominal / (nominal + 5.0))
+    found, _ = predicted(bar(), record, "strain_offset", "straightening", (0.01, 5.0))
+    own = found * np.exp(-(record.true_strain - seen)) / 1000.0
+    np.testing.assert_allclose(own, seen, atol=2e-4)
+
+
+def test_jaws_give_way_beyond_what_friction_holds():
+    """Nothing up to a nominal stress of 50 MPa, then a per MPa."""
+    _, record = strip(lambda nominal: 1e-4 * np.maximum(nominal - 50.0, 0.0))
+    found, _ = predicted(bar(), record, "grip_slip", "progressive", (1e-4, 50.0))
+    np.testing.assert_allclose(found, record.true_stress, rtol=2e-3, atol=0.01)
 
 
 def test_slack_is_taken_up_before_the_specimen_is_strained():
@@ -529,7 +628,7 @@ def test_a_warmer_day_is_another_law():
     warm_law = LAW.with_parameters([3000.0, 6.0 * math.exp(-0.3), 2.0 * math.exp(-0.015)])
     campaign = probation.Campaign(name="days", records=(first, last))
     model = CampaignModel(DnlrLaw(LAW), views_of(campaign), [cause("temperature_drift", "test_to_test")])
-    found = model.predict(model.parameters(LAW.parameters, (3.0,)))
+    found = model.predict(model.parameters(LAW.parameters, (3.0, 0.1, 0.05)))
     np.testing.assert_allclose(found[first.id], LAW.stress(first.time, first.true_strain), rtol=1e-12)
     np.testing.assert_allclose(found[last.id], warm_law.stress(last.time, last.true_strain), rtol=1e-12)
 
@@ -545,7 +644,7 @@ def test_warming_within_a_record_is_integrated_independently():
         return 900.0 * RATE - (stress - relaxed) / (4.0 * math.exp(-0.1 * rise))
 
     expected = solve_ivp(slope, (0.0, 200.0), [0.0], "LSODA", record.time, rtol=1e-10, atol=1e-10).y[0]
-    found, _ = predicted(law, record, "temperature_drift", "within_record", (5.0,), scheme="sa3", substeps=4)
+    found, _ = predicted(law, record, "temperature_drift", "within_record", (5.0, 0.1, 0.05), scheme="sa3", substeps=4)
     np.testing.assert_allclose(found, expected, atol=2e-4)
 
 

@@ -12,6 +12,8 @@ from probation._arrays import as_samples
 from probation.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike
 
     from probation._arrays import FloatArray
@@ -28,7 +30,7 @@ SelfHeating = _core.SelfHeating
 FACTORS = ("relaxation_time_factor", "unrelaxed_modulus_factor", "hardening_factor", "load_bearing_area")
 SAMPLED = (*FACTORS, "added_relaxed_stress")
 MODES = ("initial_modal_stress", "extra_modulus", "extra_relaxation_time")
-ONCE = frozenset({"rate_shift", "initial_stress", "initial_modal_stress"})
+ONCE = frozenset({"rate_shift", "initial_stress", "initial_modal_stress", "other_spectrum"})
 """What only one effect at a time can change."""
 
 
@@ -66,6 +68,21 @@ class InitialStress(NamedTuple):
     cut: float = 0.0
 
 
+class OtherSpectrum(NamedTuple):
+    """A part of E_u relaxes by another distribution of times, which follow tau_max as the law's own do.
+
+    Attributes
+    ----------
+    part : float [-]
+        Of E_u, from 0 to 1.
+    distribution : callable
+        ``distribution(ratio)``: which part of it, from 0 to 1, has times up to these, over tau_max; shape (n,).
+    """
+
+    part: float
+    distribution: Callable[[FloatArray], FloatArray]
+
+
 @dataclass(frozen=True, eq=False)  # arrays have no single answer to ==
 class Modification:
     """What changes in a law along one record; whatever is left out stays as it is.
@@ -97,6 +114,8 @@ class Modification:
         The weights of the modes are multiplied by tau_j to this power; their sum stays.
     initial_stress : InitialStress
         The record starts under this stress, on top of the relaxed one.
+    other_spectrum : OtherSpectrum
+        A part of the weights is distributed otherwise; their sum stays.
 
     Raises
     ------
@@ -116,6 +135,7 @@ class Modification:
     rate_shift: RateShift | None = None
     weight_exponent: float | None = None
     initial_stress: InitialStress | None = None
+    other_spectrum: OtherSpectrum | None = None
 
     def __post_init__(self) -> None:
         if self.initial_stress is not None and self.initial_modal_stress is not None:

@@ -9,13 +9,20 @@ import numpy as np
 from probation import _core
 from probation._arrays import as_samples
 from probation.errors import InputError
-from probation.law.modification import MODES, SAMPLED, Modification
+from probation.law.modification import MODES, SAMPLED, Modification, OtherSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 UNCHANGED = _core.LawChange()
 """No change, one object for all."""
+
+
+SLOWER = 100.0
+"""How far another spectrum reaches beyond the law's slowest mode: two decades."""
+
+_LONE_STEP = 10.0**0.125
+"""Ratio of neighbouring times where the law has one mode only."""
 
 
 class ModifiedLaw(NamedTuple):
@@ -71,6 +78,8 @@ def modified(
         ratio = spectrum.relaxation_ratio
         weight = spectrum.modal_weight * ratio**exponent
         spectrum = _core.Spectrum(ratio, weight * (spectrum.modal_weight.sum() / weight.sum()))
+    if (other := modification.other_spectrum) is not None:
+        spectrum = _mixed(spectrum, other)
     law = engine_law_of(parameters, companion, spectrum)
     change = engine_change(modification)
     if (start := modification.initial_stress) is not None:
@@ -80,6 +89,18 @@ def modified(
         relaxed += np.append(change.added_relaxed_stress, 0.0)[0]
         change.initial_modal_stress = relaxed * weight + start.stress * still_carried / still_carried.sum()
     return ModifiedLaw(law, change)
+
+
+def _mixed(spectrum: _core.Spectrum, other: OtherSpectrum) -> _core.Spectrum:
+    """The law's modes and further ones beyond the slowest, at the same distances; a part of the weights as `other`."""
+    ratio, weight = spectrum.relaxation_ratio, spectrum.modal_weight
+    step = ratio[-1] / ratio[-2] if len(ratio) > 1 else _LONE_STEP
+    slower = ratio[-1] * step ** np.arange(1, int(np.log(SLOWER) / np.log(step)) + 1)
+    ratio = np.append(ratio, slower)
+    up_to = other.distribution(np.sqrt(ratio[1:] * ratio[:-1]))
+    mixed = other.part * weight.sum() * np.diff(up_to, prepend=0.0, append=1.0)
+    mixed[: len(weight)] += (1.0 - other.part) * weight
+    return _core.Spectrum(ratio, mixed)
 
 
 def parameter_directions(

@@ -134,8 +134,8 @@ class EffectsSettings:
         used_in="effects/catalogue/slack_strip.py",
     )
     crystallising_strain: float = setting(
-        0.5,
-        "Largest strain of a campaign from which on crystals may form: a stretch of 1.65.",
+        0.15,
+        "Largest strain of a campaign from which on crystals may form, or be transformed: beyond yield.",
         unit="true strain",
         origin="chosen",
         used_in="effects/catalogue/strain_induced_crystallisation.py",

@@ -10,6 +10,9 @@ from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
 _REASON = "voids and broken lamellae take some tenths of the section before failure"
@@ -31,14 +34,59 @@ def _about_a_strain(view: RecordView, values: Values) -> Modification:
     return Modification(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, 1e-9) ** -values[2])))
 
 
+def _beyond_a_strain(view: RecordView, values: Values) -> Modification:
+    """Area 1 - a (1 - e^(-(e - e_0) / w)) beyond a threshold e_0, e the largest strain so far (Mazars)."""
+    beyond = np.maximum(view.largest_strain - values[1], 0.0)
+    return Modification(load_bearing_area=1.0 + values[0] * np.expm1(-beyond / values[2]))
+
+
+_LOSS = EffectParameter("area_loss", "", 0.0, 0.95, 0.2, _REASON)
+_THRESHOLD = EffectParameter(
+    name="threshold_strain",
+    unit="",
+    lower=0.001,
+    upper=3.0,
+    centre=0.2,
+    scale=1.0,
+    log=True,
+    reason="nothing breaks before yield",
+)
+_GROWTH = EffectParameter(
+    name="growth_strain",
+    unit="",
+    lower=0.01,
+    upper=10.0,
+    centre=0.3,
+    scale=1.0,
+    log=True,
+    reason="from brittle beyond the threshold to steady growth (Lemaitre)",
+)
+
+
+def _thresholds(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Parts of the largest strain."""
+    largest = max(float(np.max(view.largest_strain)) for view in views)
+    return [
+        (
+            float(np.clip(part * largest, _THRESHOLD.lower, _THRESHOLD.upper)),
+            float(np.clip(0.3 * largest, _GROWTH.lower, _GROWTH.upper)),
+        )
+        for part in (0.1, 0.3, 0.5, 0.7)
+    ]
+
+
 EFFECT = Effect(
     name="damage",
     title="damage",
     physics=(
         "Voids and breakage take load-bearing area for good, the more the further the specimen has been strained.\n"
-        "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing)."
+        "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing); the area lost (beyond "
+        "a strain)."
     ),
-    source="Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Detrez et al. 2011, Polymer 52, 1998",
+    source=(
+        "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Mazars & Pijaudier-Cabot 1989, J. Eng. Mech. "
+        "115, 345; Detrez et al. 2011, Polymer 52, 1998"
+    ),
     shows_in="records reaching large strains; unloading shows it best: it stays",
     kind="material",
     coordinate="largest_strain",
@@ -107,6 +155,12 @@ EFFECT = Effect(
                 ),
             ),
             modification=_about_a_strain,
+        ),
+        Form(
+            "beyond_a_strain",
+            (_LOSS, _THRESHOLD, _GROWTH),
+            modification=_beyond_a_strain,
+            starts=_thresholds,
         ),
     ),
 )

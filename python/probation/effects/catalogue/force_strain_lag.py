@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.maxwell_element import maxwell_element
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -36,14 +37,22 @@ def delayed(time: FloatArray, samples: FloatArray, delay: float) -> FloatArray:
     return np.where(wanted < time[0], samples[0], np.where(wanted > time[-1], beyond, found))
 
 
+def _filter(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The force through a filter of first order with the time constant a, made a true stress with the strain of now."""
+    if values[0] <= 0.0:
+        return stress
+    force = stress / view.stretch
+    return np.asarray((force - maxwell_element(view.time, force, values[0])) * view.stretch)
+
+
 EFFECT = Effect(
     name="force_strain_lag",
     title="lag between force and strain",
     physics=(
         "Filters or separate clocks delay one channel against the other.\n"
-        "Amplitude: by how much the force comes late (negative: the strain does)."
+        "Amplitude: by how much the force comes late (negative: the strain does); or its filter's time constant."
     ),
-    source="ASTM E1942 (data acquisition in mechanical testing)",
+    source="ASTM E1942 (data acquisition in mechanical testing: delays and filters)",
     shows_in="fast records, rate jumps and reversals, where the stress changes quickly",
     kind="rig",
     coordinate="strain_rate",
@@ -52,6 +61,11 @@ EFFECT = Effect(
             "delay",
             (EffectParameter("delay_s", "s", -20.0, 20.0, 0.3, "filters and video extensometers lag by 0.1 to 1 s"),),
             recorded_stress=_lag,
+        ),
+        Form(
+            "filter",
+            (EffectParameter("time_constant_s", "s", 0.0, 20.0, 0.3, "amplifiers filter at 0.2 Hz to 1 kHz"),),
+            recorded_stress=_filter,
         ),
     ),
 )

@@ -16,6 +16,16 @@ if TYPE_CHECKING:
 
 _INSTANTS = tuple(np.linspace(0.05, 0.95, 19).tolist())
 _DURATION = 0.004
+_PULL = EffectParameter(
+    name="holding_stress_MPa",
+    unit="MPa",
+    lower=0.01,
+    upper=200.0,
+    centre=10.0,
+    scale=1.5,
+    log=True,
+    reason="friction holds up to about the stress for which grips are tightened",
+)
 _PARAMETERS = (
     EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm"),
     EffectParameter(
@@ -48,6 +58,18 @@ def _slip(view: RecordView, values: Values) -> FloatArray:
     return view.true_strain - values[0] * passed**2 * (3.0 - 2.0 * passed)
 
 
+def _progressive(view: RecordView, values: Values) -> FloatArray:
+    """Beyond a pull n_0 the jaws give way by a per further MPa, for good; n the largest nominal stress so far."""
+    pull = np.maximum.accumulate(view.smooth_nominal_data)
+    return view.true_strain - values[0] * np.maximum(pull - values[1], 0.0)
+
+
+def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Parts of the largest nominal stress."""
+    largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
+    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.1, 0.3, 0.6)]
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """An even grid and, with residuals, the two instants where they jump most."""
     found = list(_INSTANTS)
@@ -67,11 +89,13 @@ EFFECT = Effect(
     name="grip_slip",
     title="slip in the grips",
     physics=(
-        "The specimen slips in its grips at some instant: the recorded strain goes on, the specimen's jumps back.\n"
-        "Amplitude: recorded strain that is lost. The true stress was made of the recorded strain, or measured apart."
+        "The specimen slips in its grips at some instant, and its strain jumps back beside the recorded one; or it "
+        "gives way little by little beyond the pull that friction holds.\n"
+        "Amplitude: recorded strain that is lost (per stress beyond what holds). The true stress was made of it, or "
+        "measured apart."
     ),
-    source="ISO 527-1, section 5.1.3 (grips)",
-    shows_in="one record, from one instant on: the stress drops and recovers",
+    source="ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull)",
+    shows_in="one record, from one instant on: the stress drops and recovers; or all records at high stress",
     kind="rig",
     forms=(
         Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts, placements=("one",), sharp="step"),
@@ -83,6 +107,15 @@ EFFECT = Effect(
             converts=False,
             placements=("one",),
             sharp="step",
+        ),
+        Form(
+            "progressive",
+            (
+                EffectParameter("slip_per_MPa", "1/MPa", 0.0, 0.2, 1e-3, "some tenths of a per cent within some MPa"),
+                _PULL,
+            ),
+            driving_strain=_progressive,
+            starts=_pulls,
         ),
     ),
 )

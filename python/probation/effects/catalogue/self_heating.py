@@ -9,7 +9,7 @@ import numpy as np
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible_temperature import all_measured, warms_by_work
-from probation.effects.warming import SOFTENING_PER_DEGREE
+from probation.effects.warming import SOFTENING
 from probation.law.modification import Modification, SelfHeating
 
 if TYPE_CHECKING:
@@ -46,18 +46,9 @@ _HARDENING_LOSS = EffectParameter(
     scale=0.004,
     reason="G of polyethylene falls by about 0.5 % per degree",
 )
+_LEAST_STRESS = 0.02
+"""Part of the stress that is left at any temperature."""
 
-
-_SOFTENING = EffectParameter(
-    name="softening_per_degC",
-    unit="1/°C",
-    lower=0.01,
-    upper=0.5,
-    centre=SOFTENING_PER_DEGREE,
-    scale=0.5,
-    log=True,
-    reason="-d ln tau_max / dT; only its product with the warming enters, unless the temperature was measured",
-)
 _MEASURED_SOFTENING = EffectParameter(
     name="softening_per_degC",
     unit="1/°C",
@@ -76,6 +67,14 @@ _HARDENING_PART = EffectParameter(
     reason="-d ln G / dT over the softening: G of polyethylene falls by about 0.5 % per degree",
 )
 _MEASURED = (_MEASURED_SOFTENING, _HARDENING_PART)
+_LOSS = EffectParameter(
+    name="stress_loss_per_MPa",
+    unit="1/MPa",
+    lower=0.0,
+    upper=0.1,
+    scale=0.005,
+    reason="0.5 °C per MPa of work times 1 % per degree, as a yield stress falls",
+)
 
 
 def _warm(view: RecordView, values: Values) -> Modification:
@@ -94,6 +93,12 @@ def _as_measured(view: RecordView, values: Values) -> Modification | None:
     )
 
 
+def _of_the_stress(view: RecordView, values: Values) -> Modification:
+    """E_u and G alike 1 - a w, tau_max as it is; w the recorded work less what has cooled off (Johnson and Cook)."""
+    factor = np.maximum(1.0 - values[0] * _kept_work(view, values[1]), _LEAST_STRESS)
+    return Modification(unrelaxed_modulus_factor=factor, hardening_factor=factor)
+
+
 def _not_all_measured(views: Sequence[RecordView]) -> bool:
     return not all_measured(views)
 
@@ -102,9 +107,14 @@ def _warming(view: RecordView, values: Values) -> FloatArray:
     """The measured rise [°C]; else what the recorded work brought, less what has cooled off, per heating [MPa]."""
     if len(values) == len(_MEASURED) and view.measured_rise is not None:
         return view.measured_rise
+    return _kept_work(view, values[1])
+
+
+def _kept_work(view: RecordView, cooling: float) -> FloatArray:
+    """The recorded work so far, less what has cooled off; shape (n,) [MPa]."""
     stress = view.smooth_nominal_data * view.stretch
     work = np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(view.true_strain)))
-    return maxwell_element(view.time, work, 1.0 / values[1])
+    return maxwell_element(view.time, work, 1.0 / cooling)
 
 
 EFFECT = Effect(
@@ -113,19 +123,23 @@ EFFECT = Effect(
     physics=(
         "Plastic work turns into heat faster than it leaves: the specimen warms, relaxes faster and hardens less.\n"
         "Amplitude: warming per plastic work; where every record has its measured temperature, that drives the law, "
-        "and the amplitude is the loss of ln tau_max per degree."
+        "and the amplitude is the loss of ln tau_max per degree. Of the stress: its relative loss per work."
     ),
-    source="Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193",
+    source=(
+        "Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193; Johnson & Cook 1983 (the "
+        "stress falls in proportion to the warming)"
+    ),
     shows_in="fast records at large strains, against slow ones that stay cool; a measured temperature judges it",
     kind="material",
     coordinate=_warming,
     forms=(
         Form(
             "adiabatic_to_cooled",
-            (_HEATING, _COOLING, _SOFTENING, _HARDENING_LOSS),
+            (_HEATING, _COOLING, SOFTENING, _HARDENING_LOSS),
             modification=_warm,
             needs=_not_all_measured,
         ),
+        Form("of_the_stress", (_LOSS, _COOLING), modification=_of_the_stress, needs=_not_all_measured),
         Form("as_measured", _MEASURED, modification=_as_measured, needs=warms_by_work),
     ),
 )

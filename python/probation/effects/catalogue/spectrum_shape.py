@@ -5,10 +5,52 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.law.modification import Modification
+from probation.effects.relaxation_spectra import cole_cole, stretched_exponential
+from probation.law.modification import Modification, OtherSpectrum
 
 if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
+
+
+_PART = EffectParameter(
+    name="part_of_the_modulus",
+    unit="",
+    lower=0.0,
+    upper=1.0,
+    scale=0.4,
+    reason="some tenths of it: a process beside the law's; 1 is another spectrum altogether",
+)
+_TIME = EffectParameter(
+    name="time_over_tau_max",
+    unit="",
+    lower=1e-5,
+    upper=50.0,
+    centre=0.1,
+    scale=2.5,
+    log=True,
+    starts=(0.01, 0.5),
+    reason="within the decades of the law's own times, or just beyond",
+)
+_COLE_COLE = EffectParameter(
+    name="cole_cole_exponent",
+    unit="",
+    lower=0.1,
+    upper=0.9,
+    centre=0.5,
+    scale=0.2,
+    starts=(0.5,),
+    reason="0.3 to 0.7 for the glass transition and the secondary relaxations of polymers",
+)
+_STRETCH = EffectParameter(
+    name="stretching_exponent",
+    unit="",
+    lower=0.15,
+    upper=0.9,
+    centre=0.5,
+    scale=0.2,
+    starts=(0.5,),
+    reason="0.3 to 0.7 for polymers about their glass transition",
+)
 
 
 def _weights(view: RecordView, values: Values) -> Modification:
@@ -16,14 +58,30 @@ def _weights(view: RecordView, values: Values) -> Modification:
     return Modification(weight_exponent=values[0])
 
 
+def _cole_cole(view: RecordView, values: Values) -> Modification:
+    """The part a of E_u relaxes as a fractional Maxwell element, E_c(-(t / t_0)^c), t_0 in units of tau_max."""
+    part, time, exponent = values
+    return Modification(other_spectrum=OtherSpectrum(part, lambda ratio: cole_cole(ratio / time, exponent)))
+
+
+def _stretched(view: RecordView, values: Values) -> Modification:
+    """The part a of E_u relaxes as exp(-(t / t_0)^b), t_0 in units of tau_max."""
+    part, time, exponent = values
+    return Modification(other_spectrum=OtherSpectrum(part, lambda ratio: stretched_exponential(ratio / time, exponent)))
+
+
 EFFECT = Effect(
     name="spectrum_shape",
     title="another shape of the spectrum",
     physics=(
         "Equipartition of entropy production gives weights that follow the root of the relaxation time, eq. (5).\n"
-        "Amplitude: what must be added to the exponent 1/2; positive means more slow modes."
+        "Amplitude: what must be added to the exponent 1/2, positive for more slow modes; or the part of E_u that "
+        "relaxes by a Cole-Cole distribution or a stretched exponential instead."
     ),
-    source="André et al., eq. (5); Cunat 2001, Mech. Time-Depend. Mater. 5, 39",
+    source=(
+        "André et al., eq. (5); Cunat 2001, Mech. Time-Depend. Mater. 5, 39; Cole & Cole 1941, J. Chem. Phys. 9, 341; "
+        "Schiessel et al. 1995, J. Phys. A 28, 6567; Williams & Watts 1970, Trans. Faraday Soc. 66, 80"
+    ),
     shows_in="every record with fast and slow parts: onset, rate jumps, dwells",
     kind="material",
     coordinate="log_time",
@@ -42,5 +100,7 @@ EFFECT = Effect(
             ),
             modification=_weights,
         ),
+        Form("cole_cole", (_PART, _TIME, _COLE_COLE), modification=_cole_cole),
+        Form("stretched_exponential", (_PART, _TIME, _STRETCH), modification=_stretched),
     ),
 )

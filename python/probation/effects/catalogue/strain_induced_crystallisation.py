@@ -19,13 +19,12 @@ if TYPE_CHECKING:
 _ONSET = EffectParameter(
     name="onset_strain",
     unit="",
-    lower=0.1,
+    lower=0.03,
     upper=2.5,
-    centre=0.9,
-    scale=0.4,
+    centre=0.6,
+    scale=0.7,
     log=True,
-    starts=(0.5, 0.9),
-    reason="at stretches of 2 to 4 in natural rubber and polyesters, 1.6 in fibrillating polymers",
+    reason="at stretches of 2 to 4 in natural rubber and polyesters, 1.6 in fibrillating polymers, 1.1 in polyethylene",
 )
 _GROWTH = EffectParameter(
     name="growth_strain",
@@ -35,7 +34,6 @@ _GROWTH = EffectParameter(
     centre=0.5,
     scale=0.6,
     log=True,
-    starts=(0.5,),
     reason="crystallinity levels off within some tenths of strain",
 )
 
@@ -54,6 +52,21 @@ def _filler(view: RecordView, values: Values) -> Modification:
 def _carried(view: RecordView, values: Values) -> Modification:
     """A relaxed stress a (e - e_c), e the largest strain so far: crystals carry it."""
     return Modification(added_relaxed_stress=values[0] * _beyond(view, values[1]))
+
+
+def _onsets(views: Sequence[RecordView]) -> list[float]:
+    """Parts of the largest strain."""
+    largest = max(float(np.max(view.largest_strain)) for view in views)
+    return [float(np.clip(part * largest, _ONSET.lower, _ONSET.upper)) for part in (0.35, 0.65)]
+
+
+def _starts_of_filler(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """It grows over as much strain as it began at."""
+    return [(onset, float(np.clip(onset, _GROWTH.lower, _GROWTH.upper))) for onset in _onsets(views)]
+
+
+def _starts_of_carried(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    return [(onset,) for onset in _onsets(views)]
 
 
 def _stretched(views: Sequence[RecordView]) -> bool:
@@ -83,6 +96,7 @@ EFFECT = Effect(
                 _GROWTH,
             ),
             modification=_filler,
+            starts=_starts_of_filler,
             needs=_stretched,
         ),
         Form(
@@ -94,6 +108,7 @@ EFFECT = Effect(
                 _ONSET,
             ),
             modification=_carried,
+            starts=_starts_of_carried,
             needs=_stretched,
         ),
     ),

@@ -9,8 +9,21 @@ import numpy as np
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
+
+_PULL = EffectParameter(
+    name="straightening_stress_MPa",
+    unit="MPa",
+    lower=1e-3,
+    upper=100.0,
+    centre=1.0,
+    scale=2.0,
+    log=True,
+    reason="the critical stress of the strip as a column, pi^2 E h^2 / 12 L^2: 2 MPa for 4 mm in 100 mm",
+)
 
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
@@ -29,14 +42,30 @@ def _shift(view: RecordView, values: Values) -> FloatArray:
     return view.true_strain - values[0]
 
 
+def _straightening(view: RecordView, values: Values) -> FloatArray:
+    """A bent strip straightens: a n / (n + n_c), n the nominal stress, is recorded besides the specimen's strain."""
+    pull = np.maximum(view.smooth_nominal_data, 0.0)
+    return np.asarray(view.true_strain - values[0] * pull / (pull + values[1]))
+
+
+def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """A fiftieth and a fifth of the largest nominal stress."""
+    largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
+    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.02, 0.2)]
+
+
 EFFECT = Effect(
     name="strain_offset",
     title="offset of the strain",
     physics=(
-        "Slack in the load train is recorded as strain (toe), or the strain was zeroed at the wrong length.\n"
+        "Slack in the load train is recorded as strain (toe), the strain was zeroed at the wrong length, or one face "
+        "of a bent or misaligned strip was measured while it was pulled straight.\n"
         "Amplitude: recorded strain that the specimen did not see."
     ),
-    source="ASTM D638, annex A1 (toe compensation)",
+    source=(
+        "ASTM D638, annex A1 (toe compensation); Timoshenko & Gere 1961, Theory of Elastic Stability, section 1.12 "
+        "(initial curvature); ASTM E1012 (bending)"
+    ),
     shows_in="the onset of a record and, at zero load, its unloading; a wrong zero only bends the hardening",
     kind="rig",
     forms=(
@@ -67,6 +96,15 @@ EFFECT = Effect(
             "shift",
             (EffectParameter("strain_zero_error", "", -0.2, 0.2, 0.005, "some tenths of a per cent"),),
             driving_strain=_shift,
+        ),
+        Form(
+            "straightening",
+            (
+                EffectParameter("straightening_strain", "", -0.2, 0.2, 0.005, "bending by some tenths of a per cent"),
+                _PULL,
+            ),
+            driving_strain=_straightening,
+            starts=_pulls,
         ),
     ),
 )

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.visible_temperature import changes_without_work, starts_differ
+from probation.effects.warming import HARDENING_PART
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -24,15 +25,6 @@ _SOFTENING = EffectParameter(
     upper=1.0,
     scale=0.1,
     reason="-d ln tau_max / dT; an activation energy of 70 kJ/mol at room temperature gives 0.1, a glass more",
-)
-_HARDENING = EffectParameter(
-    name="hardening_part",
-    unit="",
-    lower=-0.3,
-    upper=0.5,
-    centre=0.05,
-    scale=0.05,
-    reason="-d ln G / dT over the softening: polyethylene's G falls by 0.5 % per degree, an elastomer's rises by 0.3 %",
 )
 _MODULUS = EffectParameter(
     name="modulus_part",
@@ -119,8 +111,8 @@ EFFECT = Effect(
     kind="material",
     coordinate="temperature",
     forms=(
-        Form("arrhenius", (_SOFTENING, _HARDENING, _MODULUS), modification=_arrhenius, needs=_differs),
-        Form("wlf", (_SOFTENING, _HARDENING, _MODULUS, _WLF), modification=_wlf, needs=_differs),
+        Form("arrhenius", (_SOFTENING, HARDENING_PART, _MODULUS), modification=_arrhenius, needs=_differs),
+        Form("wlf", (_SOFTENING, HARDENING_PART, _MODULUS, _WLF), modification=_wlf, needs=_differs),
         Form("of_the_stress", (_LOSS,), modification=_of_the_stress, needs=_differs),
     ),
 )

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.visible_temperature import all_known, all_measured
-from probation.effects.warming import HARDENING_LOSS_PER_DEGREE, SOFTENING_PER_DEGREE, warmed
+from probation.effects.warming import HARDENING_PART, SOFTENING, warmed
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -21,17 +21,17 @@ _REASON = "laboratories keep their temperature to 2 degrees"
 
 def _within_record(view: RecordView, values: Values) -> Modification:
     """From nothing at the start of the record to a at its end."""
-    return warmed(values[0] * view.elapsed / view.duration)
+    return warmed(values[0] * view.elapsed / view.duration, *values[1:])
 
 
 def _test_to_test(view: RecordView, values: Values) -> Modification:
     """From nothing in the first record to a in the last, in order of test."""
-    return warmed(np.full(1, values[0] * view.index / max(view.count - 1, 1)))
+    return warmed(np.full(1, values[0] * view.index / max(view.count - 1, 1)), *values[1:])
 
 
 def _other_temperature(view: RecordView, values: Values) -> Modification:
     """One record at another temperature than the others."""
-    return warmed(np.full(1, values[0]))
+    return warmed(np.full(1, values[0]), *values[1:])
 
 
 def _not_measured(views: Sequence[RecordView]) -> bool:
@@ -48,8 +48,8 @@ EFFECT = Effect(
     title="drift of the temperature",
     physics=(
         "The room, and with it the specimen, warms during a record, from test to test, or was warmer in one of them.\n"
-        f"Amplitude: the rise; relaxation times fall by {100 * SOFTENING_PER_DEGREE:.0f} %, G by "
-        f"{100 * HARDENING_LOSS_PER_DEGREE:.1f} % per degree. Thermal strains (1.5e-4 per degree) are left out."
+        "Amplitude: the rise; by how much relaxation times and G fall per degree is free within a prior. Thermal "
+        "strains (1.5e-4 per degree) are left out."
     ),
     source="Na et al. 2007, J. Phys. Chem. B 111, 13206; ISO 291 (standard atmospheres)",
     shows_in="long records, or records of different days, where their temperatures are not known",
@@ -58,20 +58,20 @@ EFFECT = Effect(
     forms=(
         Form(
             "within_record",
-            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON), SOFTENING, HARDENING_PART),
             modification=_within_record,
             needs=_not_measured,
         ),
         Form(
             "test_to_test",
-            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            (EffectParameter("warming_degC", "°C", -30.0, 30.0, 2.0, _REASON), SOFTENING, HARDENING_PART),
             modification=_test_to_test,
             needs=_not_known,
             placements=("all",),
         ),
         Form(
             "other_temperature",
-            (EffectParameter("warmer_by_degC", "°C", -30.0, 30.0, 2.0, _REASON),),
+            (EffectParameter("warmer_by_degC", "°C", -30.0, 30.0, 2.0, _REASON), SOFTENING, HARDENING_PART),
             modification=_other_temperature,
             needs=_not_known,
             placements=("one",),
