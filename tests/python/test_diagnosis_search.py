@@ -89,3 +89,15 @@ def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     assert left(anywhere.parameters) > 3.0 * left(start)
     [found] = Search(base, effects(("damage",)), 1)._solved([(model, start)], MOST_STEPS)
     assert left(found.parameters) < 1.3 * left(start)
+
+
+def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
+    """More directions would be found in more noise."""
+    chosen = effects(["damage", "force_drift"])
+    made = campaign(0)
+    base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
+    variants = {form.name for each in chosen for form in each.forms if form.variant}
+    assert variants == {"beyond_a_strain", "logarithmic"}
+    assert variants.isdisjoint(column.cause.form.name for column in base.signals)
+    sought = {column.cause.form.name for column in base.columns_with_starts(chosen).columns}
+    assert sought == {form.name for each in chosen for form in each.forms}

@@ -197,3 +197,13 @@ def test_a_function_that_gives_no_stress_is_told_so():
     law = CallableLaw(lambda time, strain, parameters, modification: strain[:5], ("k",), (1.0,), (0.0,), (9.0,))
     with pytest.raises(probation.InputError, match=r"function\(time, true_strain, …\) has 5 samples; expected 200"):
         law.stress(MODEL.views[0], law.start)
+
+
+def test_what_was_recorded_is_smoothed_once_whatever_the_specimen_saw():
+    """A view of another strain has the same force: the same array."""
+    view = MODEL.views[0]
+    other = view.quietened(view.true_strain).driven(0.8 * view.true_strain)
+    assert other.smooth_nominal_data is view.smooth_nominal_data
+    assert view.with_data(2.0 * view.data).driven(view.true_strain).smooth_nominal_data[-1] == pytest.approx(
+        2.0 * view.smooth_nominal_data[-1], rel=0.05
+    )

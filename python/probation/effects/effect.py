@@ -154,6 +154,9 @@ class Form:
     needs : callable, optional
         ``needs(views)``: whether records like these could show it at all, such as an unloading; left out: any could.
         Where none of an effect's forms could be seen, the effect is not considered, and costs no probability.
+    variant : bool
+        A further form, tried where there is a gap. The test for one goes without it: what it looks for is found along
+        the effect's other forms and along smooth waves, and more directions would be found in more noise.
     """
 
     name: str
@@ -168,6 +171,7 @@ class Form:
     threshold: bool = False
     sharp: Sharp | None = None
     needs: NeedsHook | None = None
+    variant: bool = False
 
     def __post_init__(self) -> None:
         if not self.parameters:

@@ -85,6 +85,8 @@ class RecordView:
         None for a test that is only planned.
     reference_temperature : float or None
         Where the law's parameters are meant [°C]: one number for all records, None unless each has its temperature.
+    same_data : RecordView or None
+        In a view from `driven` or `quietened`, the one that it was made of: what was recorded is the same.
     """
 
     id: str
@@ -107,6 +109,7 @@ class RecordView:
     specimen_id: str | None = None
     measured: Measured | None = None
     reference_temperature: float | None = None
+    same_data: RecordView | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -210,6 +213,8 @@ class RecordView:
 
         No law enters it, unlike `nominal_data`. Kinks that are no jump of the rate are rounded.
         """
+        if self.same_data is not None:
+            return self.same_data.smooth_nominal_data
         from probation.smoothing.penalised_spline import smooth_cubic  # noqa: PLC0415 - few need scipy.interpolate
         from probation.smoothing.segmented import smooth_segments  # noqa: PLC0415
 
@@ -273,7 +278,11 @@ class RecordView:
         """
         if data.shape != self.sampled(self.time).shape:
             raise InputError(f"{self.id}: found data of shape {data.shape}, expected {self.sampled(self.time).shape}")
-        return replace(self, data=data, quiet_stress=None)
+        return replace(self, data=data, quiet_stress=None, same_data=None)
+
+    def quietened(self, stress: FloatArray) -> RecordView:
+        """The same record, effects that hand its force back to the strain taking this true stress, shape (n,) [MPa]."""
+        return replace(self, quiet_stress=stress, same_data=self.same_data or self)
 
     def driven(self, true_strain: FloatArray) -> RecordView:
         """The same record with another strain driving the law; given rates follow by the scheme's difference."""
@@ -284,7 +293,7 @@ class RecordView:
             moved = _core.History(self.time, true_strain - self.true_strain, np.empty(0), list(self.jumps))
             begin, end = moved.rates(how)
             rate = rate + np.append(begin[:1], end)
-        return replace(self, true_strain=true_strain, strain_rate=rate)
+        return replace(self, true_strain=true_strain, strain_rate=rate, same_data=self.same_data or self)
 
 
 def view_of(

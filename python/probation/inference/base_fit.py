@@ -187,8 +187,15 @@ class BaseFit:
         threads: int = 2,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> BaseFit:
-        """The same with the signals of these effects; `unsolved` as in `screen`."""
-        signals = screen(self.model, self.parameters, effects, threads=threads, unsolved=unsolved)
+        """The same with the signals of these effects, without their variants; `unsolved` as in `screen`."""
+        signals = screen(
+            self.model,
+            self.parameters,
+            effects,
+            threads=threads,
+            unsolved=unsolved,
+            only=lambda form: not form.variant,
+        )
         return replace(self, signals=tuple(signals))
 
     def columns_with_starts(
@@ -197,13 +204,19 @@ class BaseFit:
         threads: int = 2,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> WhitenedColumns:
-        """The signals, and those whose shapes begin where the residual says; `unsolved` as in `screen`.
+        """The signals, variants, and those whose shapes begin where the residual says; `unsolved` as in `screen`.
 
         For a search only: in a gap test they would find what chance put there.
         """
-        started = [each for each in effects if any(form.starts is not None for form in each.forms)]
-        residual = self.model.residual(self.parameters)
-        more = screen(self.model, self.parameters, started, residual=residual, threads=threads, unsolved=unsolved)
+        more = screen(
+            self.model,
+            self.parameters,
+            effects,
+            residual=self.model.residual(self.parameters),
+            threads=threads,
+            unsolved=unsolved,
+            only=lambda form: form.variant or form.starts is not None,
+        )
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
 
     def of_specimens(self) -> list[FloatArray]:

@@ -229,7 +229,8 @@ def find_gap(
     for record, noise in zip(*predictions(base), strict=True) if predicted else ():
         whitened = Whitened.of([record], [noise])
         view = next(view for view in base.views if view.id == record.name)
-        signals = screen(CampaignModel(base.law, [view]), base.parameters, effects, threads=threads)
+        model = CampaignModel(base.law, [view])
+        signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
         found = _survivor(whitened, signals, sizes, seed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -194,7 +194,7 @@ class CampaignModel:
             if window > _PARABOLA:
                 missing = moving_parabola(missing, window)
             between = np.interp(view.time, view.sampled(view.time), missing)
-            views.append(replace(view, quiet_stress=predicted + between))
+            views.append(view.quietened(predicted + between))
         return CampaignModel(self.law, views, self.causes)
 
     def missing_capabilities(self, cause: Cause) -> frozenset[str]:
@@ -273,7 +273,7 @@ class CampaignModel:
             return self._driven(view, base, causes, sensitivity)
 
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
-            return self._driven(replace(view, quiet_stress=stress), base, causes, sensitivity)
+            return self._driven(view.quietened(stress), base, causes, sensitivity)
 
         found = OwnForce(lambda stress: under(stress).stress, view.smooth_nominal_data * view.stretch)
         if not sensitivity:

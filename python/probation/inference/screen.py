@@ -52,6 +52,7 @@ def screen(
     placements: tuple[Placement, ...] = ("all", "one"),
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
+    only: Callable[[Form], bool] | None = None,
 ) -> list[Column]:
     """Columns of every effect, form, placement and start, on top of the model as it is.
 
@@ -73,6 +74,8 @@ def screen(
         Records are worked on in parallel.
     unsolved : callable, optional
         Called with each cause that is left out because the law cannot be solved with it, and the error.
+    only : callable, optional
+        Which forms; all if left out.
 
     Returns
     -------
@@ -83,6 +86,8 @@ def screen(
     failed: list[tuple[Cause, Exception]] = []
     for effect in effects:
         for form in effect.forms:
+            if only is not None and not only(form):
+                continue
             cause = Cause(effect, form)
             try:
                 if not form.visible_in(model.views) or model.missing_capabilities(cause) or model.clashes(cause):

@@ -161,6 +161,7 @@ EFFECT = Effect(
             (_LOSS, _THRESHOLD, _GROWTH),
             modification=_beyond_a_strain,
             starts=_thresholds,
+            variant=True,
         ),
     ),
 )

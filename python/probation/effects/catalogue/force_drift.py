@@ -74,6 +74,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_logarithmic,
+            variant=True,
         ),
     ),
 )

@@ -66,6 +66,7 @@ EFFECT = Effect(
             "filter",
             (EffectParameter("time_constant_s", "s", 0.0, 20.0, 0.3, "amplifiers filter at 0.2 Hz to 1 kHz"),),
             recorded_stress=_filter,
+            variant=True,
         ),
     ),
 )

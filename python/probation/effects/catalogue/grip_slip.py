@@ -116,6 +116,7 @@ EFFECT = Effect(
             ),
             driving_strain=_progressive,
             starts=_pulls,
+            variant=True,
         ),
     ),
 )

@@ -139,7 +139,7 @@ EFFECT = Effect(
             modification=_warm,
             needs=_not_all_measured,
         ),
-        Form("of_the_stress", (_LOSS, _COOLING), modification=_of_the_stress, needs=_not_all_measured),
+        Form("of_the_stress", (_LOSS, _COOLING), modification=_of_the_stress, needs=_not_all_measured, variant=True),
         Form("as_measured", _MEASURED, modification=_as_measured, needs=warms_by_work),
     ),
 )

@@ -100,7 +100,7 @@ EFFECT = Effect(
             ),
             modification=_weights,
         ),
-        Form("cole_cole", (_PART, _TIME, _COLE_COLE), modification=_cole_cole),
-        Form("stretched_exponential", (_PART, _TIME, _STRETCH), modification=_stretched),
+        Form("cole_cole", (_PART, _TIME, _COLE_COLE), modification=_cole_cole, variant=True),
+        Form("stretched_exponential", (_PART, _TIME, _STRETCH), modification=_stretched, variant=True),
     ),
 )

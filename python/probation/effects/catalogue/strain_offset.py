@@ -105,6 +105,7 @@ EFFECT = Effect(
             ),
             driving_strain=_straightening,
             starts=_pulls,
+            variant=True,
         ),
     ),
 )
