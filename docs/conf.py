@@ -1,5 +1,6 @@
 """How Sphinx builds the site; `make docs` calls it, warnings being errors."""
 
+import shutil
 import sys
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import matplotlib as mpl  # noqa: E402
 mpl.use("agg")
 
 from matplotlib.figure import Figure  # noqa: E402
+from sphinx.application import Sphinx  # noqa: E402
 from sphinx_gallery.scrapers import figure_rst  # noqa: E402
 
 import probation  # noqa: E402
@@ -114,3 +116,13 @@ sphinx_gallery_conf = {
     "image_scrapers": ("matplotlib", _program_figures),
     "capture_repr": ("_repr_html_",),
 }
+
+
+def setup(app: Sphinx) -> None:
+    """Take away what tutorials wrote: they run beside their scripts."""
+
+    def tidy(app: Sphinx, exception: Exception | None) -> None:
+        for folder in (HERE / "tutorials").glob("tutorial-*/"):
+            shutil.rmtree(folder)
+
+    app.connect("build-finished", tidy)

@@ -18,7 +18,7 @@ answer. Everything here can be done from a terminal, too; each section names the
 # own, start at the next section.
 
 import shlex
-import tempfile
+import shutil
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -33,7 +33,9 @@ test = probation.named_history("ramp", rate=0.005, strain=1.5, samples=801)
 stress = truth.stress(test.time, test.true_strain, scheme="sa3")
 stress += np.random.default_rng(1).normal(0.0, 0.04, stress.shape)
 
-folder = Path(tempfile.mkdtemp())
+folder = Path("tutorial-1")  # in the present folder; made anew each time
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir()
 file = folder / "tension-7.csv"
 with file.open("w") as out:
     out.write("Time (s);Extension (mm);Load (N)\n")
@@ -41,6 +43,7 @@ with file.open("w") as out:
     load = area * stress * np.exp(-test.true_strain)
     for row in zip(test.time, extension, load, strict=True):
         out.write("{:.3f};{:.6f};{:.4f}\n".format(*row))
+
 print(file.read_text()[:120])
 
 # %%
@@ -76,6 +79,12 @@ terminal(
 print((folder / "hdpe" / "campaign.toml").read_text())
 
 # %%
+# One note comes with every record of force and displacement: *true stress made from force by
+# constant volume*. The section is taken to shrink as the specimen grows longer, everywhere
+# alike. That holds up to the largest force. Beyond it a specimen may neck: then the strain must
+# come from the neck itself, by an extensometer or a camera (:doc:`/lab-files`).
+
+# %%
 # Identify
 # --------
 #
@@ -84,6 +93,9 @@ print((folder / "hdpe" / "campaign.toml").read_text())
 campaign = probation.Campaign.load(folder / "hdpe")
 fit = probation.fit(campaign)
 print(fit.summary())
+# > hdpe: All parameters are identifiable; the law describes the records to within their noise.
+# > E_u [MPa]  3219.4 ± 3.1 (0.095 %)
+# > τ_max [s]  5.0008 ± 0.0049 (0.097 %)
 
 # %%
 # How to read it, from the top:
@@ -93,6 +105,11 @@ print(fit.summary())
 # - **The parameters** have standard errors, and a status. *Identifiable* means that the record
 #   determines the parameter; *weakly identifiable* that its error is large; *not identifiable*
 #   that it could be nearly anything.
+# - **be2, 9 steps** is how the law was solved: an implicit scheme of second order, with so many
+#   steps from sample to sample that its error stays below the noise. **start exponential** says
+#   that the search began at an exponential relaxation curve.
+# - The **condition number of the scaled Jacobian** says how far the parameters can replace each
+#   other: below 100 they are told apart well, above 10⁴ hardly.
 # - **E_u·τ_max** is known better than either factor: the flow stress at small strain is their
 #   product. Quote it.
 #
@@ -102,13 +119,19 @@ for name, true in (("unrelaxed_modulus", 3220.0), ("tau_max", 5.0), ("hardening_
     found = fit.parameters[name]
     off = (found.value - true) / found.se
     print(f"{name:18} {found.value:9.4f} ± {found.se:.4f}   off by {off:+.1f} se")
+# > unrelaxed_modulus  3219.3755 ± 3.0695   off by -0.2 se
+# > tau_max               5.0008 ± 0.0049   off by +0.2 se
+# > hardening_modulus     1.9997 ± 0.0003   off by -1.1 se
+
 
 # %%
 # Look at what is left
 # --------------------
 #
 # A good fit leaves noise and nothing else. A wave in the lower picture means that the law
-# misses something, and then standard errors say less than they seem to.
+# misses something, and then standard errors say less than they seem to. In a notebook the
+# figure shows itself. In a script write ``fit.plot().savefig("fit.png")``, or
+# ``fit.plot().show()`` for a window.
 
 fit.plot()
 
@@ -139,9 +162,16 @@ np.savetxt(
 )
 misfit = probation.fit(probation.Campaign.from_files([wrong], control="strain-rate"))
 print(misfit.verdict)
+for name, found in misfit.parameters.items():
+    error = "at its bound" if found.se is None else f"± {found.se:.2g}"
+    print(f"{name:18} {found.value:9.4g} {error:12} {found.status}")
+# > the law leaves a bias of 16.1 MPa (36 % of the largest stress), 383 times the noise.
+# > unrelaxed_modulus      91.77 ± 2.9e+02    not_identifiable
+# > hardening_modulus          0 at its bound not_identifiable
+
 
 # %%
-figure, axes = plt.subplots(figsize=(6.4, 3.0))
+figure, axes = plt.subplots(figsize=(6.4, 3.0), layout="constrained")
 record = misfit.records["rate-jump"]
 axes.plot(jump.true_strain, record.fit_residual)
 axes.set(

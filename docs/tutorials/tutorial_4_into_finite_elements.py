@@ -14,7 +14,7 @@ point of this package behind the interface of Abaqus, CalculiX, MGIS or plain C.
 # -------
 #
 # Usually it comes from a fit: ``probation fit hdpe-2020/ --json fit.json``, then ``probation
-# export fit.json …``. Here we write it down.
+# export fit.json …``; in Python ``fit.law`` is the identified law. Here we write it down.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -38,7 +38,8 @@ law = probation.Law(
 modes, errors = [3, 4, 5, 6, 7, 9, 11], []
 for count in modes:
     errors.append(probation.reduce_spectrum(modes=count).error)
-figure, axes = plt.subplots(figsize=(6.4, 2.8))
+
+figure, axes = plt.subplots(figsize=(6.4, 2.8), layout="constrained")
 axes.semilogy(modes, errors, "o-")
 axes.set(
     xlabel="modes kept", ylabel="relative error of the stress", title="What fewer modes cost"
@@ -60,8 +61,8 @@ print(card.text[:2600])
 # ----------------------------------------
 #
 # A Prony series is linear viscoelasticity: it has one relaxation spectrum, at one strain rate,
-# and no hardening. The header says what is lost. Whether that is enough for you depends on the
-# strain that you expect.
+# and no hardening. The header says what is lost. Do not use a Prony series away from the
+# rate that it was made for: the stress is then wrong by a multiple of itself, at any strain.
 
 prony = probation.export(law, "abaqus-prony", name="hdpe", rate=0.005)
 print(prony.summary())
@@ -87,7 +88,7 @@ driven = probation.StrainHistory(
 full = law.stress(driven, scheme="sa3")
 short = reduced.stress(driven, scheme="sa3")
 figure, (top, bottom) = plt.subplots(
-    2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1)
+    2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1), layout="constrained"
 )
 top.plot(history.true_strain, full, label="50 modes")
 top.plot(history.true_strain, short, "--", label="9 modes")
@@ -103,7 +104,10 @@ print(f"largest difference: {np.abs(short - full).max():.3f} MPa")
 #
 # The point works at finite strain. Here it is driven in isochoric tension, one increment after
 # another, and compared with the law in one dimension. The same C++ is what Abaqus or CalculiX
-# call.
+# call. It takes one step of second order for an increment, as the scheme ``sa2`` of the library
+# does (``sa3`` is of third order: :doc:`/schemes`). A polymer hardly changes its volume: a bulk
+# modulus of 100 times the shear modulus, E_u/3, keeps that change below a hundredth of the
+# elastic strain. A difference of some 10⁻³ MPa is below what a load cell tells.
 
 from probation.fe.point import MaterialPoint
 
@@ -115,6 +119,7 @@ for strain, dt in zip(history.true_strain[1:], np.diff(history.time), strict=Tru
     piola, _, state = point.first_piola(gradient[np.newaxis], dt, state, with_tangent=False)
     cauchy = piola[0] @ gradient.T
     axial.append(cauchy[0, 0] - cauchy[1, 1])
+
 increments = law.stress(history.time, history.true_strain, scheme="sa2")
 print(f"three dimensions less one: {np.abs(np.array(axial) - increments).max():.1e} MPa")
 
@@ -124,14 +129,16 @@ print(f"three dimensions less one: {np.abs(np.array(axial) - increments).max():.
 #
 # With felupe (``pip install 'probation[fe]'``) the point drives a whole bar: a round specimen,
 # a section 2 % smaller in its middle, grips at constant speed. The mesh is coarse, so that this
-# page is built in seconds.
+# page is built in seconds. ``centre_strain`` is the true strain in the middle at which it ends.
+# The force has a maximum; there the neck begins. It then grows along the bar, while the ends
+# hardly deform any more.
 
 from probation.fe.bar import Bar
 from probation.fe.necking import neck
 
 bar = Bar(elements=(12, 1), centre_strain=1.2, largest_step=0.02)
 necking = neck(point, bar)
-figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.0))
+figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.0), layout="constrained")
 left.plot(necking.nominal_strain, necking.nominal_stress)
 left.set(
     xlabel="nominal strain [–]", ylabel="nominal stress [MPa]", title="What the machine sees"
@@ -149,4 +156,5 @@ right.set_aspect("equal")
 #
 # - Constants, state, tangents, increments, Abaqus, CalculiX and MGIS: :doc:`/finite-elements`.
 # - What each format errs by: :doc:`/export`.
-# - Check your own constants in the compiled routines: ``probation_point_check``.
+# - Check your own constants in the compiled routines: ``probation_point_check``, a program that
+#   comes with the C++ build (:doc:`/finite-elements`), not with ``pip install``.

@@ -5,6 +5,7 @@ import io
 import re
 import runpy
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -20,7 +21,9 @@ PICTURES = ("overview", "curves", "where", "which")
 
 
 @pytest.fixture(autouse=True)
-def no_figures_left():
+def no_figures_left(tmp_path, monkeypatch):
+    """And files in a folder of the test: tutorials write into the present one."""
+    monkeypatch.chdir(tmp_path)
     yield
     plt.close("all")
 
@@ -29,6 +32,11 @@ def _run(name):
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed), plt.rc_context({"figure.max_open_warning": 0, "backend": "agg"}):
         names = runpy.run_path(str(DOCS / "tutorials" / name))
+    said = " ".join(printed.getvalue().split())
+    promised = re.findall(r"^# > (.*)$", (DOCS / "tutorials" / name).read_text(encoding="utf-8"), re.MULTILINE)
+    assert promised
+    for line in promised:
+        assert " ".join(line.split()) in said, f"{name} promises what it does not print: {line}"
     return names, printed.getvalue()
 
 
@@ -65,6 +73,30 @@ def test_the_fifth_tutorial_finds_the_damage_that_a_law_of_ones_own_leaves_out()
     assert abs(diagnosis.best.parameters[0].value - 0.3) < 0.003
     assert diagnosis.shrink.held_out.after_MPa < 0.06
     assert "Damage explains the gap" in printed
+
+
+def test_links_of_the_readme_exist_in_the_tree():
+    readme = DOCS.parent / "README.md"
+    targets = re.findall(r"\]\(([^)#:]+)\)", readme.read_text(encoding="utf-8"))
+    assert len(targets) > 20
+    assert [target for target in targets if not (readme.parent / target).exists()] == []
+
+
+def test_no_page_counts_the_catalogue_wrongly():
+    for page in [*DOCS.rglob("*.md"), *(DOCS / "tutorials").glob("*.py"), DOCS.parent / "README.md"]:
+        for count in re.findall(r"catalogue\s+(?:holds|has)\s+(?:# )?(\d+)", page.read_text(encoding="utf-8")):
+            assert int(count) == len(effects()), page
+
+
+def test_a_python_prompt_takes_the_tutorials_blocks():
+    """At a prompt a block ends with an empty line: nothing at the margin follows one without."""
+    for page in (DOCS / "tutorials").glob("*.py"):
+        lines = page.read_text(encoding="utf-8").splitlines()
+        depth = 0
+        for before, line in pairwise(lines):
+            depth += sum(before.count(c) for c in "([{") - sum(before.count(c) for c in ")]}")
+            if depth == 0 and before.startswith("    ") and line[:1].isalpha():
+                assert line.startswith(("else", "elif", "except")), f"{page.name}: {line}"
 
 
 def test_the_python_of_the_recipes_runs(tmp_path, monkeypatch):

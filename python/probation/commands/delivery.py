@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
 PLOT_ENDINGS = (".png", ".svg", ".pdf")
 STANDARD_OUTPUT = "-"
+
+_DECIMAL_COMMA = re.compile(r"^(0|-?\d+),(\d{1,2}|(?<=0,)\d+)$")
+"""40,5 and 0,125; not 1,234, which may be a thousand and more."""
 
 
 class Drawable(Protocol):
@@ -240,7 +244,7 @@ def named_numbers(entries: list[str], option: str) -> dict[str, float]:
         if name in values:
             raise InputError(f"{option}: found {name} twice, expected it once")
         try:
-            values[name] = float(text)
+            values[name] = float(_DECIMAL_COMMA.sub(r"\1.\2", text))
         except ValueError:
             raise InputError(f"{option} {name}: found {text!r}, expected a number") from None
     return values

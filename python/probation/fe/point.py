@@ -193,7 +193,13 @@ def _pointer(array: FloatArray) -> Any:
 
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL:
-    library = ctypes.CDLL(str(library_path()))
+    try:
+        library = ctypes.CDLL(str(library_path()))
+    except OSError as error:
+        raise InputError(
+            f"{library_path()}: found no compiled material point, expected it beside the package ({error}); "
+            "install probation by `pip install .` or from a wheel, which bring it"
+        ) from None
     array, number, whole = ctypes.POINTER(ctypes.c_double), ctypes.c_double, ctypes.c_int
     library.probation_message.argtypes = [array, whole, ctypes.c_char_p, whole]
     library.probation_state_size.argtypes = [array, whole]

@@ -96,8 +96,10 @@ def _axis(each: RecordCurves) -> tuple[FloatArray, str]:
 def probability_figure(found: Diagnosis) -> Figure:
     """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
     shown = _shown(found)
+    others = len(found.explanations) - len(shown)
+    rows = len(shown) + (others > 0)
     with house_style():
-        figure = new_figure(5.3, 0.8 + 0.36 * len(shown))
+        figure = new_figure(5.3, 0.8 + 0.36 * rows)
         axes = figure.subplots()
         for at, each in enumerate(shown):
             inside = each.effects in found.answer_set
@@ -107,8 +109,13 @@ def probability_figure(found: Diagnosis) -> Figure:
                 size + 1.0, at, f"{percent(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5
             )
         names = [fill(explanation_name(each, found), _LINE) for each in shown]
-        axes.set_yticks(range(len(shown)), names)
-        axes.set(xlim=(0.0, 112.0), ylim=(len(shown) - 0.4, -0.6), xlabel="probability [%]")
+        if others:
+            rest = max(1.0 - sum(each.probability for each in shown), 0.0)
+            axes.barh(len(shown), 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
+            axes.text(100.0 * rest + 1.0, len(shown), percent(rest), va="center", fontsize=8.5)
+            names.append(f"{others} other{'s' if others > 1 else ''}")
+        axes.set_yticks(range(rows), names)
+        axes.set(xlim=(0.0, 112.0), ylim=(rows - 0.4, -0.6), xlabel="probability [%]")
         axes.set_xticks(range(0, 101, 20))
         axes.set_ylabel("explanation")
         axes.grid(axis="y", visible=False)

@@ -145,13 +145,18 @@ def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]
         for label, each in lines
     ]
     kept = len(rows) if most is None else min(most, len(rows))
-    headings = ("records", "before", "after", "noise", "gap closed", "90 % interval")
+    headings = ("records", "before", "after", floor_name(found), "gap closed", "90 % interval")
     mended = mended_by(found)
     by = f"with {mended}" if mended else "– no effect was added"
     caption = f"How far the gap shrinks {by} (rms errors in MPa)"
     left_out = len(rows) - kept
     rest = "" if not left_out else f"… and {left_out} more record{'s' if left_out > 1 else ''}"
     return Table(headings, tuple(rows[:kept]), caption), rest
+
+
+def floor_name(found: Diagnosis) -> str:
+    """What no model can get below: the noise, and how far specimens differ where that is allowed for."""
+    return "noise and scatter" if found.scatter is not None and found.scatter.any else "noise"
 
 
 def next_tests_table(found: Diagnosis) -> Table:

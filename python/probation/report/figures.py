@@ -8,6 +8,7 @@ import re
 import warnings
 from contextlib import contextmanager
 from html import escape
+from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 from textwrap import fill
@@ -31,6 +32,7 @@ from matplotlib.ticker import (
 from probation._files import write_whole
 from probation._text import printable, printable_lines
 from probation.errors import InputError
+from probation.progress import in_notebook
 from probation.report.style import COLOURS, MATPLOTLIB
 
 if TYPE_CHECKING:
@@ -93,6 +95,31 @@ class SafeFigure(Figure):
                 if (shown := printable_lines(text.get_text())) != text.get_text():
                     text.set_text(shown)
         super().draw(renderer)
+
+    def show(self, warn: bool = True) -> None:
+        """Show it: as a picture in a notebook, else in a window, until that is closed.
+
+        Raises
+        ------
+        InputError
+            Where there is neither a notebook nor a display.
+        """
+        if in_notebook():
+            import_module("IPython.display").display(self)
+            return
+        from matplotlib import pyplot as plt  # noqa: PLC0415 - it looks for a display, which only this needs
+
+        window = plt.figure()
+        if window.canvas.required_interactive_framework is None:
+            plt.close(window)
+            raise InputError(
+                f"found no display to show a figure on (matplotlib draws by {mpl.get_backend()}), expected one; "
+                'savefig("figure.png") writes it into a file'
+            )
+        canvas = window.canvas
+        canvas.figure = self
+        self.set_canvas(canvas)
+        plt.show()
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from probation.report.diagnosis_tables import floor_name
 from probation.report.diagnosis_words import short_ids
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
@@ -53,7 +54,7 @@ def residual_map(found: Diagnosis) -> Figure:
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        _scale(scale)
+        _scale(scale, floor_name(found))
     return figure
 
 
@@ -98,7 +99,7 @@ def _frame(axes: Axes, row: int, curves: RecordCurves, samples: slice, share: fl
         axes.text((start + stop) / 2.0, top - 0.03, percent(share), ha="center", va="bottom", fontsize=8)
 
 
-def _scale(axes: Axes) -> None:
+def _scale(axes: Axes, floor: str) -> None:
     """The colours and what they mean, from "too low" to "too high"."""
     count = len(LEVELS)
     for level in range(-count, count + 1):
@@ -109,7 +110,7 @@ def _scale(axes: Axes) -> None:
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
-    axes.set_xlabel("|model − measured| / noise [–]")
+    axes.set_xlabel(f"|model − measured| / {floor} [–]")
     axes.grid(visible=False)
     axes.spines[["left", "bottom"]].set_visible(False)
 

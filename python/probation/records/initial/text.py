@@ -53,7 +53,7 @@ def _entry(entry: Entry) -> str:
 _HEAD = """\
 # A campaign: records of one material, and the law that they put to the test.
 # Go on with:  probation fit FOLDER     probation certify FOLDER     probation diagnose FOLDER
-# Every key: docs/formats.md, section 1, and python/probation/records/README.md.
+# Every key: the page "formats" of the documentation, section 1.
 """
 
 _LAW = """\
