@@ -106,10 +106,10 @@ print(fit.summary())
 #   determines the parameter; *weakly identifiable* that its error is large; *not identifiable*
 #   that it could be nearly anything.
 # - **be2, 9 steps** is how the law was solved: an implicit scheme of second order, with so many
-#   steps from sample to sample that its error stays below the noise. **start exponential** says
-#   that the search began at an exponential relaxation curve.
+#   steps from sample to sample that its error stays below the noise. **start exponential**:
+#   its first step is an exponential one (:doc:`/schemes`).
 # - The **condition number of the scaled Jacobian** says how far the parameters can replace each
-#   other: below 100 they are told apart well, above 10⁴ hardly.
+#   other: 1 where they cannot at all, and the larger, the more.
 # - **E_u·τ_max** is known better than either factor: the flow stress at small strain is their
 #   product. Quote it.
 #

@@ -140,7 +140,8 @@ print(certificate.summary())
 #   come out without any meaning (10⁷ MPa). They show what the relation is for; they are no
 #   result.
 # - **G by regression** is the slope of the stress at large strain, where relaxation has ended:
-#   a second way to G (too low while stress still relaxes), which needs no fit of the whole law.
+#   a second way to G, which needs no fit of the whole law. It differs where stress still
+#   relaxes.
 # - **calibrated range left by 0.23 decades** says how far the strain rate goes beyond the rates
 #   that the relation was measured at.
 

@@ -83,7 +83,7 @@ campaign = probation.Campaign.load(folder)
 #
 # In a terminal: ``probation diagnose warm/ --report diagnosis.html``. The catalogue of effects
 # (:doc:`/built/effects`) is searched. Here we compare five, which takes about five seconds;
-# leave ``effects`` out to compare all of them, which takes a minute or more. A notebook shows a
+# leave ``effects`` out to compare all of them, which takes longer. A notebook shows a
 # bar, and so does the command; a script can take ``progress=lambda part:
 # print(f"{part:.0%}")``.
 

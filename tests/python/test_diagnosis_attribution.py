@@ -101,6 +101,22 @@ def test_a_headline_without_the_small_effects_does_not_call_what_it_names_its_ow
     assert text.endswith("(probability 99 %).")
 
 
+@pytest.mark.parametrize(("share", "after"), [(0.004, 0.1645), (0.2, 0.17)])
+def test_beside_an_unknown_no_effect_is_named_that_closes_nothing(share, after):
+    """0.4 % of the gap; or 20 % in units of the noise, while the misfit in MPa rises from 0.165 to 0.17."""
+    small = EffectShare("temperature_drift", 0.9, share, share, share, ("a",), named=True)
+    outside = EffectShare("unknown", 0.99, 1.0 - share, None, None, ("a",), named=False)
+    text = headline(
+        "unexplained",
+        [SimpleNamespace(effects=("temperature_drift", "unknown"), records=("a",))],
+        Attribution((outside, small), ("temperature_drift",), after, 0.9),
+        [("temperature_drift", "unknown")],
+        SimpleNamespace(identify=Closure(0.165, after, 0.055, share, None, ""), records={"a": None}, held_out=None),
+        SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
+    )
+    assert text == "The law misses the records by 0.165 MPa (noise 0.055 MPa) and nothing in the catalogue explains it."
+
+
 def test_how_far_is_told_whatever_the_verdict():
     nothing = diagnose(few_records(names=("slow", "fast")), effects=EFFECTS, design=False)
     assert nothing.verdict == "no_gap"

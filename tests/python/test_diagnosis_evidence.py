@@ -10,12 +10,14 @@ from scipy.special import logsumexp
 from scipy.stats import truncnorm
 
 from campaigns import linear_problem as problem
+from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import log_prior
 from probation.effects.cause import Cause
 from probation.inference import evidence as module
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
+from probation.inference.refit import refit
 from probation.settings.evidence import EVIDENCE
 
 COUNT = 60
@@ -344,3 +346,27 @@ def test_a_parameter_at_its_bound_has_no_standard_error():
     found, _ = judged(problem.views([stress]), bump(low=0.0))
     assert found.covariance[1, 1] == 0.0
     assert found.covariance[0, 0] > 0.0
+
+
+def test_a_search_that_ended_early_has_no_evidence_for_the_steps_it_did_not_take():
+    """The objective's value counts, not what the linearised law would make of it: 0.5 |y - J d|^2 left out."""
+    stress = noisy(100.0 * STRAIN + 4.0 * np.sin(np.pi * STRAIN))
+    seen, effect = problem.views([stress]), bump()
+    base = problem.solved(problem.bar(), seen)
+    discrepancy = Discrepancy.of(problem.whitened(base))
+    found = problem.solved(problem.bar(), seen, [Cause(effect, effect.forms[0], None)])
+    start = np.append(base.parameters, 0.0)
+    stuck = refit(found.problem, start, most_steps=0)
+    assert found.not_reached == pytest.approx(0.0, abs=0.05)
+    assert stuck.not_reached == pytest.approx(_objective(stuck) - _objective(found), rel=1e-3)
+    alone = Hypothesis(base, evidence(base, base, discrepancy))
+    here, there = (
+        Hypothesis(each, evidence(each, base, discrepancy)).as_reached(alone).evidence for each in (stuck, found)
+    )
+    assert there.log_evidence_exact - here.log_evidence_exact == pytest.approx(stuck.not_reached, rel=0.02)
+    assert here.log_evidence < there.log_evidence
+
+
+def _objective(found):
+    """Half of chi^2 + prior; the amplitude's prior has the standard deviation of 1."""
+    return 0.5 * (found.chi_square + found.parameters[-1] ** 2)

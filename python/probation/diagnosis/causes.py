@@ -135,6 +135,7 @@ def causes_of(
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
+    found = [each.as_reached(found[0]) for each in found]
     weighed = given_a_gap(weigh(found, effect_count(considered), power), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)

@@ -130,7 +130,7 @@ def _cause(
     """What explains the gap, or does not, without a full stop."""
     touched = [name for name in best.records if any(name in each.records for each in parts.effects if each.named)]
     place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
-    known = parts.named
+    known = parts.named if verdict == "explained" or _close_some(parts, identify) else ()
     fall = (
         f"the misfit falls from {identify.before_MPa:.3g} to {parts.after_MPa:.3g} MPa, "
         f"the noise being {identify.noise_MPa:.2g} MPa"
@@ -154,6 +154,12 @@ def _cause(
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
     return f"{sentence} (probability {percent(parts.probability)})"
+
+
+def _close_some(parts: Attribution, identify: Closure) -> bool:
+    """Whether the named effects close a part of the gap that is worth naming beside an unknown one."""
+    share = sum(each.share for each in parts.effects if each.named)
+    return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
 def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -23,6 +23,28 @@ class Hypothesis:
 
     refit: Refit
     evidence: Evidence
+
+    def as_reached(self, base: Hypothesis) -> Hypothesis:
+        """The same without evidence for steps that its search did not take.
+
+        The integral is that of the linearised law, which goes on where the law does not follow. With an unknown the
+        parameters move on, the base law's as well.
+
+        Parameters
+        ----------
+        base : Hypothesis
+            The base law without causes.
+        """
+        lost = self.refit.not_reached
+        return replace(
+            self,
+            evidence=replace(
+                self.evidence,
+                log_evidence=self.evidence.log_evidence - lost,
+                log_evidence_exact=self.evidence.log_evidence_exact - lost,
+                log_evidence_unknown=self.evidence.log_evidence_unknown - max(lost - base.refit.not_reached, 0.0),
+            ),
+        )
 
     @property
     def causes(self) -> tuple[Cause, ...]:

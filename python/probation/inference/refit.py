@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.least_squares import FIRST_DAMPING, Bounds, NormalPrior, minimise
+from probation.noise.span import span_of
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
@@ -54,6 +55,20 @@ class Refit:
     def chi_square(self) -> float:
         """|L r|^2."""
         return float(self.residual @ self.residual)
+
+    @cached_property
+    def not_reached(self) -> float:
+        """Half of what further steps would take off the objective, were the law linear; 0 at an optimum.
+
+        More than that where a search ended since the law does not follow the linearised one.
+        """
+        x, prior = self.coordinates.of(self.parameters), self.coordinates.prior
+        gradient = self.jacobian.T @ self.residual + prior.precision * (x - prior.centre)
+        held = self.coordinates.bounds.pushed_out(x, gradient)
+        rows = np.vstack([self.jacobian, np.diag(np.sqrt(prior.precision))])[:, ~held]
+        wanted = np.append(self.residual, np.sqrt(prior.precision) * (x - prior.centre))
+        followed = span_of(rows).T @ wanted
+        return 0.5 * float(followed @ followed)
 
     @property
     def at_bound(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:

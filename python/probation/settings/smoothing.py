@@ -158,13 +158,6 @@ class SmoothingSettings:
         origin="chosen",
         used_in="smoothing/segmented.py",
     )
-    same_at_jump: float = setting(
-        3.0,
-        "Distance of the two sides of a rate discontinuity below which they are averaged there.",
-        unit="standard errors",
-        origin="chosen",
-        used_in="smoothing/segmented.py",
-    )
     shortest_curve: int = setting(
         4,
         "Samples below which a segment gets a straight line.",
@@ -173,8 +166,8 @@ class SmoothingSettings:
         used_in="smoothing/segmented.py",
     )
     least_jump: float = setting(
-        0.3,
-        "Change of the slope at a rate discontinuity, at least.",
+        0.1,
+        "Change of the slope at a rate discontinuity, at least: less is a bend.",
         unit="steeper slope",
         origin="chosen",
         used_in="smoothing/segments.py",
@@ -187,9 +180,16 @@ class SmoothingSettings:
         used_in="smoothing/segments.py",
     )
     jump_evidence: float = setting(
-        12.0,
-        "Gain of a corner over the best cubic, at least.",
+        16.0,
+        "Gain of a corner over the best cubic, at least: twice the logarithm of the 3000 samples where it may be.",
         unit="noise variances",
+        origin="chosen",
+        used_in="smoothing/segments.py",
+    )
+    placed_scatter: float = setting(
+        1.2,
+        "Scatter around two lines that meet up to which a larger window places a rate discontinuity.",
+        unit="noise",
         origin="chosen",
         used_in="smoothing/segments.py",
     )

@@ -32,8 +32,9 @@ def smooth_segments(
     """Smooth each segment by itself.
 
     A jump lies near a sample, not at it: that sample would pollute the end of the segment that it does not belong to,
-    and is left out of both if they are long enough. There, the strain is the mean of what both sides come to, or, if
-    they differ by more than noise, that of the nearer side; the rate is that of the side before.
+    and is left out of both if they are long enough. There, the strain is the mean of the sample and of what both sides
+    come to, each by its inverse variance: one side errs by up to the change of the rate over one interval, too. The
+    rate is that of the side before.
 
     Parameters
     ----------
@@ -59,14 +60,14 @@ def smooth_segments(
         strain_error[keep], rate_error[keep] = part.strain_error[own], part.rate_error[own]
     shares = []
     for jump, before, after in zip(jumps, parts, parts[1:], strict=False):
-        sides = np.array([before.true_strain[-1], after.true_strain[0]])
-        errors = np.array([before.strain_error[-1], after.strain_error[0]])
-        share = np.array([0.5, 0.5])
-        if abs(sides[1] - sides[0]) > SMOOTHING.same_at_jump * noise * float(np.hypot(*errors)):
-            share = (np.abs(sides - true_strain[jump]) == np.abs(sides - true_strain[jump]).min()).astype(np.float64)
-            share /= share.sum()
-        strain[jump] = float(share @ sides)
-        strain_error[jump] = float(np.hypot(*(share * errors)))
+        bend = (after.strain_rate[0] - before.strain_rate[-1]) * (time[jump + 1] - time[jump - 1]) / 2.0
+        # The jump is before the sample or after it, by up to an interval: each side is right half of the time.
+        astray = bend**2 / 6.0 / max(noise, SMOOTHING.clean) ** 2
+        errors = np.array([before.strain_error[-1], after.strain_error[0], 1.0])
+        precision = 1.0 / (errors**2 + astray * np.array([1.0, 1.0, 0.0]))
+        share = precision / precision.sum()
+        strain[jump] = float(share @ [before.true_strain[-1], after.true_strain[0], true_strain[jump]])
+        strain_error[jump] = float(precision.sum() ** -0.5)
         shares.append(share)
     used = float(sum(segment.used for segment in segments))
     return Smoothed(
@@ -165,7 +166,7 @@ def _beyond(time: FloatArray, strain: FloatArray, rate: FloatArray, at: float) -
 
 
 def _joined(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
-    """Blocks along the diagonal; at a jump, the shares of both."""
+    """Blocks along the diagonal; at a jump, the shares of both and of the sample."""
     count = borders[-1] + 1
     strain, rate = np.zeros((count, count)), np.zeros((count, count))
     for at, (segment, (first, last)) in enumerate(zip(segments, pairwise(borders), strict=True)):
@@ -177,6 +178,8 @@ def _joined(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequen
         if at < len(shares):
             rows[-1] *= shares[at][0]
         strain[columns, columns] += rows
+        if at < len(shares):
+            strain[last, last] += shares[at][2]
         skip = int(first > 0)
         rate[first + skip : last + 1, columns] = made.rate[skip:]
     return Operators(strain, rate)

@@ -56,7 +56,43 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     for window in (factor * smallest for factor in WIDER):
         if len(time) >= 4 * window:
             jumps += _jumps_in_windows(time, true_strain, noise, window, jumps)
-    return sorted(jumps)
+    borders = [0, *sorted(jumps), len(time) - 1]
+    return [
+        _placed(time, true_strain, jump, smallest, (before, after), noise)
+        for before, jump, after in zip(borders, borders[1:], borders[2:], strict=False)
+    ]
+
+
+def _placed(
+    time: FloatArray, values: FloatArray, jump: int, window: int, between: tuple[int, int], noise: float
+) -> int:
+    """Where two lines meet that describe the samples around a jump, in the largest window that they describe.
+
+    Lines through few samples place a corner only to within noise over change of slope, which may be several samples;
+    the error falls with the root of the number of samples. They are straight unless parabolas leave less by
+    `SMOOTHING.jump_evidence`.
+    """
+    while window <= min(jump - between[0], between[1] - jump) - 1:
+        part = slice(jump - window, jump + window + 1)
+        t, y = (time[part] - time[jump]) / (time[part][-1] - time[part][0]), values[part]
+        offsets = range(-(window // 2), window // 2 + 1)
+        straight, bent = (
+            np.array([_left(t, y, t[window + offset], degree) for offset in offsets]) for degree in (1, 2)
+        )
+        left = straight if straight.min() < bent.min() + SMOOTHING.jump_evidence * noise**2 else bent
+        if left.min() > len(y) * (SMOOTHING.placed_scatter * noise) ** 2:
+            break
+        jump += offsets[int(np.argmin(left))]
+        window *= 2
+    return jump
+
+
+def _left(time: FloatArray, values: FloatArray, corner: float, degree: int) -> float:
+    """Sum of squares around two polynomials that meet at a corner."""
+    behind = np.maximum(time - corner, 0.0)
+    powers = [sign**power for power in range(1, degree + 1) for sign in (time, behind)]
+    basis = np.column_stack([np.ones_like(time), *powers])
+    return float(np.linalg.lstsq(basis, values, rcond=None)[1].sum())
 
 
 def _jumps_in_windows(
