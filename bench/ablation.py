@@ -48,7 +48,6 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     "errors of an effect's form": {
         "evidence.form_errors": (0.0,),
         "evidence.form_error_weights": (1.0,),
-        "evidence.material_form_error": 1e-9,
         "evidence.rig_form_error": 1e-9,
     },
     "power of the evidence": {"evidence.evidence_power": 1.0},
