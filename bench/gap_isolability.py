@@ -106,7 +106,7 @@ def timings():
         parameters = extended.parameters(model.start, extended.causes[0].form.typical)
         explanations.append((extended, parameters, 0.25, (name,)))
     for what, run in (
-        ("isolability, 6 x 1000, 22 effects", lambda: isolability(model, model.start, noises, effects())),
+        (f"isolability, 6 x 1000, {len(effects())} effects", lambda: isolability(model, model.start, noises, effects())),
         ("next test, 6 x 1000, 4 explanations", lambda: next_test(model, explanations, noises=noises)),
     ):
         walls, processors = [], []

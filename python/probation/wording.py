@@ -90,6 +90,11 @@ def percent(part: float) -> str:
     return f"{100.0 * part:.0f} %"
 
 
+def chance(probability: float) -> str:
+    """A probability that came out: "91 %", "< 1 %"; rounded to 1 it is still no certainty: "> 99 %"."""
+    return "> 99 %" if probability > 0.99 else percent(probability)
+
+
 def listed(names: Sequence[str], last: str = "or") -> str:
     """Such as "a, b or c"."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""

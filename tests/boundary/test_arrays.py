@@ -114,7 +114,7 @@ def test_a_history_that_cannot_be_is_refused_when_it_is_made(options, message):
         (lambda: LAW.stress(TIME, STRAIN, "rk4"), r"scheme is 'rk4'; expected one of be2, sa2, sa3, exact, cvode"),
         (lambda: LAW.stress(TIME, STRAIN, None), r"scheme is None"),
         (lambda: LAW.stress(TIME), r"true_strain is missing; expected time and true_strain, or a StrainHistory"),
-        (lambda: LAW.stress(HISTORY, "sa3"), r"true_strain is 'sa3' beside a StrainHistory"),
+        (lambda: LAW.stress(HISTORY, "sa3"), r"true_strain is 'sa3' together with a StrainHistory"),
         (
             lambda: LAW.strain_sensitivity(HISTORY, scheme=probation.SA3(substeps=2)),
             r"SA3\(substeps=2\); .* substeps=1",

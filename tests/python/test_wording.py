@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.wording import percentage, plus_minus
+from probation.wording import chance, percentage, plus_minus
 
 
 @pytest.mark.parametrize(
@@ -25,3 +25,10 @@ def test_the_error_decides_the_digits(value: float, se: float, text: str):
 )
 def test_percentages_have_no_exponent(part: float, sign: str, text: str):
     assert percentage(part, sign) == text
+
+
+@pytest.mark.parametrize(
+    ("probability", "text"), [(1.0, "> 99 %"), (0.996, "> 99 %"), (0.91, "91 %"), (0.004, "< 1 %")]
+)
+def test_a_probability_that_came_out_is_never_a_certainty(probability: float, text: str):
+    assert chance(probability) == text

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.wording import chance
+
 if TYPE_CHECKING:
     from probation.comparison.result import ChangedParameter, ChangeExplanation
 
@@ -20,20 +22,15 @@ def named(each: ChangeExplanation) -> str:
 
 def headline(best: ChangeExplanation, count: int, reference: str) -> str:
     """One sentence."""
-    chance = f"(probability {percent(best.probability)})"
+    probable = f"(probability {chance(best.probability)})"
     if not best.effects:
-        return f"Nothing changed since {reference} {chance}."
+        return f"Nothing changed since {reference} {probable}."
     where = "all records" if len(best.records) == count and count > 1 else ", ".join(best.records)
     sizes = "; ".join(sized(each) for each in best.parameters[:3])
-    return f"Since {reference}: {named(best)} in {where} {chance}" + (f": {sizes}." if sizes else ".")
+    return f"Since {reference}: {named(best)} in {where} {probable}" + (f": {sizes}." if sizes else ".")
 
 
 def sized(each: ChangedParameter) -> str:
     """A size with its interval."""
     low, high = each.interval95
     return f"{each.name} = {each.value:.3g} (95 %: {low:.3g} to {high:.3g})"
-
-
-def percent(part: float) -> str:
-    """A probability."""
-    return "> 99 %" if part > 0.99 else "< 1 %" if part < 0.01 else f"{100 * part:.0f} %"

@@ -8,7 +8,7 @@ from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effect
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
-from probation.wording import listed, percent, percentage
+from probation.wording import chance, listed, percent, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -153,7 +153,7 @@ def _cause(
         shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
         return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
-    return f"{sentence} (probability {percent(parts.probability)})"
+    return f"{sentence} (probability {chance(parts.probability)})"
 
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from probation.comparison.headline import named, percent, sized
+from probation.comparison.headline import named, sized
 from probation.report.skipped_words import MOST as MOST_SKIPPED
 from probation.report.skipped_words import skipped_lines
-from probation.wording import WIDTH
+from probation.wording import WIDTH, chance
 
 if TYPE_CHECKING:
     from probation.comparison.result import Comparison
@@ -22,7 +22,7 @@ def comparison_summary(found: Comparison) -> str:
     for each in found.explanations[:MOST]:
         star = "*" if each in found.answer_set else " "
         where = ", ".join(each.records)
-        text = f"{star} {percent(each.probability):>6}  {named(each)}" + (f" in {where}" if where else "")
+        text = f"{star} {chance(each.probability):>6}  {named(each)}" + (f" in {where}" if where else "")
         lines.append(fill(text, WIDTH, subsequent_indent=12 * " "))
         lines += [f"            {sized(parameter)}" for parameter in each.parameters]
     lines.append("")

@@ -12,7 +12,7 @@ from probation.report.diagnosis_tables import WORTH_A_ROW
 from probation.report.diagnosis_words import closed, explanation_name, short_ids
 from probation.report.figures import house_style, new_figure, thinned
 from probation.report.style import colour
-from probation.wording import percent
+from probation.wording import chance, percent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -105,9 +105,7 @@ def probability_figure(found: Diagnosis) -> Figure:
             inside = each.effects in found.answer_set
             size = 100.0 * each.probability
             axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
-            axes.text(
-                size + 1.0, at, f"{percent(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5
-            )
+            axes.text(size + 1.0, at, f"{chance(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5)
         names = [fill(explanation_name(each, found), _LINE) for each in shown]
         if others:
             rest = max(1.0 - sum(each.probability for each in shown), 0.0)

@@ -29,7 +29,7 @@ from probation.report.remainder_page import remainder_section
 from probation.report.residual_map import residual_map
 from probation.report.skipped_words import skipped_lines
 from probation.report.table import Table
-from probation.wording import listed, percent
+from probation.wording import chance, listed, percent
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -72,7 +72,7 @@ def _short(found: Diagnosis) -> Section:
             f"strains of {span_text(worst.true_strain)}"
         )
     best = leading(found)
-    which = listed([f"{explanation_name(each, found)} ({percent(each.probability)})" for each in best])
+    which = listed([f"{explanation_name(each, found)} ({chance(each.probability)})" for each in best])
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     rows.append(("How far", _capital(_how_far(found))))

@@ -18,7 +18,7 @@ from probation.report.diagnosis_words import (
     span_text,
 )
 from probation.report.table import Table
-from probation.wording import percent, plus_minus
+from probation.wording import chance, percent, plus_minus
 
 if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
@@ -84,7 +84,7 @@ def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
                 explanation_name(each, found),
                 "\n".join(parameter_lines(each, found)) if detail else "",
                 "\n".join(checks_text(each)),
-                percent(each.probability),
+                chance(each.probability),
             )
         )
     empty = {at for at in (2, 3) if not any(row[at] for row in rows)}
@@ -104,7 +104,7 @@ def effects_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str
     rows = [
         (
             title(each.name),
-            percent(each.probability),
+            chance(each.probability),
             _signed(each.share) if each.name in found.best.effects else "–",
             "" if each.alone is None else _signed(each.alone),
             "" if each.beside is None else _signed(each.beside),
@@ -161,9 +161,7 @@ def floor_name(found: Diagnosis) -> str:
 
 def next_tests_table(found: Diagnosis) -> Table:
     """What could be done next, the most worth first."""
-    rows = tuple(
-        (each.what.partition(": ")[0], each.cost, percent(each.probability_after)) for each in found.next_tests
-    )
+    rows = tuple((each.what.partition(": ")[0], each.cost, chance(each.probability_after)) for each in found.next_tests)
     return Table(
         ("test", "cost", "right answer after it"), rows, "What could be done next, the most worth first", left=2
     )
