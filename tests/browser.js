@@ -32,6 +32,19 @@ const measured = (frame) => {
     const tip = page.querySelector(".tip");
     return tip.hidden ? "" : tip.textContent;
   });
+  const texts = drawings.map((svg) => ({
+    edge: svg.getBoundingClientRect(),
+    labels: [...svg.querySelectorAll("text")].filter((text) => text.textContent.trim()).map((text) => ({ text, box: text.getBoundingClientRect() })),
+  }));
+  const clipped = texts.flatMap(({ edge, labels }) => labels.filter(({ box }) =>
+    box.left < edge.left - 2 || box.right > edge.right + 2 || box.top < edge.top - 2 || box.bottom > edge.bottom + 2));
+  // A box holds room above and below the letters: two lines of text may share a fifth of it.
+  const common = (one, other) => Math.max(0, Math.min(one.right, other.right) - Math.max(one.left, other.left))
+    * Math.max(0, Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top));
+  const area = (box) => box.width * box.height;
+  const overlapping = texts.flatMap(({ labels }) => labels.flatMap((one, at) => labels.slice(at + 1)
+    .filter((other) => common(one.box, other.box) > 0.25 * Math.min(area(one.box), area(other.box)))
+    .map((other) => `${one.text.textContent} | ${other.text.textContent}`)));
   return {
     name: frame.dataset.name,
     width,
@@ -40,6 +53,8 @@ const measured = (frame) => {
     cut: shown.filter((element) => scrolled(element) === false && element.scrollWidth > element.clientWidth + 1
       && ["auto", "scroll", "hidden"].includes(view.getComputedStyle(element).overflowX)).map(named),
     empty: drawings.filter((svg) => !svg.getBoundingClientRect().width || !svg.getBoundingClientRect().height).map(named),
+    clipped: clipped.map(({ text }) => named(text)),
+    overlapping,
     hovered,
   };
 };

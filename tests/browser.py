@@ -26,6 +26,10 @@ class Layout:
         Tables and drawings of which a part is seen only by scrolling.
     empty : list of str
         Drawings without width or height.
+    clipped : list of str
+        Labels that reach beyond the edge of their drawing.
+    overlapping : list of str
+        Pairs of labels of a drawing that lie on each other.
     hovered : list of str
         What the pointer shows on each drawing, in the middle of its first curve.
     """
@@ -34,6 +38,8 @@ class Layout:
     outside: list[str]
     cut: list[str]
     empty: list[str]
+    clipped: list[str]
+    overlapping: list[str]
     hovered: list[str]
 
 

@@ -95,6 +95,16 @@ def chance(probability: float) -> str:
     return "> 99 %" if probability > 0.99 else percent(probability)
 
 
+def sentence(text: str) -> str:
+    """A phrase as a sentence: with a capital, and one full stop.
+
+    >>> sentence("thinned to 3000 samples")
+    'Thinned to 3000 samples.'
+    """
+    text = text.strip()
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}." if text else ""
+
+
 def listed(names: Sequence[str], last: str = "or") -> str:
     """Such as "a, b or c"."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""

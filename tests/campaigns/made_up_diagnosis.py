@@ -282,6 +282,7 @@ def with_everything() -> Diagnosis:
     """All that a page may hold: a record that is not predicted, twenty regions, a remainder, what was left out."""
     found = unexplained()
     place = found.located[0]
+    step = max((place.samples.stop - place.samples.start) // 20, 1)
     x = np.linspace(0.0, 1.2, 50)
     left = Remainder(
         0.4,
@@ -301,7 +302,10 @@ def with_everything() -> Diagnosis:
         headline="The law describes the 5 records that it was fitted to, not jump (held out), which it misses by "
         "12.6 MPa, 95 times what the noise and the uncertainty of its parameters make; nothing in the catalogue "
         "explains it.",
-        located=(place,) * 20,
+        located=tuple(
+            replace(place, samples=slice(at, at + step), share=place.share / 20)
+            for at in range(place.samples.start, place.samples.start + 20 * step, step)
+        ),
         effects=(
             EffectShare("self_heating", 0.6, 0.93, 0.9, 0.5, (), named=True),
             EffectShare("grip_slip", 0.3, 0.02, 0.05, 0.01, (LONG,), named=False),

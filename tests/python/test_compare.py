@@ -199,12 +199,14 @@ def test_the_command_says_what_changed(tmp_path, capsys):
     made_up(1).save(tmp_path / "march")
     later.save(tmp_path / "may")
     answer = tmp_path / "change.json"
+    page = tmp_path / "change.html"
     arguments = ["diagnose", str(tmp_path / "may"), "--against", str(tmp_path / "march"), "--json", str(answer)]
-    assert main(arguments) == 0
+    assert main([*arguments, "--report", str(page)]) == 0
+    assert "force offset in slow" in page.read_text(encoding="utf-8")
     assert "force offset in slow" in capsys.readouterr().out
     assert json.loads(answer.read_text())["changes"][0]["effects"] == ["force_offset"]
-    assert main([*arguments, "--report", str(tmp_path / "x.html")]) == 2
-    assert "--report with --against" in capsys.readouterr().err
+    assert main([*arguments, "--hold", "tau_max_s=5"]) == 2
+    assert "--hold with --against" in capsys.readouterr().err
     assert main(["diagnose", str(tmp_path / "may"), "--pair", "a=b"]) == 2
     assert "--pair without --against" in capsys.readouterr().err
 

@@ -205,9 +205,11 @@ def test_the_command_on_a_cluster_then_in_words_pictures_and_json(cluster, examp
     told = capsys.readouterr().out
     assert " of 256 pixels identified; the residual of " in told.splitlines()[0]
     assert "16 blocks done now, 0 before" in told
-    arguments = ["--truth", str(example[1]), "--json", str(answer), "--plot", str(picture)]
+    page = tmp_path / "maps.html"
+    arguments = ["--truth", str(example[1]), "--json", str(answer), "--plot", str(picture), "--report", str(page)]
     assert main(["field", "map", str(out), *arguments]) == 0
     assert "beside the truth" in capsys.readouterr().out
+    assert " of 256 pixels identified" in page.read_text(encoding="utf-8")
     content = json.loads(answer.read_text())
     assert content["schema"] == "probation.field/1"
     assert content["blocks"] == {"done": BLOCKS, "all": BLOCKS}

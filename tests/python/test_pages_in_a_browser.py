@@ -10,12 +10,16 @@ from campaigns.typical_results import NAMES, result
 from lab_files import bluehill, zwick
 from probation import init_campaign
 from probation.cli import main
+from probation.field import identify_field, open_maps
+from probation.field.example.make import make_example
 from probation.smoothing.answer import describe_excitation
 
 DESK, TELEPHONE = 1280, 390
-WITHOUT_PAGES = ("comparison", "plan")
-RESULTS = [name for name in NAMES if name not in (*WITHOUT_PAGES, "fit with a companion relation")]
-OTHERS = ["files of a laboratory", "strain histories", "score of a sealed split"]
+PAPER = 718
+"""Pixels of A4 between its margins."""
+
+RESULTS = [name for name in NAMES if name != "fit with a companion relation"]
+OTHERS = ["files of a laboratory", "strain histories", "score of a sealed split", "maps of a field"]
 
 
 def written(name, folder):
@@ -32,6 +36,10 @@ def written(name, folder):
         solver = "probation_studies.blind.example:no_gap"
         assert main(["blind", "solve", split, "--solver", solver, "--processes", "1"]) == 0
         assert main(["blind", "score", split, "--report", str(path)]) == 0
+    elif name == "maps of a field":
+        field, truth = make_example(folder, size=8, times=60, processes=1)
+        identify_field(field, folder / "maps.zarr", processes=1, threads=1)
+        open_maps(folder / "maps.zarr").beside(truth).report(path)
     else:
         result(name).report(path)
     return path.read_text(encoding="utf-8")
@@ -49,14 +57,25 @@ def layout(pages, tmp_path_factory):
     return layouts(pages, (DESK, TELEPHONE), tmp_path_factory.mktemp("browser"))
 
 
-@pytest.mark.parametrize("width", [DESK, TELEPHONE])
+@pytest.fixture(scope="module")
+def on_paper(pages, tmp_path_factory):
+    """The rules for print, on a screen."""
+    if browser() is None:
+        pytest.skip("no browser here: chromium was looked for")
+    printed = {name: page.replace("@media print", "@media all") for name, page in pages.items()}
+    return layouts(printed, (PAPER,), tmp_path_factory.mktemp("paper"))
+
+
+@pytest.mark.parametrize("width", [DESK, TELEPHONE, PAPER])
 @pytest.mark.parametrize("name", [*RESULTS, *OTHERS])
-def test_nothing_on_a_page_is_cut_or_sticks_out(name, width, layout):
-    found = layout[name, width]
+def test_nothing_on_a_page_is_cut_or_sticks_out(name, width, layout, on_paper):
+    found = (on_paper if width == PAPER else layout)[name, width]
     assert found.outside == []
     assert found.scroll_width <= width
     assert found.cut == []
     assert found.empty == []
+    assert found.clipped == []
+    assert found.overlapping == []
 
 
 @pytest.mark.parametrize("name", ["fit", "certificate", "diagnosis", "cross-check", "files of a laboratory"])

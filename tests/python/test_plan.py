@@ -207,7 +207,9 @@ def test_the_command_says_what_the_library_says(tmp_path, capsys):
     assert answer["parameters"] == json.loads(known.to_json())["parameters"]
     assert answer["correlation"]["names"] == ["unrelaxed_modulus_MPa", "tau_max_s", "hardening_modulus_MPa"]
     assert answer["isolability"] == json.loads(known.to_json())["isolability"]
-    assert main(["plan", *arguments, "--hold", "tau_max_s=5.2", "--json", "-"]) == 0
+    page = tmp_path / "plan.html"
+    assert main(["plan", *arguments, "--hold", "tau_max_s=5.2", "--json", "-", "--report", str(page)]) == 0
+    assert "These 3 tests would give standard errors of E_u " in page.read_text(encoding="utf-8")
     assert list(json.loads(capsys.readouterr().out)["parameters"]) == ["unrelaxed_modulus_MPa", "hardening_modulus_MPa"]
     assert captured.err.startswith("These 3 tests would give standard errors of E_u ")
     assert max(map(len, captured.err.splitlines()[1:])) <= 100

@@ -28,7 +28,6 @@ from probation.commands.delivery import (
     named_numbers,
     outputs_with_report,
     text_output,
-    usual_outputs,
 )
 from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme
@@ -144,7 +143,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _change(options: argparse.Namespace, names: list[str] | None) -> int:
-    for name in ("report", "hold", "held_out"):
+    for name in ("hold", "held_out"):
         if getattr(options, name):
             raise InputError(f"found --{name.replace('_', '-')} with --against, expected neither or one of them")
     if not options.campaign:
@@ -170,7 +169,7 @@ def _change(options: argparse.Namespace, names: list[str] | None) -> int:
             budget=options.budget,
             progress=in_parts(advance),
         )
-    deliver(answer.summary(), usual_outputs(answer, options))
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

@@ -7,7 +7,15 @@ import os
 import time
 
 from probation.commands.cluster import add_cluster, cluster
-from probation.commands.delivery import add_delivery, deliver, named_numbers, output_folder, said, tell, usual_outputs
+from probation.commands.delivery import (
+    add_delivery,
+    deliver,
+    named_numbers,
+    output_folder,
+    outputs_with_report,
+    said,
+    tell,
+)
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_hold, add_scheme, add_substeps
 from probation.commands.streams import say
@@ -20,7 +28,7 @@ The law on every pixel of a field: a zarr store of strain and stress over (y, x,
 
   probation field example --out neck/                          a synthetic necking specimen, 256 x 256 pixels
   probation field identify neck/field.zarr --out neck/maps.zarr
-  probation field map neck/maps.zarr --truth neck/truth.zarr --plot maps.png
+  probation field map neck/maps.zarr --truth neck/truth.zarr --report maps.html
 
 An interrupted identification goes on where it stopped when it is called again. --scheduler takes the same call to a
 dask cluster whose workers see the same folders.
@@ -76,7 +84,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     maps = steps.add_parser("map", help="summarise and draw what was identified")
     maps.add_argument("maps", metavar="MAPS.zarr", help="as identify wrote it")
     maps.add_argument("--truth", metavar="TRUTH.zarr", help="what is true, as example writes it")
-    add_delivery(maps, report=False)
+    add_delivery(maps)
     return parser
 
 
@@ -155,7 +163,8 @@ def _identify(options: argparse.Namespace) -> int:
 def _map(options: argparse.Namespace) -> int:
     from probation.field.maps import open_maps  # noqa: PLC0415
 
-    maps = open_maps(options.maps)
-    answer = maps if options.truth is None else maps.beside(options.truth)
-    deliver(answer.summary(), usual_outputs(answer, options))
+    with shown("reading the maps") as advance:
+        maps = open_maps(options.maps, progress=advance)
+        answer = maps if options.truth is None else maps.beside(options.truth)
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0

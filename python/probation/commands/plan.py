@@ -14,7 +14,7 @@ from probation.commands.analysis_options import (
     check_effects,
     effects_from_options,
 )
-from probation.commands.delivery import add_delivery, deliver, named_numbers, usual_outputs
+from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.law_options import add_law_options, law_from_options
 from probation.commands.progress import in_parts, shown
 from probation.commands.reading_options import add_reading, reading_from
@@ -36,7 +36,7 @@ What would these tests tell, before any of them is done? The histories, the nois
   probation plan --history ramp:rate=0.001,strain=1.5 --history ramp:rate=0.02,strain=1.5 --noise 0.04 \\
       --set unrelaxed_modulus_MPa=3220 --set tau_max_s=5.2 --set hardening_modulus_MPa=2.5
   probation plan slow.csv dwell.csv --noise 0.04 --strain-noise 1e-4 --companion weissenberg:0.00464,0.0367 \\
-      --set unrelaxed_modulus_MPa=3220 --set hardening_modulus_MPa=1.8 --plot plan.png
+      --set unrelaxed_modulus_MPa=3220 --set hardening_modulus_MPa=1.8 --report plan.html
   probation simulate --list-histories                   every history by name, with its parameters
 
 A file has the columns time_s,true_strain; its instants are the samples that will be taken. All tests are judged
@@ -75,7 +75,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_effects(parser)
     add_seed(parser)
     add_threads(parser, "2")
-    add_delivery(parser, report=False)
+    add_delivery(parser)
     return parser
 
 
@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
             threads=options.threads,
             progress=in_parts(advance),
         )
-    deliver(answer.summary(), usual_outputs(answer, options))
+    deliver(answer.summary(), outputs_with_report(answer, options))
     return 0
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from probation.diagnosis.result import EffectSize
 from probation.results.data import CURVE, Stored, WithCurves
-from probation.results.rendering import Plotted, Summarised
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,7 +70,7 @@ class ChangeCurves(WithCurves):
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Summarised, Plotted, Stored):
+class Comparison(Result, Stored):
     """What changed from one campaign to another.
 
     `plot` draws every record's change and what the best explanation says of it.

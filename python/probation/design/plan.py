@@ -26,7 +26,7 @@ from probation.law.schemes import SchemeName
 from probation.progress import Part, shows_progress
 from probation.records.campaign import Campaign
 from probation.results.data import Stored
-from probation.results.rendering import Plotted, Summarised, rendered
+from probation.results.rendering import Result, rendered
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -86,7 +86,7 @@ class PlannedTest:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(Summarised, Plotted, Stored):
+class Plan(Result, Stored):
     """What planned tests will say.
 
     Attributes

@@ -14,11 +14,11 @@ from probation.field.chunks import array_of, read, require_chunks
 from probation.field.grid import BlockGrid
 from probation.field.status import MEANINGS, Status
 from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of, read_run
-from probation.results.rendering import Plotted, Summarised
+from probation.results.rendering import Result
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -34,7 +34,7 @@ the samples: 1/2 for even noise that is known, more where it grows along the rec
 
 
 @dataclass(frozen=True)
-class FieldMaps(Summarised, Plotted):
+class FieldMaps(Result):
     """Maps of a field.
 
     Attributes
@@ -139,8 +139,14 @@ class FieldMaps(Summarised, Plotted):
         return {Status(int(each)): int(number) for each, number in zip(found, numbers, strict=True)}
 
 
-def open_maps(path: str | os.PathLike[str]) -> FieldMaps:
+def open_maps(path: str | os.PathLike[str], progress: Callable[[int, int, str], None] | None = None) -> FieldMaps:
     """Read the maps that `identify_field` wrote, those of a run that is not finished, too.
+
+    Parameters
+    ----------
+    path : str or path
+    progress : callable, optional
+        Called with the maps that are read, their number, and which is being read.
 
     Raises
     ------
@@ -157,7 +163,7 @@ def open_maps(path: str | os.PathLike[str]) -> FieldMaps:
         raise InputError(f"{where}: status: found the shape {shape}, expected rows and columns")
     grid = BlockGrid((shape[0], shape[1]), (run["block"][0], run["block"][1]))
     marks = _numbers(where, LEDGER, grid.count, "u8", sparse=True)
-    maps = _maps(where, kinds, grid, marks)
+    maps = _maps(where, kinds, grid, marks, progress or (lambda done, total, what: None))
     here = [name for name in ("y", "x") if (Path(where) / name).exists()]
     axes = {name: _numbers(where, name, (size,), "f8") for name, size in zip(("y", "x"), shape, strict=True) if here}
     done = marks != 0
@@ -178,16 +184,25 @@ def open_maps(path: str | os.PathLike[str]) -> FieldMaps:
     )
 
 
-def _maps(where: str, kinds: Mapping[str, MapKind], grid: BlockGrid, marks: NDArray[Any]) -> dict[str, NDArray[Any]]:
+def _maps(
+    where: str,
+    kinds: Mapping[str, MapKind],
+    grid: BlockGrid,
+    marks: NDArray[Any],
+    advance: Callable[[int, int, str], None],
+) -> dict[str, NDArray[Any]]:
     """All maps: each there, whole, and in every block that is done what was written."""
     marked = [block for block in grid.blocks() if marks[block]]
     try:
-        for name in kinds:
+        maps: dict[str, NDArray[Any]] = {}
+        for name, kind in kinds.items():
+            advance(len(maps), len(kinds) + 1, name)
             for block in marked:
                 require_chunks(where, name, grid.slices(block))
-        maps = {name: _numbers(where, name, grid.shape, kind.dtype, sparse=True) for name, kind in kinds.items()}
+            maps[name] = _numbers(where, name, grid.shape, kind.dtype, sparse=True)
     except InputError as failure:
         raise InputError(f"{failure}; {AGAIN} does such blocks anew") from None
+    advance(len(maps), len(kinds) + 1, "looking for damage")
     for block in marked:
         at = grid.slices(block)
         if marks[block] != mark_of({name: values[at] for name, values in maps.items()}):

@@ -6,7 +6,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from probation.report.diagnosis_tables import WORTH_A_ROW
 from probation.report.diagnosis_words import closed, explanation_name, short_ids
@@ -164,7 +164,7 @@ def closure_figure(found: Diagnosis) -> Figure:
         axes.set_title("gap closed", loc="right", fontsize=8.5, fontweight="normal")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
-        axes.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, handletextpad=0.2)
+        figure.legend(loc="outside lower center", ncols=3, handletextpad=0.2)
     return figure
 
 
@@ -174,6 +174,6 @@ def _plain_decades(axes: Axes, values: list[float]) -> None:
     low, high = min(drawn), max(drawn)
     axes.set_xlim(low / 1.4, high * 1.4)
     steps = (1.0, 2.0, 5.0) if high / low < 50.0 else (1.0,)
-    axes.xaxis.set_major_locator(LogLocator(subs=steps))
+    axes.xaxis.set_major_locator(LogLocator(subs=steps) if high > 3.0 * low else MaxNLocator(4))
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -29,7 +29,7 @@ from probation.report.remainder_page import remainder_section
 from probation.report.residual_map import residual_map
 from probation.report.skipped_words import skipped_lines
 from probation.report.table import Table
-from probation.wording import chance, listed, percent
+from probation.wording import chance, listed, percent, sentence
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -80,7 +80,7 @@ def _short(found: Diagnosis) -> Section:
         rows.append(("Left", found.remainder.description))
     if found.next_test is not None:
         rows.append(("Next test", found.next_test.what))
-    rows += [("Mind" if at == 0 else "", f"{each.rstrip('.')}.") for at, each in enumerate(found.warnings)]
+    rows += [("Mind" if at == 0 else "", sentence(each)) for at, each in enumerate(found.warnings)]
     return Section("In short", (Table(("", "what was found"), tuple(rows), left=2),))
 
 

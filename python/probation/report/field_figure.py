@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
@@ -21,18 +22,10 @@ if TYPE_CHECKING:
 
 def field_figure(maps: FieldMaps) -> Figure:
     """E_u tau_max, G and the residual; below, standard errors, and the residual over the noise."""
-    product, hardening = maps.names[0], maps.names[3]
-    with house_style(), np.errstate(invalid="ignore", divide="ignore"):
+    with house_style():
         drawn = new_figure(10.6, 6.6)
-        axes = drawn.subplots(2, 3)
-        for at, name in enumerate((product, hardening)):
-            values = maps.maps[name]
-            _draw(axes[0, at], maps, values, SYMBOLS[name], maps.units[name])
-            error = 100.0 * maps.maps[f"{name}_standard_error"] / np.abs(values)
-            _draw(axes[1, at], maps, error, f"standard error of {SYMBOLS[name]}", "%", "cividis")
-        _draw(axes[0, 2], maps, maps.maps["rms_residual"], "residual, rms", "MPa", "magma")
-        ratio = maps.maps["rms_residual"] / maps.maps["noise"]
-        _draw(axes[1, 2], maps, ratio, "residual over noise", "", "magma")
+        for axes, each in zip(drawn.subplots(2, 3).flat, _panels(maps), strict=True):
+            _draw(axes, maps, each)
         good, beyond = np.count_nonzero(maps.identified), np.count_nonzero(maps.beyond_noise)
         drawn.suptitle(
             f"{good} of {maps.identified.size} pixels identified, {beyond} beyond the noise; grey: refused, or no data",
@@ -43,22 +36,56 @@ def field_figure(maps: FieldMaps) -> Figure:
     return drawn
 
 
-def _draw(axes: Axes, maps: FieldMaps, values: FloatArray, title: str, unit: str, colours: str = "viridis") -> None:
+def map_figures(maps: FieldMaps) -> dict[str, Figure]:
+    """The same maps by their titles, a figure each, as a page has them side by side."""
+    drawn: dict[str, Figure] = {}
+    with house_style():
+        for each in _panels(maps):
+            drawn[each.title] = new_figure(4.1, 3.3)
+            _draw(drawn[each.title].subplots(), maps, each)
+    return drawn
+
+
+@dataclass(frozen=True)
+class _Panel:
+    title: str
+    values: FloatArray
+    unit: str
+    colours: str
+
+
+def _panels(maps: FieldMaps) -> list[_Panel]:
+    names = maps.names[0], maps.names[3]
+    values = [(SYMBOLS[name], name, maps.maps[name]) for name in names]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        errors = [
+            (f"standard error of {symbol}", 100.0 * maps.maps[f"{name}_standard_error"] / np.abs(each))
+            for symbol, name, each in values
+        ]
+        ratio = maps.maps["rms_residual"] / maps.maps["noise"]
+    return [
+        *(_Panel(symbol, each, maps.units[name], "viridis") for symbol, name, each in values),
+        _Panel("residual, rms", maps.maps["rms_residual"], "MPa", "magma"),
+        *(_Panel(title, each, "%", "cividis") for title, each in errors),
+        _Panel("residual over noise", ratio, "", "magma"),
+    ]
+
+
+def _draw(axes: Axes, maps: FieldMaps, panel: _Panel) -> None:
     """One map; its colours span 1 to 99 % of the pixels."""
-    shown = np.where(maps.identified, values, np.nan)
+    shown = np.where(maps.identified, panel.values, np.nan)
     finite = shown[np.isfinite(shown)]
     low, high = np.percentile(finite, [1, 99]) if len(finite) else (0.0, 1.0)
-    scale = mpl.colormaps[colours].with_extremes(bad=colour("grid"))
+    scale = mpl.colormaps[panel.colours].with_extremes(bad=colour("grid"))
     y, x = _borders(maps.y), _borders(maps.x)
     mesh = axes.pcolormesh(x, y, np.ma.masked_invalid(shown), cmap=scale, vmin=low, vmax=high, rasterized=True)
     axes.set_facecolor(colour("grid"))
-    axes.set(aspect="equal", title=title, xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    axes.set(aspect="equal", title=panel.title, xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     place = maps.length_unit or "pixel"
     axes.set(xlabel=f"x [{place}]", ylabel=f"y [{place}]")
     axes.grid(visible=False)
-    axes.figure.colorbar(
-        mesh, ax=axes, label=f"[{unit}]" if unit not in ("", "1") else "[-]", extend="both", shrink=0.7, aspect=14
-    )
+    label = f"[{panel.unit}]" if panel.unit not in ("", "1") else "[-]"
+    axes.figure.colorbar(mesh, ax=axes, label=label, extend="both", shrink=0.7, aspect=14)
 
 
 def _borders(centres: FloatArray) -> FloatArray:

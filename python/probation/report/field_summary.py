@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.field.status import MEANINGS, Status
+from probation.report.table import Table
 
 if TYPE_CHECKING:
     from probation.field.maps import FieldMaps
@@ -23,12 +24,20 @@ SYMBOLS = {
 
 def field_summary(maps: FieldMaps) -> str:
     """The verdict, then what became of the pixels, the parameters, and how it was made."""
-    return "\n".join(
-        [_verdict(maps), "", *_pixels(maps), "", *_parameters(maps), *_closeness(maps), "", *_origin(maps)]
-    )
+    parts = [field_verdict(maps), "\n".join(filter(None, (pixel_table(maps).text(), _indented(beyond_noise(maps)))))]
+    if maps.identified.any():
+        parts.append(f"{parameter_table(maps).text()}\n{_indented(residual_text(maps))}")
+    if maps.closeness:
+        parts.append(closeness_table(maps).text())
+    return "\n\n".join([*parts, "\n".join(map(_indented, origin(maps)))])
 
 
-def _verdict(maps: FieldMaps) -> str:
+def _indented(text: str) -> str:
+    return f"  {text}" if text else ""
+
+
+def field_verdict(maps: FieldMaps) -> str:
+    """How many pixels were identified, and how many the law misses."""
     good, all_ = int(np.count_nonzero(maps.identified)), maps.maps["status"].size
     beyond = int(np.count_nonzero(maps.beyond_noise))
     text = f"{good} of {all_} pixels identified; the residual of {beyond} of them is beyond the noise"
@@ -37,55 +46,65 @@ def _verdict(maps: FieldMaps) -> str:
     )
 
 
-def _pixels(maps: FieldMaps) -> list[str]:
-    lines = [f"  {number:>9}  {MEANINGS[status]}" for status, number in maps.counts().items()]
+def pixel_table(maps: FieldMaps) -> Table:
+    """What became of the pixels."""
+    rows = tuple((MEANINGS[status], str(number)) for status, number in maps.counts().items())
+    return Table(("what became of a pixel", "pixels"), rows)
+
+
+def beyond_noise(maps: FieldMaps) -> str:
+    """Where the residual is beyond the noise; empty if nowhere."""
     beyond = maps.beyond_noise
-    if beyond.any():
-        rows, columns = np.nonzero(beyond)
-        where = [maps.y[rows.min()], maps.y[rows.max()], maps.x[columns.min()], maps.x[columns.max()]]
-        y0, y1, x0, x1 = (f"{each:.4g}" for each in where)
-        unit = f" {maps.length_unit}" if maps.length_unit else ""
-        lines.append(f"  beyond the noise: y from {y0} to {y1}{unit}, x from {x0} to {x1}{unit}")
-    return lines
+    if not beyond.any():
+        return ""
+    rows, columns = np.nonzero(beyond)
+    where = [maps.y[rows.min()], maps.y[rows.max()], maps.x[columns.min()], maps.x[columns.max()]]
+    y0, y1, x0, x1 = (f"{each:.4g}" for each in where)
+    unit = f" {maps.length_unit}" if maps.length_unit else ""
+    return f"beyond the noise: y from {y0} to {y1}{unit}, x from {x0} to {x1}{unit}"
 
 
-def _parameters(maps: FieldMaps) -> list[str]:
+def parameter_table(maps: FieldMaps) -> Table:
+    """Median and spread over the pixels, and the median standard error, of every parameter."""
     good = maps.identified
-    if not good.any():
-        return []
-    lines = [f"  {'':12}{'median':>12}  {'5 to 95 % of the pixels':>26}  {'median standard error':>22}"]
+    rows = []
     for name in maps.names:
         values, unit = maps.maps[name][good], maps.units[name]
         low, middle, high = np.nanpercentile(values, [5, 50, 95])
         error = np.nanmedian(maps.maps[f"{name}_standard_error"][good] / np.abs(values))
-        shown = "" if unit == "1" else unit
-        lines.append(f"  {SYMBOLS[name]:12}{middle:>12.5g}  {low:>12.5g} to {high:>10.5g}  {error:>20.2%}  {shown}")
-    rms, noise = (float(np.nanmedian(maps.maps[name][good])) for name in ("rms_residual", "noise"))
-    return [*lines, f"  residual, median: {rms:.4g} MPa; noise alone would leave {noise:.4g} MPa"]
+        label = SYMBOLS[name] if unit == "1" else f"{SYMBOLS[name]} [{unit}]"
+        rows.append((label, f"{middle:.5g}", f"{low:.5g} to {high:.5g}", f"{error:.2%}"))
+    return Table(("parameter", "median", "5 to 95 % of the pixels", "median standard error"), tuple(rows))
 
 
-def _closeness(maps: FieldMaps) -> list[str]:
-    if not maps.closeness:
-        return []
-    lines = ["", "  beside the truth    bias   scatter   error over standard error   in the 95 % interval"]
-    for each in maps.closeness:
-        numbers = f"{each.bias:>12.3%}{each.scatter:>10.3%}{each.spread:>28.2f}{each.coverage:>23.1%}"
-        lines.append(f"  {SYMBOLS[each.name]:12}{numbers}")
-    return lines
+def residual_text(maps: FieldMaps) -> str:
+    """The median residual, and what noise alone would leave."""
+    rms, noise = (float(np.nanmedian(maps.maps[name][maps.identified])) for name in ("rms_residual", "noise"))
+    return f"residual, median: {rms:.4g} MPa; noise alone would leave {noise:.4g} MPa"
 
 
-def _origin(maps: FieldMaps) -> list[str]:
+def closeness_table(maps: FieldMaps) -> Table:
+    """How near the maps are to the truth, where that is known."""
+    rows = tuple(
+        (SYMBOLS[each.name], f"{each.bias:.3%}", f"{each.scatter:.3%}", f"{each.spread:.2f}", f"{each.coverage:.1%}")
+        for each in maps.closeness
+    )
+    return Table(("beside the truth", "bias", "scatter", "error over standard error", "in the 95 % interval"), rows)
+
+
+def origin(maps: FieldMaps) -> list[str]:
+    """How the maps were made, and how long that took."""
     run = maps.run
     done = int(np.count_nonzero(maps.maps["status"] != Status.PENDING))
     had_data = int(np.count_nonzero(maps.maps["samples"] > 0))
     commit = f", commit {run['commit']}" if run.get("commit") else ""
     lines = [
-        f"  {run['scheme']}, {_steps(maps.substeps)}, {run['method']}",
-        f"  probation {run['version']}{commit}; field {run['field_sha256'][:16]}",
+        f"{run['scheme']}, {_steps(maps.substeps)}, {run['method']}",
+        f"probation {run['version']}{commit}; field {run['field_sha256'][:16]}",
     ]
     if maps.cpu_seconds > 0.0 and done:
         rate = had_data / maps.cpu_seconds
-        lines.append(f"  {maps.cpu_seconds:.3g} s of CPU in all: {rate:.4g} pixels with data per second and core")
+        lines.append(f"{maps.cpu_seconds:.3g} s of CPU in all: {rate:.4g} pixels with data per second and core")
     return lines
 
 

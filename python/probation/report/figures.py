@@ -215,8 +215,9 @@ def narrow(figure: Figure) -> bool:
         for title in axes.findobj(Text, include_self=False):
             if isinstance(title, Text) and title.get_text() in {axes.get_title(loc) for loc in _TITLES}:
                 title.set_text(fill(title.get_text(), _LINE))
-        if axes.get_xscale() == "log":
-            number_logarithmic(axes.xaxis)
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log":
+                number_logarithmic(axis)
     for legend in list(figure.legends):
         handles, labels = (
             [each for each in legend.legend_handles if each is not None],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Rectangle
@@ -27,6 +27,7 @@ LEVELS = (0.95, 0.8, 0.6)
 
 _ALPHAS = (0.15, 0.35, 0.6)  # no darker: numbers stand in the cells, on a dark page too
 _ROOM = 25
+_ROWS = 8  # the axis is as high as so many at least: its label has to stand beside it
 _NARROWS = 8  # so many columns of numbers fit on a telephone
 _LINE = 38
 
@@ -51,9 +52,10 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
     count = len(titles)
     with house_style():
         size = 0.19 if count > _ROOM else 0.215
-        figure = new_figure(7.2, 1.6 + size * count + 0.9)
+        figure = new_figure(7.2, 1.6 + size * max(count, _ROWS) + 0.9)
         figure.narrows = count <= _NARROWS
         axes = figure.subplots()
+        beside: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "textcoords": "offset points", "fontsize": 7.5}
         for row in range(count):
             seen = detectability[row] >= DESIGN.detected
             if not seen:
@@ -65,8 +67,8 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
                     axes.plot(column, row, ".", ms=3, color=colour("muted"))
                 elif seen and (alpha := _alpha(float(probability[row, column]))):
                     _cell(axes, column, row, alpha, float(probability[row, column]))
-            axes.text(count - 0.2, row, count_text(detectability[row]), va="center", fontsize=7.5)
-        axes.text(count - 0.2, -0.75, "signal / noise [–]", va="bottom", fontsize=7.5, rotation=90)
+            axes.annotate(count_text(detectability[row]), (1.0, row), (4.0, 0.0), va="center", **beside)
+        axes.annotate("signal / noise [–]", (1.0, -0.5), (4.0, 4.0), va="bottom", rotation=90, **beside)
         axes.set_xticks(range(count), titles, rotation=90, fontsize=7.5)
         axes.xaxis.tick_top()
         axes.xaxis.set_label_position("top")

@@ -12,6 +12,7 @@ from probation.report.page import Page, Section, picture
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from probation.design.isolability import Isolability
     from probation.diagnosis.isolability import CampaignIsolability
 
 HOW_TO_READ_THE_MAP = (
@@ -28,13 +29,17 @@ def write_isolability_page(answer: CampaignIsolability, path: Path) -> None:
         title=f"What the tests of {answer.campaign} could discriminate",
         verdict=in_words(found.headline, found),
         lead="Asked of the strain histories, the noise and the base law alone; what the records show plays no part.",
-        sections=(
-            Section(
-                "Which effect could be taken for which",
-                (HOW_TO_READ_THE_MAP, picture(isolability_figure(found), "Chance of naming the right one of two [%].")),
-            ),
-            Section("Effect by effect", (isolability_table(found), HOW_TO_READ)),
-            Section("In words", tuple(in_words(each.sentence, found) for each in found.effects)),
-        ),
+        sections=effect_sections(found),
         provenance=provenance(answer.data_sha256),
     ).write(path)
+
+
+def effect_sections(found: Isolability) -> tuple[Section, ...]:
+    """The map of effects, unless there is but one; then every effect in a table and in words."""
+    several = [isolability_figure(found)] if len(found.effects) > 1 else []
+    maps = [picture(figure, "Chance of naming the right one of two [%].") for figure in several]
+    return (
+        *(Section("Which effect could be taken for which", (HOW_TO_READ_THE_MAP, each)) for each in maps),
+        Section("Effect by effect", (isolability_table(found), HOW_TO_READ)),
+        Section("In words", tuple(in_words(each.sentence, found) for each in found.effects)),
+    )

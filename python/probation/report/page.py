@@ -129,6 +129,9 @@ _UNFOLDED = 8
 _LONG = 28
 """Letters of a cell beyond which it is broken into lines."""
 
+_WORDS = 20
+"""Letters that a telephone keeps for a column of words at least, the first excepted."""
+
 _TELEPHONE = 42
 """Letters side by side on a telephone; each column costs two more."""
 
@@ -163,8 +166,12 @@ def _stacks(table: Table) -> bool:
     """Whether a telephone is too narrow for the columns of a table side by side."""
     columns = zip(table.headings, *table.rows, strict=True)
     letters = [
-        max(max((len(word) for word in heading.split()), default=0), *(min(len(cell), _LONG) for cell in cells), 0)
-        for heading, *cells in columns
+        max(
+            max((len(word) for word in heading.split()), default=0),
+            *(min(len(cell), _LONG) for cell in cells),
+            _WORDS if 0 < at < table.left else 0,
+        )
+        for at, (heading, *cells) in enumerate(columns)
     ]
     return len(letters) > 1 and sum(letters) + 2 * len(letters) > _TELEPHONE
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from probation.design.plan import Plan
     from probation.inference.parameter import Parameter
 
-EXPECTED = "Expected of a fit of all tests together, if the law is right (value ± standard error)"
+EXPECTED = "Expected of a fit of all tests together, if the law is right"
 
 
 def plan_verdict(plan: Plan) -> str:
@@ -29,29 +29,40 @@ def plan_summary(plan: Plan) -> str:
     """The verdict, parameters, effects, tests."""
     effects = isolability_table(plan.isolability)
     warnings = "\n".join(f"warning: {warning}" for warning in plan.warnings)
-    parts = [plan_verdict(plan), _parameters(plan), effects.text(), HOW_TO_READ, _tests(plan), warnings]
+    parts = [plan_verdict(plan), _parameters(plan), effects.text(), HOW_TO_READ, tests_table(plan).text(), warnings]
     return "\n\n".join(part for part in parts if part)
 
 
-def _parameters(plan: Plan) -> str:
-    names = [SYMBOLS[name] for name in plan.names]
+def parameter_table(plan: Plan) -> Table:
+    """What a fit of all tests is expected to give: value and standard error of parameters and their product."""
     named = [
-        *zip(names, plan.parameters.values(), strict=True),
+        *((SYMBOLS[name], each) for name, each in zip(plan.names, plan.parameters.values(), strict=True)),
         ("·".join(SYMBOLS[name] for name in plan.law.parameter_names[:2]), plan.product),
     ]
-    labels = [f"{symbol} [{each.unit}]" if each.unit else symbol for symbol, each in named]
-    width = max(map(len, labels))
-    lines = [
-        f"  {label:<{width}}  {estimate_text(each)}, {each.status.replace('_', ' ')}"
-        for label, (_, each) in zip(labels, named, strict=True)
-    ]
+    rows = []
+    for symbol, each in named:
+        label = f"{symbol} [{each.unit}]" if each.unit else symbol
+        value, _, interval = estimate_text(each).partition(", 95 % ")
+        rows.append((label, value, interval, each.status.replace("_", " ")))
+    return Table(
+        ("parameter", "value ± standard error", "95 % interval", "by the tests"), tuple(rows), EXPECTED, left=4
+    )
+
+
+def correlations(plan: Plan) -> str:
+    """Of the estimates, by pairs: "E_u–τ_max −0.9"; empty where there is no pair."""
+    names = [SYMBOLS[name] for name in plan.names]
     known = [at for at, each in enumerate(plan.parameters.values()) if each.se is not None]
-    pairs = [f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in known for j in known if j < i]
-    correlations = [f"  correlations: {', '.join(pairs)}"] if pairs else []
-    return "\n".join([EXPECTED, *lines, *correlations])
+    return ", ".join(f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in known for j in known if j < i)
 
 
-def _tests(plan: Plan) -> str:
+def _parameters(plan: Plan) -> str:
+    pairs = correlations(plan)
+    return parameter_table(plan).text() + (f"\n  correlations: {pairs}" if pairs else "")
+
+
+def tests_table(plan: Plan) -> Table:
+    """The tests as they were planned."""
     rows = tuple(
         (
             each.id,
@@ -65,8 +76,7 @@ def _tests(plan: Plan) -> str:
         for each in plan.tests
     )
     headings = ("test", "history", "samples", "time [s]", "max. strain", "noise [MPa]", "of strain [–]")
-    table = Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
-    return table.text()
+    return Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
 
 
 def _relative(each: Parameter) -> str:

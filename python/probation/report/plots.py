@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, new_figure, number_logarithmic, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -133,6 +133,7 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
         highest = max(float(rate.max()) for _, _, rate in records)
         if 0.0 < 1.5 * lowest < highest:
             axes.set_yscale("log")
+            number_logarithmic(axes.yaxis)
         elif lowest > 0.0:  # constant but for its noise: zero shows how little that is
             axes.set_ylim(0.0, 1.25 * highest)
         axes.set(xlabel="true strain [–]", ylabel="true strain rate [1/s]")

@@ -92,10 +92,12 @@ RENDERERS: dict[str, dict[str, str]] = {
         "verdict": "plan_summary.plan_verdict",
         "summary": "plan_summary.plan_summary",
         "plot": "isolability_figure.plan_figure",
+        "report": "plan_page.write_plan_page",
     },
     "comparison.result.Comparison": {
         "summary": "comparison_summary.comparison_summary",
         "plot": "comparison_figure.comparison_figure",
+        "report": "comparison_page.write_comparison_page",
     },
     "records.preview.Preview": {
         "summary": "preview_summary.preview_summary",
@@ -112,6 +114,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "field.maps.FieldMaps": {
         "summary": "field_summary.field_summary",
         "plot": "field_figure.field_figure",
+        "report": "field_page.write_field_page",
     },
 }
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
+    from probation.detection.where import Located
     from probation.diagnosis.result import Diagnosis, RecordCurves
 
 CELLS = 120
@@ -29,7 +30,8 @@ LEVELS = (1.0, 3.0, 10.0, 30.0)
 
 _ALPHAS = (0.2, 0.42, 0.68, 1.0)
 _BEFORE, _AFTER = (-0.12, 0.3), (0.22, 0.12)  # top of a strip within its row, and how high it is
-_WIDE_ENOUGH = 0.05  # part of a record whose region has room for a number
+_WIDE_ENOUGH = 5.0  # percent of a record whose region has room for a number ...
+_APART = 12.0  # ... and percent between two numbers, so that they do not touch on a telephone
 
 
 def residual_map(found: Diagnosis) -> Figure:
@@ -46,8 +48,9 @@ def residual_map(found: Diagnosis) -> Figure:
             end = "  held out" if each.role != "identify" else ""
             axes.text(101.0, at, f"{each.time[-1] - each.time[0]:.4g} s{end}", va="center", fontsize=8)
         place = {each.id: at for at, each in enumerate(curves)}
+        numbered: dict[str, list[float]] = {name: [] for name in found.curves}
         for region in found.located:
-            _frame(axes, place[region.record], found.curves[region.record], region.samples, region.share)
+            _frame(axes, place[region.record], found.curves[region.record], region, numbered[region.record])
         axes.set_yticks(range(len(curves)), [fill(names[each.id], 18) for each in curves])
         axes.set(xlim=(0.0, 100.0), ylim=(len(curves) - 0.4, -0.6))
         axes.set(xlabel="part of the record's time [%]", ylabel="record")
@@ -91,12 +94,15 @@ def _strip(axes: Axes, row: int, curves: RecordCurves, model: FloatArray, place:
         first = at
 
 
-def _frame(axes: Axes, row: int, curves: RecordCurves, samples: slice, share: float) -> None:
-    start, stop = _percent_of_time(curves, [samples.start, samples.stop - 1])
+def _frame(axes: Axes, row: int, curves: RecordCurves, region: Located, numbered: list[float]) -> None:
+    """A frame, and its share where there is room between those that are `numbered` already."""
+    start, stop = _percent_of_time(curves, [region.samples.start, region.samples.stop - 1])
     top, height = row + _BEFORE[0] - 0.03, _BEFORE[1] + 0.06
     axes.add_patch(Rectangle((start, top), stop - start, height, fill=False, edgecolor=colour("ink"), lw=1.1))
-    if stop - start > 100.0 * _WIDE_ENOUGH:
-        axes.text((start + stop) / 2.0, top - 0.03, percent(share), ha="center", va="bottom", fontsize=8)
+    middle = (start + stop) / 2.0
+    if stop - start > _WIDE_ENOUGH and all(abs(middle - other) > _APART for other in numbered):
+        axes.text(middle, top - 0.03, percent(region.share), ha="center", va="bottom", fontsize=8)
+        numbered.append(middle)
 
 
 def _scale(axes: Axes, floor: str) -> None:

@@ -31,7 +31,7 @@ def residual_parts(record: RecordFit) -> Figure:
             axes.plot(strain[at], low[at], "o", ms=5, color=colour("second"), label=record.bias.text)
         axes.axhline(0.0, color=colour("muted"), lw=0.8)
         axes.set(xlabel="true strain [–]", ylabel="residual [MPa]")
-        axes.legend(ncols=3, loc="upper center", bbox_to_anchor=(0.5, 1.2))
+        figure.legend(ncols=3, loc="outside upper center")
     return figure
 
 

@@ -29,12 +29,17 @@ def write_score_page(content: Mapping[str, object], path: str | PathLike[str]) -
     boards = cast("Mapping[str, Mapping[str, object]]", content["scores"])
     answers = boards["answers"]
     resolvable = cast("Mapping[str, object]", answers["resolvable"])
-    missed = any(each["met"] is False for each in cast("list[Mapping[str, object]]", content["aims"]))
+    met = [each["met"] for each in cast("list[Mapping[str, object]]", content["aims"])]
+    right = cast("Mapping[str, int]", resolvable["top1"])
+    causes = (
+        f"right on {_rate(right)} of the causes that can be discriminated from the data"
+        if right["n"]
+        else "no cause is in it that can be discriminated from the data"
+    )
     Page(
         title=f"Sealed benchmark, split {content['split']}",
-        verdict=f"{aims_sentence(content)}: right on {_rate(resolvable['top1'])} of the causes that can be "
-        f"discriminated from the data; false alarms on {_rate(answers['false_alarms'])} of the nulls.",
-        mood="bad" if missed else "good",
+        verdict=f"{aims_sentence(content)}: {causes}; false alarms on {_rate(answers['false_alarms'])} of the nulls.",
+        mood="bad" if False in met else "good" if True in met else "neutral",
         lead=f"{content['campaigns']} campaigns whose cause was withheld, seeds {_list(content['seeds'])}; answered by "
         f"{_list(content['answered_by'])}; {len(cast('dict[str, str]', content['failed']))} failed, "
         f"{content['answers_after_opening']} answered after the truths were opened. Intervals are exact, of 95 %. "
