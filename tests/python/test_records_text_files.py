@@ -2,13 +2,16 @@
 
 import gzip
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from probation import Campaign, Record
 from probation.errors import InputError
+from probation.records.grid import sniff_separator
 from probation.records.header import split_unit
 from probation.records.reading import read_record
 from probation.records.strain_history import read_strain_history
@@ -382,3 +385,35 @@ def test_a_bad_strain_history_is_refused_like_a_record(tmp_path, rows, complaint
     path.write_text("time_s,true_strain\n" + rows, encoding="utf-8")
     with pytest.raises(InputError, match=complaint):
         read_strain_history(path)
+
+
+@pytest.mark.parametrize(
+    "heading", ["# Time (s)  True strain (-)  True stress (MPa)", "time_s true_strain true_stress_MPa"]
+)
+@pytest.mark.parametrize("form", ["{:10.3f} {:12.5f} {:12.4f}", "{:.3f}\t {:.5f}  {:.4f}"])
+@pytest.mark.parametrize("decimal", [".", ","])
+def test_columns_that_stand_apart_by_blanks_are_read(read, heading, form, decimal):
+    rows = (form.format(0.5 * at, 0.01 * at, 1.5 * at).replace(".", decimal) for at in range(12))
+    record = read("\n".join([heading, *rows]) + "\n")
+    assert record.time.tolist() == pytest.approx([0.5 * at for at in range(12)])
+    assert record.true_stress[10] == pytest.approx(15.0)
+
+
+def test_a_blank_after_a_comma_or_between_thousands_separates_nothing(read):
+    rows = "".join(f"{at}, {at}, {at}\n" for at in range(12))
+    assert sniff_separator(rows) == ","
+    assert sniff_separator("t;s\n" + "1 234,5;2 345,6\n" * 9) != "blanks"
+
+
+def test_an_elongation_in_millimetres_is_a_displacement(read):
+    rows = "".join(f"{0.1 * at};{at};{0.5 * at}\n" for at in range(12))
+    record = read("Time (s);Force (N);Elongation (mm)\n" + rows, specimen=SPECIMEN)
+    assert record.true_strain[10] > 0.0
+
+
+def test_what_all_records_are_warned_of_is_said_once():
+    at = np.linspace(0.0, 10.0, 20)
+    records = [Record(name, at, 0.01 * at, at, warnings=("by constant volume",)) for name in "ab"]
+    other = replace(records[0], id="c", warnings=("by constant volume", "no unit"))
+    assert Campaign("x", (*records, other)).warnings == ("all records: by constant volume", "c: no unit")
+    assert Campaign("x", (records[0],)).warnings == ("a: by constant volume",)

@@ -106,7 +106,12 @@ def _is_further(column: Column) -> bool:
 
 
 def is_role_of_unit(role: str, column: Column) -> bool:
-    """Tell whether the heading is nothing but a unit of the role's quantity, such as "kN" of a force."""
+    """Tell whether the heading is nothing but a unit of the role's quantity, such as "kN" of a force.
+
+    An "Elongation (mm)" is a displacement, too: a vague name of a strain with a unit of length.
+    """
+    if role == "displacement" and column.unit is not None and normalised(column.name) in VAGUE["strain"]:
+        return measures(column.unit, ROLES[role].unit)
     return role_of(column.name) is None and measures(without_brackets(column.label), ROLES[role].unit)
 
 

@@ -18,6 +18,7 @@ from probation.records.in_memory import records_from_arrays, records_from_frame
 from probation.records.options import ReadingKeys
 from probation.records.reading import read_records
 from probation.records.record import Noise, Record
+from probation.records.said_once import said_once
 from probation.records.saving import save_campaign
 from probation.records.specimens import Specimens
 from probation.results.frames import by_record
@@ -313,8 +314,8 @@ class Campaign(InOneLine):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """The warnings of all records, each with its record's id in front."""
-        return tuple(f"{record.id}: {warning}" for record in self.records for warning in record.warnings)
+        """The warnings of all records, each once, with the ids of its records in front."""
+        return said_once(self.records)
 
     @property
     def data_hash(self) -> str:

@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,7 +12,9 @@ from probation.limits import CELL_CHARACTERS, CELLS, COLUMNS, LINE_CHARACTERS, R
 from probation.records.source import Source
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}
+BLANKS = "blanks"
 _SNIFFED_LINES = 200
+_NAME_AND_UNIT = re.compile(r"[^\s(\[]+(?:\s*[(\[][^)\]]*[)\]])?")
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
 _WITH_COMMA = re.compile(r"^[^\S\n]*[+-]?\d*,\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
 _WITH_POINT = re.compile(r"^[^\S\n]*[+-]?\d*\.\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
@@ -28,7 +31,7 @@ class Grid:
     row_numbers : list of int
         The file's row of each, counted from 1 as an editor shows it.
     separator : str
-        Name of the separator, for people: "comma", "semicolon", "tab", "Excel sheet 'x'".
+        Name of the separator, for people: "comma", "semicolon", "tab", "blanks", "Excel sheet 'x'".
     """
 
     rows: list[list[str]]
@@ -51,10 +54,13 @@ def read_grid(source: Source) -> Grid:
         raise bad_input(
             source.path,
             "a single column",
-            "values separated by comma, semicolon or tab",
+            "values separated by comma, semicolon, tab or blanks",
             row=1,
             remedy="export the table as CSV",
         )
+    known = SEPARATORS.get(separator, separator)
+    if separator == BLANKS:
+        text, separator = _with_tabs(text), "\t"
     rows: list[list[str]] = []
     row_numbers: list[int] = []
     reader = csv.reader(io.StringIO(text, newline="\n"), delimiter=separator, skipinitialspace=True)
@@ -75,7 +81,7 @@ def read_grid(source: Source) -> Grid:
             "quotes that close on their own row",
             row=last_line + 1,
         ) from None
-    return Grid(rows=rows, row_numbers=row_numbers, separator=SEPARATORS[separator])
+    return Grid(rows=rows, row_numbers=row_numbers, separator=known)
 
 
 def _check_lines(source: Source, text: str) -> None:
@@ -125,17 +131,44 @@ def check_extent(source: Source, row: int, columns: int, cells: int) -> None:
 def sniff_separator(text: str) -> str | None:
     """Find the separator that splits the most lines into numbers.
 
-    Ties go to the semicolon, then the tab: with either, a comma inside a number is a decimal comma.
+    Ties go to the semicolon, then the tab: with either, a comma inside a number is a decimal comma. `BLANKS` separate
+    only where most lines are nothing but numbers then, and no other separator does as well.
     """
     lines = [line for line in text.split("\n") if line.strip()]
     sample = lines[:_SNIFFED_LINES] + lines[_SNIFFED_LINES:][-_SNIFFED_LINES:]
     scores = {separator: _number_share(sample, separator) for separator in SEPARATORS}
     best = max(scores, key=lambda separator: scores[separator])
+    blank = sum(_numbers_alone(line) for line in sample)
+    if blank > max(scores[best], 0.5 * len(sample)):
+        return BLANKS
     if scores[best] > 0:
         return best
     counts = {separator: sample[0].count(separator) for separator in SEPARATORS}
     most = max(counts, key=lambda separator: counts[separator])
     return most if counts[most] else None
+
+
+def _numbers_alone(line: str) -> bool:
+    """Whether there is nothing but numbers between blanks, two at least."""
+    cells = line.split()
+    return len(cells) > 1 and all(map(is_number, cells))
+
+
+def _with_tabs(text: str) -> str:
+    """A table whose columns stand apart by blanks, with tabs in their place; lines stay where they are."""
+    lines = text.split("\n")
+    counts = Counter(len(line.split()) for line in lines if _numbers_alone(line))
+    columns = counts.most_common(1)[0][0]
+    return "\n".join("\t".join(_cells(line, columns)) for line in lines)
+
+
+def _cells(line: str, columns: int) -> list[str]:
+    """The cells of a line; a heading may hold blanks, if only that gives as many cells as the numbers have."""
+    if _numbers_alone(line):
+        return line.split()
+    heading = line.strip().lstrip("#%").strip()
+    ways = (heading.split(), re.split(r"\s{2,}|\t+", heading), _NAME_AND_UNIT.findall(heading))
+    return next((cells for cells in ways if len(cells) == columns), line.split())
 
 
 def _number_share(lines: Sequence[str], separator: str) -> float:

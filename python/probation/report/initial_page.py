@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.said_once import of_all
 from probation.report.figures import house_style, new_figure
 from probation.report.initial_summary import record_table
 from probation.report.page import Page, Section, picture
@@ -101,13 +102,14 @@ def _clocks(record: Record) -> tuple[Picture, ...]:
 def write_initial_page(made: InitialCampaign, path: Path) -> None:
     """Write the page."""
     records = made.campaign.records
-    sections = [Section("Records", (record_table(made),))]
+    common = of_all(records)
+    sections = [Section("Records", (record_table(made), *(f"Note on all records: {text}." for text in common)))]
     sections += [
         Section(
             record.id,
             (
                 f"Read from {made.reads[record.id]}.",
-                *(f"Note: {warning}." for warning in record.warnings),
+                *(f"Note: {warning}." for warning in record.warnings if warning not in common),
                 picture(record_figure(record), f"{record.id}: stress over strain, strain and stress over time."),
                 *_clocks(record),
             ),

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation._text import printable
+from probation.records.said_once import of_all
 from probation.records.text_plot import text_plot
 from probation.report.table import Table
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from probation.records.initial.init_campaign import InitialCampaign
     from probation.records.record import Record
 
@@ -21,7 +24,10 @@ def initial_summary(made: InitialCampaign) -> str:
     records = made.campaign.records
     count = "1 record" if len(records) == 1 else f"{len(records)} records"
     parts = [f"{printable(str(made.folder))}: a campaign of {count}", record_table(made).text()]
-    parts += [_described(record) for record in records[:_PLOTTED]]
+    common = of_all(records)
+    if common:
+        parts.append("\n".join(["all records", *(f"  note: {text}" for text in common)]))
+    parts += [_described(record, common) for record in records[:_PLOTTED]]
     if len(records) > _PLOTTED:
         parts.append(f"and {len(records) - _PLOTTED} more records: their plots are in records.html")
     parts.append(
@@ -48,7 +54,7 @@ def record_table(made: InitialCampaign) -> Table:
     return Table(headings, rows, left=3)
 
 
-def _described(record: Record) -> str:
-    notes = [f"  note: {warning}" for warning in record.warnings]
+def _described(record: Record, common: Collection[str]) -> str:
+    notes = [f"  note: {warning}" for warning in record.warnings if warning not in common]
     plot = text_plot(record.true_strain, record.true_stress, "true strain [–]", "true stress [MPa]", height=_HEIGHT)
     return "\n".join([f"{record.id}", *notes, plot])

@@ -8,9 +8,12 @@ import numpy as np
 
 from probation._text import printable
 from probation.records.noise import scatter
+from probation.records.said_once import of_all, said_once
 from probation.records.text_plot import text_plot
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from probation._arrays import FloatArray
     from probation.records.preview import Preview
     from probation.records.record import Record
@@ -37,7 +40,10 @@ def preview_summary(shown: Preview) -> str:
         facts = [printable(f"{key}: {text}") for key, text in shown.metadata.items()]
         more = [f"and {len(facts) - _FACTS} more"] if len(facts) > _FACTS else []
         parts.append("\n".join(["metadata", *(f"  {fact}" for fact in (*facts[:_FACTS], *more))]))
-    parts += [_describe(record) for record in shown.records]
+    common = of_all(shown.records)
+    if common:
+        parts.append("\n".join(["all records", *(f"  warning: {warning}" for warning in common)]))
+    parts += [_describe(record, common) for record in shown.records]
     parts.append(_first_rows(shown))
     return "\n\n".join(parts)
 
@@ -48,7 +54,7 @@ def _verdict(shown: Preview) -> str:
         return f"{known}: {shown.auxiliary}, no stress-strain record"
     count = len(shown.records)
     records = "1 record" if count == 1 else f"{count} records, one per specimen"
-    warned = sum(len(record.warnings) for record in shown.records)
+    warned = len(said_once(shown.records))
     return f"{known}, {records}" + (f", {warned} warning{'s' if warned > 1 else ''}" if warned else "")
 
 
@@ -75,8 +81,8 @@ def _first_rows(shown: Preview) -> str:
     return "\n".join(["first rows", *lines])
 
 
-def _describe(record: Record) -> str:
-    """One record in text: ranges, sampling, noise, warnings and a plot."""
+def _describe(record: Record, common: Collection[str]) -> str:
+    """One record in text: ranges, sampling, noise, warnings that are not `common` to all, and a plot."""
     duration = record.time[-1] - record.time[0]
     lines = [f"{record.id}: {len(record)} samples over {duration:.6g} s, {_sampling(record.time)}"]
     for name, values in record.samples.items():
@@ -86,7 +92,7 @@ def _describe(record: Record) -> str:
             noise = f", noise about {scatter(record.time, values):.2g} {unit}".rstrip()
         span = f"{values.min() + 0.0:.6g} to {values.max() + 0.0:.6g} {unit}".rstrip()  # + 0.0: no "-0"
         lines.append(f"  {label:<17}  {span}{noise}")
-    lines += [f"  warning: {warning}" for warning in record.warnings]
+    lines += [f"  warning: {warning}" for warning in record.warnings if warning not in common]
     lines.append(text_plot(record.true_strain, record.true_stress, "true strain [–]", "true stress [MPa]"))
     return "\n".join(lines)
 
