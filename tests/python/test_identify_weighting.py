@@ -97,21 +97,21 @@ def test_the_level_of_stress_noise_beside_strain_noise_of_known_size_is_that_of_
 
 @pytest.mark.parametrize("method", ["raw", "spline"])
 def test_propagated_noise_is_the_covariance_of_the_stress_that_strain_errors_make(method):
-    """C C^T against sigma_x^2 D D^T, D by differences of solves, one strain sample at a time, through the smoother."""
+    """C C^T against sigma_x^2 D D^T, D by differences of solves, one error at a time, as the smoother leaves them."""
     record = ramp_record(strain_noise=1e-4, samples=100)
     excitation = excite(record, method)
     propagated = StrainNoise.of(excitation, "sa3").propagated(LAW)
-    strain_map, rate_map = excitation.strain_operator(), excitation.rate_operator()
+    errors = excitation.errors() if excitation.errors else None
     columns = []
-    for at in range(100):
-        unit = np.zeros(100)
+    for at in range(100 if errors is None else errors.strain.shape[1]):
+        unit = np.zeros(100 if errors is None else errors.strain.shape[1])
         unit[at] = 1e-6
         sides = [
             LAW.stress(
                 probation.StrainHistory(
                     record.time,
-                    excitation.true_strain + sign * (unit if strain_map is None else strain_map @ unit),
-                    strain_rate=None if rate_map is None else excitation.strain_rate + sign * (rate_map @ unit),
+                    excitation.true_strain + sign * (unit if errors is None else errors.strain @ unit),
+                    strain_rate=None if errors is None else excitation.strain_rate + sign * (errors.rate @ unit),
                     jumps=None,
                 ),
                 scheme="sa3",
@@ -168,13 +168,16 @@ def test_strain_noise_that_is_not_smoothed_biases_all_but_the_re_evaluated_weigh
     assert auto.to_dict()["records"]["ramp"]["strain_noise_weighed"] is True
 
 
-def test_a_smoothed_strain_still_leaves_its_error_in_G():
-    """A straight line through n samples errs by 2 sigma_x / sqrt(n) at its end, a spline by more; G follows e_HT."""
+def test_a_smoothed_strain_still_leaves_its_error_in_G_and_what_it_may_hide_in_E():
+    """A straight line through n samples errs by 2 sigma_x / sqrt(n) at its end, a spline by more; G follows e_HT.
+
+    A rate that wanders by less than the noise shows moves E, and more than the noise does.
+    """
     campaign = Campaign("x", (ramp_record(strain_noise=1e-3),))
     plain, auto = fit(campaign, "sa3", weighting="plain"), fit(campaign, "sa3")
     assert auto.weighting == "strain-noise"
     assert auto.parameters["hardening_modulus"].se > 2.0 * plain.parameters["hardening_modulus"].se
-    assert auto.parameters["unrelaxed_modulus"].se == pytest.approx(plain.parameters["unrelaxed_modulus"].se, rel=0.1)
+    assert 1.5 < auto.parameters["unrelaxed_modulus"].se / plain.parameters["unrelaxed_modulus"].se < 6.0
     assert any("standard errors" in warning for warning in plain.warnings)
     assert not auto.warnings
 

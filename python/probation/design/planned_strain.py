@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,8 +16,11 @@ from probation.law.creep import creep
 from probation.records.record import Noise, Record
 from probation.settings.design import DESIGN
 from probation.smoothing.excitation import excite
+from probation.smoothing.operators import Operators
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
     from probation.law.modal import Law
     from probation.law.schemes import SchemeName
@@ -82,7 +86,7 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
 
     Where the strain will be noisy, how it is going to be smoothed is found on draws of the noise: the one with the
     median of the degrees of freedom counts, since single draws are smoothed far less. The strain is what that smoother
-    makes of the one imposed.
+    makes of the one imposed; the covariance of its errors is the mean over the draws.
 
     Raises
     ------
@@ -104,8 +108,19 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
     if strain is None or rate is None:
         return excite(record, "raw")
     return replace(
-        usual, true_strain=strain @ record.true_strain, strain_rate=rate @ record.true_strain, noise_inflation=1.0
+        usual,
+        true_strain=strain @ record.true_strain,
+        strain_rate=rate @ record.true_strain,
+        noise_inflation=1.0,
+        errors=partial(_mean_errors, drawn),
     )
+
+
+def _mean_errors(drawn: Sequence[Excitation]) -> Operators:
+    """Errors whose covariance is the mean of those of several smoothed strains."""
+    made = [each.errors() for each in drawn if each.errors is not None]
+    weight = len(made) ** -0.5
+    return Operators(weight * np.hstack([each.strain for each in made]), weight * np.hstack([each.rate for each in made]))
 
 
 def propagated(excitation: Excitation, law: Law, scheme: SchemeName) -> FloatArray:

@@ -58,7 +58,13 @@ class Covariance:
         return replace(self, matrix=total, relative_error=np.where(np.isfinite(self.relative_error), relative, np.inf))
 
 
-def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int], values: FloatArray) -> Covariance:
+def covariance(
+    jacobian: FloatArray,
+    residual: FloatArray,
+    lengths: Sequence[int],
+    values: FloatArray,
+    least_scatter: float = 0.0,
+) -> Covariance:
     """Covariance of a least-squares estimate with whitened residual, from the scaled Jacobian's singular values.
 
     White fit residuals give s^2 (J^T J)^-1. Correlated ones (the low-frequency bias of a law, or filtered noise) give
@@ -74,6 +80,9 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
         Samples of each record.
     values : ndarray, shape (free,)
         The estimates.
+    least_scatter : float
+        Least variance that the whitened residual counts with: 1 where the noise allows for errors that need not be
+        there.
     """
     count, free = jacobian.shape
     if free == 0:
@@ -86,7 +95,7 @@ def covariance(jacobian: FloatArray, residual: FloatArray, lengths: Sequence[int
     parts = [slice(first, last) for first, last in pairwise(borders.tolist())]
     bandwidths = [correlation_lags(residual[part]) for part in parts]
     correlated = any(bandwidth > 0 for bandwidth in bandwidths)
-    scatter = float(residual @ residual) / max(count - free, 1)
+    scatter = max(float(residual @ residual) / max(count - free, 1), least_scatter)
     relative = scatter * inverse
     if correlated:
         middle = np.zeros((free, free))

@@ -107,7 +107,9 @@ def known_of(weighted: Weighted) -> tuple[Covariance, FloatArray]:
     """Covariance of the parameters, and the Jacobian that it came from, shape (n_samples, free)."""
     problem, values = weighted.problem, weighted.parameters
     residual, jacobian = problem.residual_and_jacobian(values)
-    known = covariance(jacobian, residual, problem.lengths, values)
+    # What is unknown of a smoothed strain need not be wrong: a small residual makes no other error smaller.
+    smoothed = problem.carries_strain_noise and any(view.excitation.errors is not None for view in problem.views)
+    known = covariance(jacobian, residual, problem.lengths, values, least_scatter=float(smoothed))
     known = known.widened(noise_widening(problem.noises_at(values)))
     if weighted.resampled is not None:
         known = known.with_added(weighted.resampled, values)

@@ -53,13 +53,10 @@ class StrainNoise:
     @classmethod
     def of(cls, excitation: Excitation, scheme: Scheme | SchemeName, substeps: int = 1) -> StrainNoise:
         """That of a record, driven by an excitation at its samples."""
-        operator, rate = excitation.strain_operator(), excitation.rate_operator()
         if substeps > 1:
             scheme = "sa2" if excitation.strain_rate is None else "sa3"
         solver = make_solver(excitation.strain_history().engine, scheme)
-        if operator is None:
-            return cls(solver, _deviation(excitation), None, None)
-        return cls(solver, _deviation(excitation), *_directions(excitation, operator, rate))
+        return cls(solver, _deviation(excitation), *(_directions(excitation) or (None, None)))
 
     def propagated(self, law: Law) -> FloatArray:
         """Stress made by each unit error, shape (n_times, n_directions) [MPa]."""
@@ -126,16 +123,16 @@ class StrainNoise:
 def leading_directions(excitation: Excitation) -> tuple[FloatArray, FloatArray | None]:
     """Strain and rate by independent errors of one standard deviation, shapes (n_times, n_directions) [-], [1/s].
 
-    Of a smoothed strain what its smoother lets through; of a strain as measured its first sample alone.
+    Of a smoothed strain what its smoother leaves unknown; of a strain as measured its first sample alone.
     """
     deviation = _deviation(excitation)
-    operator, rate = excitation.strain_operator(), excitation.rate_operator()
-    if operator is None:
+    errors = _directions(excitation)
+    if errors is None:
         first = np.zeros((len(excitation.time), 1))
         first[0] = deviation
-        return first, None if rate is None else np.zeros_like(first)
-    strain, slope = _directions(excitation, operator, rate)
-    return deviation * strain, None if slope is None else deviation * slope
+        return first, None if excitation.strain_rate is None else np.zeros_like(first)
+    strain, rate = errors
+    return deviation * strain, None if rate is None else deviation * rate
 
 
 def _deviation(excitation: Excitation) -> float:
@@ -143,20 +140,20 @@ def _deviation(excitation: Excitation) -> float:
     return float(excitation.strain_noise * np.sqrt(excitation.noise_inflation))
 
 
-def _directions(
-    excitation: Excitation, strain: FloatArray, rate: FloatArray | None
-) -> tuple[FloatArray, FloatArray | None]:
-    """The few directions in which a smoother lets noise through, by a random range finder (Halko et al. 2011)."""
-    count = len(strain)
+def _directions(excitation: Excitation) -> tuple[FloatArray, FloatArray | None] | None:
+    """The few directions in which a smoothed strain errs, by a random range finder (Halko et al. 2011).
+
+    None for a strain as measured.
+    """
+    make = excitation.errors or excitation.operators
+    if make is None:
+        return None
+    errors = make()
+    count, sources = errors.strain.shape
     typical = np.median(np.diff(excitation.time))
-    both = strain if rate is None else np.vstack([strain, typical * rate])
-    kept = int(_PER_FREEDOM * float(np.trace(strain))) + _SPARE
-    if 3 * kept < count:
-        probes = np.random.default_rng(0).standard_normal((count, kept))
-        basis = np.linalg.qr(both.T @ (both @ probes))[0]
-        both = both @ basis
-    else:
-        both = both.copy()
-    if rate is None:
-        return both, None
-    return both[:count], both[count:] / typical
+    both = np.vstack([errors.strain, typical * errors.rate])
+    kept = int(_PER_FREEDOM * float(np.sum(errors.strain**2))) + _SPARE
+    if 3 * kept < sources:
+        probes = np.random.default_rng(0).standard_normal((sources, kept))
+        both = both @ np.linalg.qr(both.T @ (both @ probes))[0]
+    return both[:count], None if excitation.strain_rate is None else both[count:] / typical

@@ -61,6 +61,9 @@ class Excitation(ShortRepr, WithCurves):
         the standard errors already.
     operators : callable, or None
         Makes what the measured samples do to strain and rate; None where the strain is as measured.
+    errors : callable, or None
+        Makes strain and rate by independent errors, for strain noise of standard deviation 1 and the inflation; None
+        where the strain is as measured.
     """
 
     time: FloatArray = field(metadata=CURVE)
@@ -76,6 +79,7 @@ class Excitation(ShortRepr, WithCurves):
     freedom: float
     noise_inflation: float = 1.0
     operators: Callable[[], Operators] | None = field(default=None, metadata=LEFT_OUT)
+    errors: Callable[[], Operators] | None = field(default=None, metadata=LEFT_OUT)
 
     def strain_operator(self) -> FloatArray | None:
         """Derivative of `true_strain` by the measured strain at fixed smoothness, shape (n_times, n_measured) [-].
@@ -138,13 +142,19 @@ class Excitation(ShortRepr, WithCurves):
             strain_se=np.interp(time, self.time, self.strain_se),
             rate_se=np.interp(time, self.time, self.rate_se),
             operators=partial(self._refined_operators, substeps),
+            errors=None if self.errors is None else partial(self._refined_errors, self.errors, substeps),
         )
 
     def _refined_operators(self, substeps: int) -> Operators:
-        """The operators of `refined`, which is linear in strain and rate."""
         strain = self.strain_operator()
-        strain = np.eye(len(self.time)) if strain is None else strain
-        rate = self.rate_operator()
+        return self._refined(np.eye(len(self.time)) if strain is None else strain, self.rate_operator(), substeps)
+
+    def _refined_errors(self, errors: Callable[[], Operators], substeps: int) -> Operators:
+        made = errors()
+        return self._refined(made.strain, made.rate, substeps)
+
+    def _refined(self, strain: FloatArray, rate: FloatArray | None, substeps: int) -> Operators:
+        """The map to the strain and rate of `refined`, which is linear in those of the samples."""
         begin = end = None
         if rate is not None and self.strain_rate is not None:
             # At a jump the engine takes the secant on one side: the same side here.
@@ -221,6 +231,7 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
         freedom=smoothed.freedom,
         noise_inflation=smoothed.inflation,
         operators=smoothed.operators,
+        errors=smoothed.errors,
     )
 
 

@@ -1,4 +1,4 @@
-"""The linear map from measured strain to the strain and rate that a smoother makes of it, at fixed smoothness."""
+"""Linear maps to the strain and rate that a smoother makes: from the measured strain, or from what is unknown."""
 
 from __future__ import annotations
 
@@ -11,14 +11,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Operators:
-    """What the samples do to strain and rate.
+    """What each source does to strain and rate.
+
+    Sources are the measured samples, at fixed smoothness, or independent errors of one standard deviation.
 
     Attributes
     ----------
-    strain : ndarray, shape (n_used, n_measured) [-]
-        d strain used / d strain measured.
-    rate : ndarray, shape (n_used, n_measured) [1/s]
-        d rate used / d strain measured.
+    strain : ndarray, shape (n_used, n_sources) [-]
+        d strain used / d source.
+    rate : ndarray, shape (n_used, n_sources) [1/s]
+        d rate used / d source.
     """
 
     strain: FloatArray

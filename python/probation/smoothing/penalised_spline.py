@@ -31,6 +31,9 @@ LEAST_TURNS = 2
 COARSE = 120
 """Points of the coarse search for the smoothness."""
 
+TRENDS, WANDERS = 50, 20
+"""Sizes of the trend and of the wander over which what is unknown is averaged."""
+
 NEIGHBOURHOOD = 0.05
 """Part of the samples over which the usual spacing is looked up."""
 
@@ -102,6 +105,17 @@ class Basis:
         """Columns (n_times, m) smoothed; `shrink`, shape (n_basis,), is what the smoothness leaves of each function."""
         return np.asarray(self.values @ (shrink[:, None] * (self.values.T @ columns)))
 
+    def errors(self, shrink: FloatArray, covariance: FloatArray, joint: WithTransient | None = None) -> Operators:
+        """Those of independent errors; `covariance` is that of the weights of the functions, over the noise's."""
+        values, vectors = np.linalg.eigh(covariance)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        strain, rate = self.values @ root, self.slopes @ root
+        if joint is not None:
+            root = cholesky(joint.covariance, lower=True)
+            bent = joint.lags.rate - self.slopes @ (shrink[:, None] * (self.values.T @ joint.lags.strain))
+            strain, rate = np.hstack([strain, joint.left @ root]), np.hstack([rate, bent @ root])
+        return Operators(strain, rate)
+
     def operators(self, shrink: FloatArray, joint: WithTransient | None = None) -> Operators:
         """The dense operators, with lags at the start where there are any."""
         right = shrink[:, None] * self.values.T
@@ -141,6 +155,37 @@ class Score:
         shrink = self.shrink(log_penalty)
         left = 1.0 - self.cost * float(shrink.sum()) / len(self.basis.values)
         return self.squares(shrink) / left**2 if left > 0.0 else np.inf
+
+    def unknown(self, shrink: FloatArray, variance: float) -> FloatArray:
+        r"""Covariance of the functions' weights around those smoothed with `shrink`, over the noise's; (n_basis, n_basis).
+
+        Cross-validation cannot see a machine that wanders by less than the noise, and a smoothness says that it does
+        not. Here the strain is a trend, of prior variance sigma^2 / (lambda p_k), and a wander of the rate like white
+        noise, whose strain falls as the square of the frequency, p_k^(1 / order). Both sizes are averaged over, each
+        as the samples speak for it (Wahba 1983 gives the posterior of one size):
+
+        .. math:: C = E[diag(s)] + E[(s - \hat s) w w^T (s - \hat s)] / \sigma^2
+
+        Parameters
+        ----------
+        shrink : ndarray, shape (n_basis,)
+            What the smoother leaves of each function, s-hat.
+        variance : float
+            Of the noise in slow averages, sigma^2.
+        """
+        order = self.basis.order
+        inner = self.basis.penalties[order:]
+        lowest, highest = self.limits
+        trend = np.exp(-np.linspace(lowest, highest, TRENDS))[:, None] / inner
+        wander = np.exp(-np.linspace(lowest, highest, WANDERS) / order)[:, None] / inner ** (1.0 / order)
+        prior = (trend[:, None] + wander[None]).reshape(-1, len(inner))
+        power = self.weights[order:] ** 2 / variance
+        chance = 0.5 * np.sum(power * prior / (1.0 + prior) - np.log1p(prior), axis=1)
+        chance = np.exp(chance - chance.max())
+        chance /= chance.sum()
+        left = np.hstack([np.ones((len(prior), order)), prior / (1.0 + prior)])
+        off = (left - shrink) * (self.weights / np.sqrt(variance)) * np.sqrt(chance)[:, None]
+        return np.diag(chance @ left) + off.T @ off
 
     def best(self) -> FloatArray:
         """`shrink` at the lowest score."""
@@ -190,8 +235,11 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
                 taken, spent = lags.strain @ (joint.gain @ true_strain), joint.freedom
         if grown < 1.02 * before and (lags is None or turn >= LEAST_TURNS):
             break
-    weights = shrink * (basis.values.T @ (true_strain - taken))
-    strain, rate = basis.values @ weights, basis.slopes @ weights
+    score = Score(basis, true_strain - taken, SMOOTHING.prudence * grown)
+    strain, rate = basis.values @ (shrink * score.weights), basis.slopes @ (shrink * score.weights)
+    freedom = float(shrink.sum()) + spent
+    noise = grown * float(np.sum((true_strain - strain - taken) ** 2)) / max(len(strain) - freedom, 1.0)
+    unknown = score.unknown(shrink, max(noise, SMOOTHING.clean**2))
     # Wahba 1983, Nychka 1988: the posterior variance s^2 S, rather than s^2 S S^T of the noise alone, also covers the
     # bias of a smoother that pulls down peaks, on average along the curve.
     variance, rate_variance = basis.values**2 @ shrink, basis.slopes**2 @ shrink
@@ -206,10 +254,11 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
         rate,
         np.sqrt(grown * variance),
         np.sqrt(grown * rate_variance),
-        float(shrink.sum()) + spent,
+        freedom,
         float(np.sum((true_strain - strain) ** 2)),
         grown,
         partial(basis.operators, shrink, joint),
+        partial(basis.errors, shrink, unknown, joint),
     )
 
 

@@ -78,7 +78,8 @@ def smooth_segments(
         float(sum(part.freedom for part in parts)) + len(time) - used,
         float(sum(part.squares for part in parts)),
         float(sum(segment.used * segment.smoothed.inflation for segment in segments)) / used,
-        partial(_joined, segments, borders, shares),
+        partial(_operators, segments, borders, shares),
+        partial(_errors, segments, borders, shares),
     )
 
 
@@ -141,6 +142,10 @@ def _extended(part: Smoothed, time: FloatArray, skip: int, drop: int) -> Smoothe
         margins = ((0, 0), (skip, drop))
         return Operators(np.pad(strain, margins), np.pad(rate, margins))
 
+    def errors() -> Operators:
+        made = (part.errors or part.operators)()
+        return Operators(*grow(made.strain, made.rate))
+
     strain, rate = grow(part.true_strain, part.strain_rate)
     nearest = np.concatenate([rows[:1]] * skip + [rows] + [rows[-1:]] * drop)
     step = np.zeros(len(nearest))
@@ -155,6 +160,7 @@ def _extended(part: Smoothed, time: FloatArray, skip: int, drop: int) -> Smoothe
         part.squares,
         part.inflation,
         operators,
+        errors,
     )
 
 
@@ -165,21 +171,39 @@ def _beyond(time: FloatArray, strain: FloatArray, rate: FloatArray, at: float) -
     return strain[:1] + ahead * rate[:1] + 0.5 * ahead**2 * bend, rate[:1] + ahead * bend
 
 
-def _joined(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
-    """Blocks along the diagonal; at a jump, the shares of both and of the sample."""
-    count = borders[-1] + 1
-    strain, rate = np.zeros((count, count)), np.zeros((count, count))
-    for at, (segment, (first, last)) in enumerate(zip(segments, pairwise(borders), strict=True)):
-        made = segment.smoothed.operators()
-        columns = slice(first, last + 1)
+def _operators(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
+    """Of the samples: blocks along the diagonal; neighbours share the sample at the jump."""
+    columns = [slice(first, last + 1) for first, last in pairwise(borders)]
+    made = [segment.smoothed.operators() for segment in segments]
+    return _joined(made, columns, borders[1:-1], borders[-1] + 1, borders, shares)
+
+
+def _errors(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
+    """Of independent errors: those of the segments one after the other, then those of the samples at the jumps."""
+    made = [(segment.smoothed.errors or segment.smoothed.operators)() for segment in segments]
+    ends = np.cumsum([0, *(each.strain.shape[1] for each in made)]).tolist()
+    columns = [slice(first, last) for first, last in pairwise(ends)]
+    return _joined(made, columns, range(ends[-1], ends[-1] + len(shares)), ends[-1] + len(shares), borders, shares)
+
+
+def _joined(
+    parts: Sequence[Operators],
+    columns: Sequence[slice],
+    at_jumps: Sequence[int],
+    count: int,
+    borders: Sequence[int],
+    shares: Sequence[FloatArray],
+) -> Operators:
+    """Each segment in its columns of `count`, the sample at each jump in its own; there, the shares of all three."""
+    strain, rate = np.zeros((borders[-1] + 1, count)), np.zeros((borders[-1] + 1, count))
+    for at, (made, own, (first, last)) in enumerate(zip(parts, columns, pairwise(borders), strict=True)):
         rows = made.strain.copy()
         if at > 0:
             rows[0] *= shares[at - 1][1]
         if at < len(shares):
             rows[-1] *= shares[at][0]
-        strain[columns, columns] += rows
-        if at < len(shares):
-            strain[last, last] += shares[at][2]
+            strain[last, at_jumps[at]] += shares[at][2]
+        strain[first : last + 1, own] += rows
         skip = int(first > 0)
-        rate[first + skip : last + 1, columns] = made.rate[skip:]
+        rate[first + skip : last + 1, own] = made.rate[skip:]
     return Operators(strain, rate)

@@ -39,7 +39,10 @@ class Smoothed:
     inflation : float
         Variance of slow averages of the noise over what white noise would have: 1 where it is white.
     operators : callable
-        Makes the operators, which are dense.
+        Makes the operators of the measured samples, which are dense.
+    errors : callable, or None
+        Makes those of independent errors for strain noise of standard deviation 1, correlated as it is: what is unknown
+        of strain and rate. None: the noise of the samples, through `operators`, is all.
     """
 
     true_strain: FloatArray
@@ -50,6 +53,7 @@ class Smoothed:
     squares: float
     inflation: float
     operators: Callable[[], Operators]
+    errors: Callable[[], Operators] | None = None
 
     @property
     def noise(self) -> float:
