@@ -1,19 +1,21 @@
-"""A bar in a notebook for calls that last, without being asked for."""
+"""A bar in a notebook or a terminal for calls that last, without being asked for."""
 
 from __future__ import annotations
 
+import multiprocessing
 import sys
 import time
+from contextlib import contextmanager
 from functools import wraps
 from html import escape
 from importlib import import_module
-from threading import Lock
+from threading import Lock, Timer
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from probation._text import printable
+from probation._text import printable, raw_stream
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 Arguments = ParamSpec("Arguments")
 Answer = TypeVar("Answer")
@@ -49,31 +51,48 @@ def in_notebook() -> bool:
     return shell is not None and getattr(shell, "kernel", None) is not None
 
 
-def shows_progress(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
-    """Let a function that takes `progress` show a bar in a notebook where the caller gives none.
+def on_terminal() -> bool:
+    """Whether standard error is a terminal that a person may look at; a process that was started for one job is not."""
+    return sys.stderr is not None and sys.stderr.isatty() and multiprocessing.parent_process() is None
 
-    A call within another one shows none of its own.
+
+@contextmanager
+def outermost() -> Iterator[bool]:
+    """Whether no other such block is open, in any thread: only then does a call within show a bar."""
+    global _running  # noqa: PLW0603 - threads of the outermost call must see it, too
+    with _lock:
+        first = _running == 0
+        _running += 1
+    try:
+        yield first
+    finally:
+        with _lock:
+            _running -= 1
+
+
+def shows_progress(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
+    """Let a function that takes `progress` show a bar in a notebook or a terminal where the caller gives none.
+
+    A call within another one, or within a command that shows a bar, shows none of its own.
     """
 
     @wraps(function)
     def shown(*arguments: Arguments.args, **options: Arguments.kwargs) -> Answer:
-        global _running  # noqa: PLW0603 - threads of the outermost call must see it, too
-        with _lock:
-            outermost = _running == 0
-            _running += 1
-        bar = None
-        try:
-            if outermost and options.get("progress") is None and in_notebook():
-                bar = NotebookBar(function.__name__.replace("_", " "))
+        with outermost() as first:
+            bar = _bar(function.__name__.replace("_", " ")) if first and options.get("progress") is None else None
+            if bar is None:
+                return function(*arguments, **options)
+            try:
                 options["progress"] = bar
-            return function(*arguments, **options)
-        finally:
-            with _lock:
-                _running -= 1
-            if bar is not None:
+                return function(*arguments, **options)
+            finally:
                 bar.close()
 
     return shown
+
+
+def _bar(title: str) -> NotebookBar | TerminalBar | None:
+    return NotebookBar(title) if in_notebook() else TerminalBar(title) if on_terminal() else None
 
 
 class NotebookBar:
@@ -114,6 +133,55 @@ class NotebookBar:
             f'<div style="font:13px system-ui,sans-serif"><progress max="100" value="{100.0 * part:.0f}"></progress> '
             f"{label}, {said(part, elapsed)}</div>"
         )
+
+
+class TerminalBar:
+    """A bar that moves on standard error, from `after` seconds on, and goes when it is closed.
+
+    Parameters
+    ----------
+    title : str
+    after : float [s]
+    """
+
+    def __init__(self, title: str, after: float = SHOWN_AFTER) -> None:
+        self.title = title
+        self._done, self._total, self._text = 0.0, 0.0, printable(title)
+        self._shown: Any = None
+        self._late = Timer(after, self._show)
+        self._late.daemon = True
+        self._late.start()
+
+    def __call__(self, done: float, total: float = 1.0, what: str = "") -> None:
+        """Move: a fraction from 0 to 1, or done, total and what is being done."""
+        what = what or (done.doing if isinstance(done, Part) else "")
+        self._done, self._total, self._text = done, total, printable(f"{self.title}: {what}" if what else self.title)
+        if self._shown is not None:
+            self._shown.update(self._shown.task_ids[0], completed=done, total=total, description=self._text)
+
+    def close(self) -> None:
+        """Take the bar away."""
+        self._late.cancel()
+        self._late.join()
+        if self._shown is not None:
+            self._shown.stop()
+
+    def _show(self) -> None:
+        """In another thread, and only of what lasts: quick calls do not load rich."""
+        rich = import_module("rich.progress")
+        columns = (
+            rich.SpinnerColumn(),
+            rich.TextColumn("{task.description}", markup=False),
+            rich.BarColumn(),
+            rich.TimeElapsedColumn(),
+            rich.TextColumn("left"),
+            rich.TimeRemainingColumn(compact=True),
+        )
+        console = import_module("rich.console").Console(file=raw_stream(sys.stderr))
+        shown = rich.Progress(*columns, console=console, transient=True)
+        shown.add_task(self._text, total=self._total or None, completed=self._done)
+        shown.start()
+        self._shown = shown
 
 
 def said(part: float, elapsed: float) -> str:

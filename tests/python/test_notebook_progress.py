@@ -1,6 +1,8 @@
-"""A bar in a notebook: from two seconds on, one for the outermost call, gone at the end."""
+"""A bar in a notebook or a terminal: from two seconds on, one for the outermost call, gone at the end."""
 
+import io
 import sys
+import time
 import types
 
 import pytest
@@ -9,8 +11,9 @@ import probation
 from campaigns.few_records import few_records
 from lab_files import FILES
 from probation import progress
+from probation.commands.progress import shown
 from probation.diagnosis.isolability import campaign_isolability
-from probation.progress import NotebookBar, clock, said, shows_progress
+from probation.progress import NotebookBar, Part, TerminalBar, clock, said, shows_progress
 
 
 class Handle:
@@ -88,6 +91,56 @@ def test_text_in_a_bar_is_escaped(notebook):
 def test_outside_a_notebook_nothing_is_shown(capsys):
     probation.fit(few_records(names=("slow",)))
     assert capsys.readouterr() == ("", "")
+
+
+def a_terminal(monkeypatch):
+    """A terminal for standard error; every bar is shown at once."""
+    stream = io.StringIO()
+    stream.isatty = lambda: True
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr(TerminalBar.__init__, "__defaults__", (0.0,))
+    monkeypatch.setattr("probation.commands.progress.SHOWN_AFTER", 0.0)
+    return stream
+
+
+def asked(progress):
+    """What lasts, and says so."""
+    progress(Part(0.4, "on it"))
+    time.sleep(0.3)
+
+
+def test_a_call_from_a_plain_terminal_shows_a_bar(monkeypatch):
+    terminal = a_terminal(monkeypatch)
+
+    @shows_progress
+    def some_work(*, progress=None):
+        asked(progress)
+
+    some_work()
+    assert "some work: on it" in terminal.getvalue()
+    assert "left" in terminal.getvalue()
+
+
+def test_a_call_within_a_command_leaves_the_bar_to_it(monkeypatch):
+    terminal = a_terminal(monkeypatch)
+
+    @shows_progress
+    def some_work(*, progress=None):
+        assert progress is None
+
+    with shown("the command") as advance:
+        some_work()
+        asked(lambda part: advance(4, 10, part.doing))
+    assert "the command: on it" in terminal.getvalue()
+
+
+def test_a_process_that_works_for_another_shows_none(monkeypatch):
+    a_terminal(monkeypatch)
+    assert progress.on_terminal()
+    monkeypatch.setattr("multiprocessing.parent_process", object)
+    assert not progress.on_terminal()
 
 
 def test_what_is_left_follows_from_what_was_needed():

@@ -5,12 +5,10 @@ from __future__ import annotations
 import sys
 import time
 from contextlib import contextmanager
-from threading import Timer
 from typing import TYPE_CHECKING
 
-from probation._text import printable, raw_stream
 from probation.commands.streams import say
-from probation.progress import SHOWN_AFTER, Part, said
+from probation.progress import SHOWN_AFTER, Part, TerminalBar, outermost, said
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -35,42 +33,15 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
     callable
         ``advance(done, total, what)``.
     """
-    if not sys.stderr.isatty():
-        yield _tenths(title)
-        return
-    from rich.console import Console  # noqa: PLC0415 - not every command shows progress
-    from rich.progress import (  # noqa: PLC0415
-        BarColumn,
-        Progress,
-        SpinnerColumn,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = (
-        SpinnerColumn(),
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(compact=True),
-    )
-    progress = Progress(*columns, console=Console(file=raw_stream(sys.stderr)), transient=True)
-    task = progress.add_task(printable(title), total=None)
-    late = Timer(SHOWN_AFTER, progress.start)
-    late.daemon = True
-    late.start()
-
-    def advance(done: int, total: int, what: str) -> None:
-        progress.update(task, completed=done, total=total, description=printable(f"{title}: {what}" if what else title))
-
-    try:
-        yield advance
-    finally:
-        late.cancel()
-        late.join()
-        progress.stop()
+    with outermost():  # what is called within shows no bar of its own
+        if not sys.stderr.isatty():
+            yield _tenths(title)
+            return
+        bar = TerminalBar(title, SHOWN_AFTER)
+        try:
+            yield bar
+        finally:
+            bar.close()
 
 
 def in_parts(advance: Callable[[int, int, str], None]) -> Callable[[float], None]:
