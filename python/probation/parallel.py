@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -18,9 +18,32 @@ def usual_threads() -> int:
     return min(os.cpu_count() or 1, 4)
 
 
-def in_parallel(work: Callable[[Item], Result], items: Sequence[Item], threads: int) -> list[Result]:
-    """Results in the order of the items; with one thread, in the caller's."""
+def in_parallel(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    threads: int,
+    progress: Callable[[float], None] | None = None,
+) -> list[Result]:
+    """Results in the order of the items; with one thread, in the caller's.
+
+    Parameters
+    ----------
+    work : callable
+    items : sequence
+    threads : int
+    progress : callable, optional
+        Called in the caller's thread with the part of the items that is done, 0 to 1.
+    """
     if threads <= 1:
-        return [work(item) for item in items]
+        return _counted(map(work, items), len(items), progress)
     with ThreadPoolExecutor(threads) as pool:
-        return list(pool.map(work, items))
+        return _counted(pool.map(work, items), len(items), progress)
+
+
+def _counted(results: Iterable[Result], count: int, progress: Callable[[float], None] | None) -> list[Result]:
+    kept = []
+    for result in results:
+        kept.append(result)
+        if progress is not None:
+            progress(len(kept) / count)
+    return kept

@@ -156,8 +156,7 @@ class TerminalBar:
         """Move: a fraction from 0 to 1, or done, total and what is being done."""
         what = what or (done.doing if isinstance(done, Part) else "")
         self._done, self._total, self._text = done, total, printable(f"{self.title}: {what}" if what else self.title)
-        if self._shown is not None:
-            self._shown.update(self._shown.task_ids[0], completed=done, total=total, description=self._text)
+        self._move()
 
     def close(self) -> None:
         """Take the bar away."""
@@ -165,6 +164,11 @@ class TerminalBar:
         self._late.join()
         if self._shown is not None:
             self._shown.stop()
+
+    def _move(self) -> None:
+        if self._shown is not None:
+            task = self._shown.task_ids[0]
+            self._shown.update(task, completed=self._done, total=self._total or None, description=self._text)
 
     def _show(self) -> None:
         """In another thread, and only of what lasts: quick calls do not load rich."""
@@ -179,9 +183,10 @@ class TerminalBar:
         )
         console = import_module("rich.console").Console(file=raw_stream(sys.stderr))
         shown = rich.Progress(*columns, console=console, transient=True)
-        shown.add_task(self._text, total=self._total or None, completed=self._done)
+        shown.add_task(self._text, total=None)
         shown.start()
         self._shown = shown
+        self._move()  # what was said before it was there
 
 
 def said(part: float, elapsed: float) -> str:

@@ -5,6 +5,7 @@ import sys
 import time
 import types
 
+import numpy as np
 import pytest
 
 import probation
@@ -14,6 +15,7 @@ from probation import progress
 from probation.commands.progress import shown
 from probation.diagnosis.isolability import campaign_isolability
 from probation.progress import NotebookBar, Part, TerminalBar, clock, said, shows_progress
+from probation.published.experiments import twin_campaign
 
 
 class Handle:
@@ -172,6 +174,27 @@ def test_every_question_says_what_is_being_done(question):
     ask[question]()
     assert told == sorted(told)
     assert all(part.doing for part in told if part < 0.9)
+
+
+def test_a_diagnosis_moves_from_its_start_to_its_end():
+    """Every refit and every effect that is compared moves it; it was still for two thirds of the time."""
+    told = []
+    campaign = few_records(names=("slow", "middle"))
+    probation.diagnose(campaign, "sa2", effects=["force_offset", "damage", "force_drift"], progress=told.append)
+    steps = np.diff([float(part) for part in told])
+    assert steps.min() >= 0.0
+    assert steps.max() <= 0.55  # no gap: causes are not searched
+    assert len({float(part) for part in told if part.doing == "what these tests can discriminate"}) > 5
+
+
+def test_a_search_moves_at_every_refit_and_never_back():
+    told = []
+    campaign = twin_campaign((1, 2))
+    effects = ["force_offset", "damage", "rate_dependent_relaxation"]
+    probation.diagnose(campaign, "sa2", effects=effects, design=False, progress=told.append)
+    parts = [float(part) for part in told if part.doing == "trying causes"]
+    assert parts == sorted(parts)
+    assert len(set(parts)) > 5
 
 
 def test_a_file_that_is_read_is_named(tmp_path):

@@ -14,7 +14,7 @@ from probation.parallel import in_parallel
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, EffectParameter, Form
@@ -62,7 +62,12 @@ class EffectSignal:
 
 
 def effect_signals(
-    model: CampaignModel, parameters: FloatArray, effects: Iterable[Effect], *, threads: int = 1
+    model: CampaignModel,
+    parameters: FloatArray,
+    effects: Iterable[Effect],
+    *,
+    threads: int = 1,
+    progress: Callable[[float], None] | None = None,
 ) -> tuple[list[EffectSignal], dict[str, str]]:
     """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
 
@@ -77,6 +82,8 @@ def effect_signals(
     effects : iterable of Effect
     threads : int
         Signals are worked out in parallel.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -112,7 +119,7 @@ def effect_signals(
         except InputError as unsolved:
             return str(unsolved)
 
-    worked = in_parallel(work, wanted, threads)
+    worked = in_parallel(work, wanted, threads, progress)
     signals = [each for each in worked if isinstance(each, EffectSignal)]
     shown = {each.cause.effect.name for each in signals if each.usual}
     left_out = {}

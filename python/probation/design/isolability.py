@@ -18,7 +18,7 @@ from probation.parallel import in_parallel
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.design.effect_design import Bias
@@ -187,6 +187,7 @@ def isolability(
     effects: Iterable[Effect],
     *,
     threads: int = 2,
+    progress: Callable[[float], None] | None = None,
 ) -> Isolability:
     """Which effects these tests could discriminate, seen from the strain histories, the noise and the law alone.
 
@@ -205,6 +206,8 @@ def isolability(
         One per record; `white_noise` makes them of standard deviations.
     effects : iterable of Effect
     threads : int
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
 
     Raises
     ------
@@ -214,7 +217,10 @@ def isolability(
     if len(noises) != len(model.views):
         raise InputError(f"noises: found {len(noises)}, expected one for each of {len(model.views)} records")
     design = Design.of(as_predicted(model, parameters), parameters, noises)
-    signals, left_out = effect_signals(design.model, parameters, effects, threads=threads)
+    advance = progress or (lambda part: None)
+    signals, left_out = effect_signals(
+        design.model, parameters, effects, threads=threads, progress=lambda part: advance(0.5 * part)
+    )
     if not signals:
         raise InputError("effects: found none that the law can follow, expected at least one")
     raw = design.whitened(np.array([each.stress for each in signals]).T)
@@ -223,7 +229,12 @@ def isolability(
     cosine, probability = (
         np.array(each) for each in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
     )
-    smallest = in_parallel(lambda k: design.smallest_seen(signals[k], float(sizes[k])), rivalry.chosen, threads)
+    smallest = in_parallel(
+        lambda k: design.smallest_seen(signals[k], float(sizes[k])),
+        rivalry.chosen,
+        threads,
+        lambda part: advance(0.5 + 0.5 * part),
+    )
     found = [
         _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
         for row, k in enumerate(rivalry.chosen)

@@ -15,7 +15,7 @@ from probation.parallel import in_parallel
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
     from probation.design.planned_tests import PlannedTest
@@ -110,6 +110,7 @@ def next_test(
     noises: Sequence[NoiseModel],
     threads: int = 2,
     seed: int = 0,
+    progress: Callable[[float], None] | None = None,
 ) -> NextTest | None:
     """The realisable test after which the right explanation is most probably the most probable one, for its effort.
 
@@ -130,6 +131,8 @@ def next_test(
     threads : int
         Tests are worked out in parallel.
     seed : int
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -166,7 +169,7 @@ def next_test(
         return judged(test, ways, prior, group, [list(each) for each in answers], names, before, seed=seed)
 
     tests = planned_tests(Laboratory.of(model, base))
-    worked = [each for each in in_parallel(work, tests, threads) if each is not None]
+    worked = [each for each in in_parallel(work, tests, threads, progress) if each is not None]
     if not worked:
         return None
     worked.sort(key=lambda each: -each.worth)

@@ -235,7 +235,14 @@ def plan(
     # Which effects can be detected and discriminated: those that were named, or all that such records could show.
     if effects is None:
         chosen = visible(chosen, predicted.views)
-    found = isolability(model, model.start, noises, chosen, threads=threads or 2)
+    found = isolability(
+        model,
+        model.start,
+        noises,
+        chosen,
+        threads=threads or 2,
+        progress=lambda part: advance(Part(0.5 + 0.5 * part, "comparing effects")),
+    )
     advance(1.0)
     return Plan(
         law=law,

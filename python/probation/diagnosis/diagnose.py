@@ -135,14 +135,14 @@ def diagnose(
 
     done(0.0, "fitting the law")
     fitted = based_on(campaign)
-    done(0.1, "testing for a gap")
+    done(0.05, "testing for a gap")
     gap = find_gap(fitted, visible(known, fitted.model.views), threads=workers, seed=seed)
-    done(0.2, "locating the gap")
+    done(0.12, "locating the gap")
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
     calibration = calibration_of(campaign, base, own_law=law is None)
-    done(0.35, "trying causes")
+    done(0.15, "trying causes")
     causes = causes_of(
         base,
         considered,
@@ -152,13 +152,13 @@ def diagnose(
         seed=seed,
         skipping=skipping,
         budget=deadline,
-        progress=lambda part: done(0.35 + 0.45 * part, "trying causes"),
+        progress=lambda part: done(0.15 + 0.55 * part, "trying causes"),
         power=calibration.power,
     )
     base, considered, found = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
-    done(0.85, "measuring what causes close")
+    done(0.7, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
     chosen = answer_set(weighed, calibration.covered)
@@ -168,9 +168,9 @@ def diagnose(
     parts = attribution(base, weighed, found, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
-    done(0.9, "choosing the next test")
+    done(0.75, "choosing the next test")
     following, apart = (
-        _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed)
+        _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed, done)
         if design
         else ((), None)
     )
@@ -292,6 +292,7 @@ def _designed(
     budget: Budget,
     threads: int,
     seed: int,
+    done: Callable[[float, str], None],
 ) -> tuple[tuple[NextTest, ...], Isolability | None]:
     """The next test, and what these tests can discriminate."""
     if budget.spent(SEARCH.budget_of_design):
@@ -300,13 +301,29 @@ def _designed(
     following: tuple[NextTest, ...] | None = None
     if is_stretched(base):
         following = skipping.tried(
-            "the next test", lambda: next_test_of(base, weighed, chosen, found, threads=threads, seed=seed)
+            "the next test",
+            lambda: next_test_of(
+                base,
+                weighed,
+                chosen,
+                found,
+                threads=threads,
+                seed=seed,
+                progress=lambda part: done(0.75 + 0.1 * part, "choosing the next test"),
+            ),
         )
         if not following and left is not None:
             following = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
     apart = skipping.tried(
         "what these tests can discriminate",
-        lambda: isolability(base.model, base.parameters, base.whitened.noises, considered, threads=threads),
+        lambda: isolability(
+            base.model,
+            base.parameters,
+            base.whitened.noises,
+            considered,
+            threads=threads,
+            progress=lambda part: done(0.85 + 0.15 * part, "what these tests can discriminate"),
+        ),
     )
     return following or (), apart
 

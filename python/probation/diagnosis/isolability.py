@@ -90,5 +90,6 @@ def campaign_isolability(
         base.whitened.noises,
         known_effects(effects),
         threads=as_threads(threads) or usual_threads(),
+        progress=lambda part: advance(Part(0.3 + 0.7 * part, "comparing effects")),
     )
     return CampaignIsolability(campaign.name, scheme, found, campaign.data_hash)

@@ -11,7 +11,7 @@ from probation.diagnosis.result import UNKNOWN, NextTest
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from probation.design.next_test import RankedTest
     from probation.diagnosis.hypothesis import Hypothesis
@@ -32,6 +32,7 @@ def next_test_of(
     *,
     threads: int,
     seed: int,
+    progress: Callable[[float], None] | None = None,
 ) -> tuple[NextTest, ...]:
     """Tests to do next, the most worth first; none where one explanation, or none that could be predicted, is left.
 
@@ -44,6 +45,8 @@ def next_test_of(
     hypotheses : sequence of Hypothesis
         All forms and places that were refitted.
     threads, seed : int
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
     """
     open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][
         : DESIGN.planned_explanations
@@ -65,7 +68,7 @@ def next_test_of(
             for other, part in zip(close, weight / weight.sum(), strict=True)
             if part > 0.01
         ]
-    found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed)
+    found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed, progress=progress)
     return () if found is None else as_answer(found.ranking, found.probability_before)
 
 

@@ -33,6 +33,10 @@ if TYPE_CHECKING:
     from probation.inference.model import CampaignModel
 
 
+_USUAL = 20
+"""Refits by which a phase of the search is reported as half done."""
+
+
 @dataclass
 class Search:
     """Hypotheses that were refitted, and the means to refit more.
@@ -57,6 +61,8 @@ class Search:
     skipping: Skipping = field(default_factory=Skipping)
     budget: Budget = field(default_factory=Budget)
     found: list[Hypothesis] = field(default_factory=list)
+    _phase: tuple[float, float] = (0.0, 0.5)
+    _refits: int = 0
 
     def __post_init__(self) -> None:
         self.found.append(self._weighed(self.base.refit, unknown=True))
@@ -67,7 +73,7 @@ class Search:
         if self.base.scatter.any:
             self._scatter_around_the_best()
         self._try_with_unknown()
-        self._told(0.6)
+        self._begin(0.5, 0.65)
         size = 1
         while size < SEARCH.most_effects:
             leading = self.ranked(size)
@@ -85,7 +91,8 @@ class Search:
             if not self.ranked(size + 1) or self.ranked()[0].effects in {each.effects for each in leading}:
                 break
             size += 1
-            self._told(0.6 + 0.2 * (size - 1))
+            self._begin(0.65, 0.8)
+        self._begin(0.8, 1.0)
         self._parts_of_the_leader()
         return self.found
 
@@ -100,7 +107,7 @@ class Search:
         self, base: BaseFit, count: int = SEARCH.reconsidered, hopeless: float = SEARCH.hopeless
     ) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
-        again = Search(base, self.effects, self.threads, skipping=self.skipping)
+        again = Search(base, self.effects, self.threads, self._moved, self.skipping)
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - hopeless
         leading = [each for each in leading if each.evidence.log_evidence > least]
@@ -313,7 +320,8 @@ class Search:
                 self.skipping.hypothesis(model.causes, error)
                 return None
 
-        return [each for each in in_parallel(one, list(enumerate(jobs)), self.threads) if each is not None]
+        solved = in_parallel(one, list(enumerate(jobs)), self.threads, self._moved)
+        return [each for each in solved if each is not None]
 
     def _refit(self, model: CampaignModel, start: FloatArray, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
@@ -404,9 +412,16 @@ class Search:
             for each in self.found
         ]
 
-    def _told(self, part: float) -> None:
+    def _begin(self, low: float, high: float) -> None:
+        """Another phase of the search, and what part of it that is."""
+        self._phase, self._refits = (low, high), 0
+
+    def _moved(self, _: float) -> None:
+        """One more refit is done, here or in a search for this one; a phase is half done after `_USUAL` of them."""
+        self._refits += 1
         if self.progress:
-            self.progress(part)
+            low, high = self._phase
+            self.progress(low + (high - low) * self._refits / (self._refits + _USUAL))
 
 
 def _keys(found: Refit) -> frozenset[Key]:
