@@ -13,7 +13,7 @@ from probation.law.creep import creep
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, as_scheme
 from probation.provenance import samples_sha256
-from probation.results.frames import data_frame
+from probation.results.frames import data_frame, over_time
 from probation.results.reading import answer_in
 from probation.results.rendering import InOneLine, Plotted, rendered
 
@@ -69,7 +69,20 @@ class Simulation(Plotted, InOneLine):
         InputError
             Where pandas is not installed.
         """
-        return data_frame({"time_s": self.time, "true_strain": self.true_strain, "true_stress_MPa": self.true_stress})
+        return data_frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """As an xarray Dataset over "time_s".
+
+        Raises
+        ------
+        InputError
+            Where xarray is not installed.
+        """
+        return over_time(self._columns())
+
+    def _columns(self) -> dict[str, FloatArray]:
+        return {"time_s": self.time, "true_strain": self.true_strain, "true_stress_MPa": self.true_stress}
 
     def to_csv(self) -> str:
         """``time_s,true_strain,true_stress_MPa``: every number the shortest text that reads back the same."""

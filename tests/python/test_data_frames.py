@@ -70,3 +70,28 @@ def test_where_there_is_no_gap_the_regions_have_columns_all_the_same():
 def test_a_simulation_has_the_columns_of_its_file():
     found = probation.simulate(LAW, named_history("ramp"))
     assert ",".join(found.to_dataframe().columns) == found.to_csv().splitlines()[0]
+
+
+def test_a_fit_has_the_axes_sample_and_parameter():
+    curves = fit().to_xarray()
+    assert curves["residual_MPa"].dims == ("sample",)
+    of_slow = curves.where(curves["record"] == "slow", drop=True)
+    slow = fit().records["slow"]
+    np.testing.assert_array_equal(of_slow["time_s"], slow.time)
+    np.testing.assert_array_equal(of_slow["model_stress_MPa"], slow.model_stress)
+    along_tau = of_slow["sensitivity_MPa"].sel(parameter="tau_max_s")
+    np.testing.assert_array_equal(along_tau, slow.sensitivity[:, 1])
+    with pytest.raises(InputError, match="found no curves"):
+        Fit.from_json(fit().to_json()).to_xarray()
+
+
+@pytest.mark.parametrize("found", [made_up.self_heating, made_up.no_gap])
+def test_the_curves_of_a_diagnosis_are_a_sample_each(found):
+    curves, frame = found().to_xarray(), found().to_dataframe("curves")
+    for name in ("record", "time_s", "base_stress_MPa", "explained_stress_MPa"):
+        np.testing.assert_array_equal(curves[name], frame[name])
+
+
+def test_a_simulation_is_over_time():
+    found = probation.simulate(LAW, named_history("ramp"))
+    np.testing.assert_array_equal(found.to_xarray()["true_stress_MPa"].sel(time_s=found.time), found.true_stress)

@@ -10,7 +10,7 @@ import numpy as np
 from probation._arrays import one_of
 from probation.diagnosis.calibration import Calibration
 from probation.results.data import CURVE, Stored, WithCurves
-from probation.results.frames import by_record, rows_frame
+from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.rendering import Result
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.detection import DETECTION
@@ -363,19 +363,30 @@ class Diagnosis(Result, Stored):
                 for each in self.located
             ]
             return rows_frame([dict(zip(columns, row, strict=True)) for row in regions], columns)
-        return by_record(
-            {
-                name: {
-                    "time_s": each.time,
-                    "true_strain": each.true_strain,
-                    "true_stress_MPa": each.data,
-                    "base_stress_MPa": each.base,
-                    "explained_stress_MPa": np.nan if each.explained is None else each.explained,
-                    "noise_MPa": each.noise,
-                }
-                for name, each in self.curves.items()
+        return by_record(self._columns())
+
+    def to_xarray(self) -> Any:
+        """Curves as an xarray Dataset over "sample", with the coordinates "record" and "time_s".
+
+        Raises
+        ------
+        InputError
+            Where xarray is not installed, or for a diagnosis that was read from JSON without its curves.
+        """
+        return over_samples(self._columns())
+
+    def _columns(self) -> dict[str, dict[str, Any]]:
+        return {
+            name: {
+                "time_s": each.time,
+                "true_strain": each.true_strain,
+                "true_stress_MPa": each.data,
+                "base_stress_MPa": each.base,
+                "explained_stress_MPa": np.nan if each.explained is None else each.explained,
+                "noise_MPa": each.noise,
             }
-        )
+            for name, each in self.curves.items()
+        }
 
     @property
     def best(self) -> Explanation:

@@ -14,7 +14,7 @@ from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
 from probation.noise.whiteness import mean_inflation
 from probation.results.data import CURVE, Stored, from_curves
-from probation.results.frames import by_record, rows_frame
+from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.labelled import LabelledMatrix
 from probation.results.rendering import Result, rendered
 from probation.wording import percentage
@@ -201,18 +201,38 @@ class Fit(Result, Stored):
                 for name, p in self.parameters.items()
             ]
             return rows_frame([dict(zip(columns, row, strict=True)) for row in rows], columns)
-        return by_record(
-            {
-                name: {
-                    "time_s": each.time,
-                    "true_strain": each.true_strain,
-                    "true_stress_MPa": each.true_stress,
-                    "model_stress_MPa": each.model_stress,
-                    "residual_MPa": each.fit_residual,
-                }
-                for name, each in self.records.items()
+        return by_record(self._curves())
+
+    def to_xarray(self) -> Any:
+        """Curves and sensitivities as an xarray Dataset over "sample" and "parameter".
+
+        Records stand one after the other, with the coordinates "record" and "time_s" of every sample;
+        "sensitivity_MPa" is the change of the stress per unit of a parameter.
+
+        Raises
+        ------
+        InputError
+            Where xarray is not installed, or for a fit that was read from JSON without its curves.
+        """
+        curves = over_samples(self._curves())
+        return curves.assign(
+            sensitivity_MPa=(
+                ("sample", "parameter"),
+                np.concatenate([each.sensitivity for each in self.records.values()]),
+            )
+        ).assign_coords(parameter=[outside_name(name) for name in self.law.parameter_names])
+
+    def _curves(self) -> dict[str, dict[str, FloatArray]]:
+        return {
+            name: {
+                "time_s": each.time,
+                "true_strain": each.true_strain,
+                "true_stress_MPa": each.true_stress,
+                "model_stress_MPa": each.model_stress,
+                "residual_MPa": each.fit_residual,
             }
-        )
+            for name, each in self.records.items()
+        }
 
     @property
     def samples(self) -> int:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from probation.results.extras import needed
 
 if TYPE_CHECKING:
@@ -43,6 +45,27 @@ def by_record(parts: Mapping[str, Mapping[str, Any]]) -> Any:
     pandas = needed("pandas", "to_dataframe")
     frames = [pandas.DataFrame({"record": name, **columns}) for name, columns in parts.items()]
     return pandas.concat(frames, ignore_index=True)
+
+
+def over_samples(parts: Mapping[str, Mapping[str, Any]]) -> Any:
+    """An xarray Dataset over "sample", record after record, with the coordinates "record" and "time_s".
+
+    Records differ in length and in their instants, so that these are no axes of their own:
+    ``found.where(found["record"] == "slow", drop=True)`` is one of them.
+
+    Raises
+    ------
+    InputError
+        Where xarray is not installed.
+    """
+    names = next(iter(parts.values()))
+    columns = {
+        name: ("sample", np.concatenate([np.broadcast_to(each[name], len(each["time_s"])) for each in parts.values()]))
+        for name in names
+    }
+    record = np.repeat(list(parts), [len(each["time_s"]) for each in parts.values()])
+    coordinates = {"record": ("sample", record), "time_s": columns.pop("time_s")}
+    return needed("xarray", "to_xarray").Dataset(columns, coords=coordinates)
 
 
 def over_time(columns: Mapping[str, Any]) -> Any:
