@@ -1,4 +1,4 @@
-"""What the site is made of: two tutorials run here, `make docs` builds all; pictures of the README are up to date."""
+"""What the site is made of: the tutorials run here, `make docs` builds all; pictures of the README are up to date."""
 
 import contextlib
 import io
@@ -61,6 +61,14 @@ def test_the_third_tutorial_finds_the_effect_that_it_put_in():
     diagnosis = names["diagnosis"]
     assert diagnosis.best.effects == ("self_heating",)
     assert diagnosis.shrink.held_out.after_MPa < 0.05
+
+
+def test_the_fourth_tutorial_exports_the_law_and_pulls_a_bar_that_necks():
+    pytest.importorskip("felupe")
+    names, _ = _run("tutorial_4_into_finite_elements.py")
+    necking = names["necking"]
+    assert np.ptp(necking.outline[1]) > 0.2 * necking.outline[1].max()
+    assert necking.nominal_stress[-1] < 0.9 * necking.nominal_stress.max()
 
 
 def test_the_fifth_tutorial_finds_the_damage_that_a_law_of_ones_own_leaves_out():
