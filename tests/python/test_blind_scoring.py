@@ -337,7 +337,19 @@ def test_a_missing_answer_is_named(split):
 def test_other_answers_are_scored_beside(split, tmp_path):
     solve_split(split.folder, _knows(split), processes=1)
     solve_split(split.folder, lambda folder: _diagnosis({(): 1.0}), answers=tmp_path / "none", processes=1)
-    scores = score_split(split.folder, beside={"always none": tmp_path / "none"}).content["scores"]
+    steps = []
+    score = score_split(
+        split.folder, beside={"always none": tmp_path / "none"}, progress=lambda *said: steps.append(said)
+    )
+    scores = score.content["scores"]
+    assert [what for _, _, what in steps] == [
+        "opening the truths",
+        *(
+            "the answers" if name == "answers" else name if name == "always none" else f"the baseline {name}"
+            for name in scores
+        ),
+    ]
+    assert all(done < total for done, total, _ in steps)
     assert scores["always none"]["by_stratum"]["single"]["top1"]["rate"] == 0.0
     assert scores["oracle"]["by_stratum"]["single"]["top1"]["rate"] == 1.0
     assert set(scores) == {"answers", "majority", "oracle", "shuffled", "always none"}

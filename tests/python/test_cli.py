@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from probation import cli
+from probation import cli, simulation
 from probation.commands.progress import shown
 from probation.errors import ConvergenceError, InputError
 
@@ -168,6 +168,22 @@ def test_progress_shows_on_a_terminal_where_something_lasts(capsys, monkeypatch)
     told = capsys.readouterr().err
     assert "working: half" in told
     assert "left" in told
+
+
+def test_a_long_simulation_shows_what_is_being_done(capsys, monkeypatch):
+    simulate = simulation.simulate
+
+    def slow(*arguments):
+        time.sleep(0.3)
+        return simulate(*arguments)
+
+    monkeypatch.setattr(simulation, "simulate", slow)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr("probation.commands.progress.SHOWN_AFTER", 0.0)
+    assert cli.main(["simulate", "--history", "ramp:samples=11", *LAW]) == 0
+    assert "simulating ramp" in capsys.readouterr().err
 
 
 def test_a_log_gets_a_line_at_every_tenth_of_what_lasts(capsys, monkeypatch):

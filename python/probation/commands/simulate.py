@@ -14,6 +14,7 @@ from probation.commands.delivery import (
     warn,
 )
 from probation.commands.law_options import add_law_options, law_from_options
+from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from
 from probation.commands.scheme_options import add_scheme, add_start
 from probation.commands.streams import put
@@ -82,11 +83,9 @@ def run(options: argparse.Namespace) -> int:
     if options.output == "-" and options.json == "-":
         raise InputError("found both -o - and --json -, expected one of them on standard output")
     history = _history(options)
-    simulation = simulate(
-        law_from_options(options),
-        history,
-        _scheme(options),
-    )
+    law, scheme = law_from_options(options), _scheme(options)
+    with shown(f"simulating {history.name} by {options.scheme}"):
+        simulation = simulate(law, history, scheme)
     for warning in simulation.warnings:
         warn(warning)
     summary = "" if options.output == "-" else simulation.summary(picture=options.output is None)

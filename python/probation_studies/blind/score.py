@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from probation.answers import json_answer
 from probation.errors import InputError
 from probation.origin import origin
+from probation.pool import Progress
 from probation_studies.blind.laboratory_named import OWN
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.opening import handed_in, record_opening
@@ -70,6 +71,7 @@ def score_split(
     answers: str | Path | None = None,
     beside: Mapping[str, str | Path] | None = None,
     after_opening: bool = False,
+    progress: Progress | None = None,
 ) -> Score:
     """Open the truths of a split and score its answers.
 
@@ -86,6 +88,8 @@ def score_split(
         All are held to the same checks.
     after_opening : bool
         Score later answers, too, and say so; never for the test split.
+    progress : callable, optional
+        Called with how many boards of scores are done, how many there are, and what is being done.
 
     Raises
     ------
@@ -102,6 +106,8 @@ def score_split(
     names = list(seals)
     handed = [handed_in(each, names) for each in (layout, *places.values())]
     late = record_opening(layout, handed, after_opening=after_opening)
+    advance = progress or (lambda *said: None)
+    advance(0, 1, "opening the truths")
     opened = {name: open_truth(layout.truths / f"{name}.json", seal) for name, seal in seals.items()}
     found, failed = _answers(layout, names)
     content: dict[str, object] = {
@@ -115,7 +121,7 @@ def score_split(
         "answers_after_opening": late,
         "failed": failed,
     }
-    scores = _scores(opened, found, places)
+    scores = _scores(opened, found, places, advance)
     if split == "test":
         nulls = sum(truth["stratum"] == "none" for truth in opened.values())
         content["too_small"] = shortfall(len(seals), nulls)
@@ -123,16 +129,24 @@ def score_split(
 
 
 def _scores(
-    truths: dict[str, dict[str, object]], answers: dict[str, Answer], places: Mapping[str, Layout]
+    truths: dict[str, dict[str, object]],
+    answers: dict[str, Answer],
+    places: Mapping[str, Layout],
+    advance: Progress,
 ) -> dict[str, dict[str, object]]:
     from probation_studies.blind.scores.baselines import BASELINES  # noqa: PLC0415 - scipy.stats is slow to load
     from probation_studies.blind.scores.board import board  # noqa: PLC0415
     from probation_studies.blind.scores.case import Case  # noqa: PLC0415
 
     cases: list[Case] = [Case(name, truth, answers[name]) for name, truth in truths.items()]
-    boards = {"answers": board(cases)}
-    boards |= {name: board(baseline(cases)) for name, baseline in BASELINES.items()}
+    total, boards = 1 + len(BASELINES) + len(places), {}
+    advance(0, total, "the answers")
+    boards["answers"] = board(cases)
+    for name, baseline in BASELINES.items():
+        advance(len(boards), total, f"the baseline {name}")
+        boards[name] = board(baseline(cases))
     for name, place in places.items():
+        advance(len(boards), total, name)
         if name in boards:
             raise InputError(f"beside: found the name {name!r}, expected none of {', '.join(boards)}")
         others, _ = _answers(place, list(truths))

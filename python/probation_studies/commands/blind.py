@@ -160,13 +160,15 @@ def _score(options: argparse.Namespace) -> int:
         if not equals or not name or not folder:
             raise InputError(f"--beside: found {entry!r}, expected NAME=DIR")
         beside[name] = folder
-    score = score_split(
-        options.folder,
-        truths=options.truths,
-        answers=options.answers,
-        beside=beside,
-        after_opening=options.after_opening,
-    )
+    with shown("scoring") as advance:
+        score = score_split(
+            options.folder,
+            truths=options.truths,
+            answers=options.answers,
+            beside=beside,
+            after_opening=options.after_opening,
+            progress=advance,
+        )
     if score.split == "test":
         for seed in cast("list[int]", score.content["seeds"]):
             if spend_seed(seed, cast("int", score.content["campaigns"])):
