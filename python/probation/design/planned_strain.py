@@ -120,7 +120,9 @@ def _mean_errors(drawn: Sequence[Excitation]) -> Operators:
     """Errors whose covariance is the mean of those of several smoothed strains."""
     made = [each.errors() for each in drawn if each.errors is not None]
     weight = len(made) ** -0.5
-    return Operators(weight * np.hstack([each.strain for each in made]), weight * np.hstack([each.rate for each in made]))
+    return Operators(
+        weight * np.hstack([each.strain for each in made]), weight * np.hstack([each.rate for each in made])
+    )
 
 
 def propagated(excitation: Excitation, law: Law, scheme: SchemeName) -> FloatArray:

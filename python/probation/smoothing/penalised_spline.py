@@ -157,7 +157,7 @@ class Score:
         return self.squares(shrink) / left**2 if left > 0.0 else np.inf
 
     def unknown(self, shrink: FloatArray, variance: float) -> FloatArray:
-        r"""Covariance of the functions' weights around those smoothed with `shrink`, over the noise's; (n_basis, n_basis).
+        r"""Covariance of the functions' weights around those smoothed, over the noise's; shape (n_basis, n_basis).
 
         Cross-validation cannot see a machine that wanders by less than the noise, and a smoothness says that it does
         not. Here the strain is a trend, of prior variance sigma^2 / (lambda p_k), and a wander of the rate like white
@@ -185,7 +185,7 @@ class Score:
         chance /= chance.sum()
         left = np.hstack([np.ones((len(prior), order)), prior / (1.0 + prior)])
         off = (left - shrink) * (self.weights / np.sqrt(variance)) * np.sqrt(chance)[:, None]
-        return np.diag(chance @ left) + off.T @ off
+        return np.asarray(np.diag(chance @ left) + off.T @ off)
 
     def best(self) -> FloatArray:
         """`shrink` at the lowest score."""
