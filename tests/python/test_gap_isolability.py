@@ -268,10 +268,10 @@ def test_a_ramp_at_the_reference_rate_gives_rate_dependence_nothing_to_do():
 
 
 def test_refits_of_simulated_data_are_right_as_often_as_predicted():
-    """Force offset against a room that warms within each record, on two ramps: 300 draws, both refitted."""
+    """Force offset against a force that drifts along each record, on two ramps: 300 draws, both refitted."""
     model = two_ramps()
     sigma, draws = 2.0, 300
-    pair = [effect("force_offset"), effect("temperature_drift")]
+    pair = [effect("force_offset"), effect("force_drift")]
     pair[1] = replace(pair[1], forms=pair[1].forms[:1])
     found = isolability(model, model.start, white_noise(model.views, sigma), pair)
     right = model.with_causes([cause("force_offset")])
