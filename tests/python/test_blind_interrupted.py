@@ -25,7 +25,7 @@ class Truth:
         return '{"name": "' + self.name + '"}'
 
 def quick(seed, index, split, stratum):
-    time.sleep(0.02)
+    time.sleep(0.05)
     name = f"{split}-{index:04d}"
     drawn = np.random.default_rng([seed, index]).standard_normal(400)
     record = WrittenRecord("test-1", "strain-rate", False, np.arange(400.0), drawn, drawn, {})
@@ -60,12 +60,6 @@ def _begun(script, folder, processes=1):
     return started
 
 
-def _killed(script, folder, seconds):
-    with _begun(script, folder) as started:
-        time.sleep(seconds)
-        started.kill()
-
-
 def _run(script, folder):
     with _begun(script, folder) as started:
         assert started.wait(60) == 0
@@ -78,8 +72,11 @@ def _contents(folder, pattern):
 def test_making_goes_on_after_a_kill_with_the_campaigns_and_seals_there_were(tmp_path):
     split = Layout(tmp_path / "split")
     kept = {}
-    for seconds in (0.08, 0.21):
-        _killed(MAKE, tmp_path, seconds)
+    for made in (2, 6):
+        with _begun(MAKE, tmp_path) as started:
+            while len(_contents(split.truths, "develop-*.json")) < made:
+                time.sleep(0.005)
+            started.kill()
         campaigns = _contents(split.campaigns, "develop-*/test-1.csv")
         assert all(text.count(b"\n") == 401 for text in campaigns.values())
         truths = _contents(split.truths, "develop-*.json")

@@ -12,8 +12,6 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from probation.records.noise import NORMAL_CONSISTENCY
-
 UNITS = {
     "force_offset": "MPa",
     "force_drift": "MPa",
@@ -123,4 +121,5 @@ def _slack(
 
 def _scatter(values: np.ndarray) -> float:
     """Standard deviation of what neighbouring samples do not share, by the median of second differences."""
-    return float(NORMAL_CONSISTENCY * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
+    quartile = 0.674490  # of the standard normal distribution: half of its values are nearer to 0
+    return float(np.median(np.abs(np.diff(values, 2))) / quartile / np.sqrt(6.0))
