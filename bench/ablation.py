@@ -48,7 +48,6 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     "errors of an effect's form": {
         "evidence.form_errors": (0.0,),
         "evidence.form_error_weights": (1.0,),
-        "evidence.rig_form_error": 1e-9,
     },
     "power of the evidence": {"evidence.evidence_power": 1.0},
     "power of a gap that is not declared": {"evidence.undeclared_gap_power": 1.0},
@@ -65,7 +64,6 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     },
     "soft steps": {"search.soft_step_level": 0.01, "search.soft_step_lead": NEVER, "search.soft_step_ratio": NEVER},
     "several starts and places": {"search.starts": 1, "search.places": 1},
-    "race over several rounds": {"search.most_rounds": 1, "search.round_steps": 16},
     "screening before the race": {
         "search.race_gain": NEVER,
         "search.race_fraction": 0.0,

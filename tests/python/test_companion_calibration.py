@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
+from probation.calibration.cross_validation import percent
 from probation.calibration.forms import FORMS
 from probation.calibration.paper_relations import paper_relations
 from probation.calibration.regression import excess_scatter, regress
@@ -453,3 +454,9 @@ def test_a_form_that_suits_the_material_ill_is_fitted_where_it_is_asked_for():
     found = calibrate_companion(constant_time_ramps(), form="weissenberg")
     assert np.all(found.companion.relation.relaxation_time([1e-3, 5e-3, 2e-2]) > 0.0)
     assert np.max(np.abs(found.candidates["weissenberg"].percent_residual)) > 20.0
+
+
+def test_an_error_below_the_rounding_of_numbers_is_told_as_small():
+    assert percent(8e-16) == "< 0.001"
+    assert percent(-0.012) == "-1.2"
+    assert percent(0.0) == "0"

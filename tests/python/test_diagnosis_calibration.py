@@ -1,11 +1,13 @@
 """Whether a diagnosis knows where its probabilities were calibrated."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
 import probation
-from probation.diagnosis.calibration import Calibration
+from probation.diagnosis import calibration
+from probation.diagnosis.calibration import Calibration, Extent
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind import laboratory
@@ -44,3 +46,11 @@ def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
     assert all(each.probability < 0.02 or len(each.effects) > 1 for each in left_out)
     if found.verdict != "no_gap":
         assert any("calibrated on other campaigns" in warning for warning in found.warnings)
+
+
+def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):
+    extent = Extent(records=4, samples=(300.0, 300.0), noise=(0.001, 0.001), strain_noise=(0.0, 0.0), gap=184.3)
+    monkeypatch.setattr(calibration, "extent_of", lambda *_: extent)
+    base = SimpleNamespace(scatter=SimpleNamespace(any=False))
+    told = calibration.calibration_of(None, base, own_law=True).why[-1]
+    assert told == f"a misfit over the noise of 184, where 0 to {CALIBRATED.gap[1]:.2g} are covered"

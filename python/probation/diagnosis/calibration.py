@@ -113,21 +113,26 @@ def calibration_of(campaign: Campaign, base: BaseFit, *, own_law: bool) -> Calib
     """
     found, why = extent_of(campaign, base), []
     compared = (
-        ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}"),
-        ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}"),
-        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.1g}"),
-        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.1g}"),
-        ("a misfit over the noise", (found.gap, found.gap), CALIBRATED.gap, "{:.2g}"),
+        ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}".format),
+        ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}".format),
+        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.1g}".format),
+        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.1g}".format),
+        ("a misfit over the noise", (found.gap, found.gap), CALIBRATED.gap, _two_digits),
     )
     for name, (low, high), (least, most), form in compared:
         if low < least or high > most:
-            text = form.format(high if high > most else low)
-            why.append(f"{name} of {text}, where {form.format(least)} to {form.format(most)} are covered")
+            outside = high if high > most else low
+            why.append(f"{name} of {form(outside)}, where {form(least)} to {form(most)} are covered")
     if base.scatter.any:
         why.append("specimens that differ, where they are alike in those covered")
     if not own_law:
         why.append("another law than the modal one")
     return Calibration(not why, tuple(why))
+
+
+def _two_digits(value: float) -> str:
+    """Two digits at least, and no power of ten: "4.8", "180"."""
+    return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
 def _ends(values: Sequence[float]) -> tuple[float, float]:

@@ -249,9 +249,12 @@ def remainder_of(
         )
         moved = problem.with_function(trials[0].term)
         try:
-            problem = _Problem(base, found, moved, phases, closure.noise_MPa)
+            beside = _Problem(base, found, moved, phases, closure.noise_MPa)
         except UNSOLVABLE:
             break
+        if not beside.has_stress:
+            break
+        problem = beside
     best: dict[str, _Trial] = {}
     for trial in trials:
         best.setdefault(trial.term.variable.name, trial)
@@ -305,6 +308,8 @@ class _Problem:
         residual, jacobian = found.model.residual_and_jacobian(parameters)
         self._missing = -residual
         self._stress = residual + found.model.data
+        self.has_stress = bool(np.any(self._stress))
+        """False where the parameters are at bounds at which the law gives none: nothing is a factor of that."""
         specimens = specimen_columns(base.whitened.noises, base.whitener.slices)
         own = np.hstack([np.zeros((len(residual), 0)), *specimens])
         self._count = jacobian.shape[1]

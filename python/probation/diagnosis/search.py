@@ -111,7 +111,7 @@ class Search:
         leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
         least = leading[0].evidence.log_evidence - hopeless
         leading = [each for each in leading if each.evidence.log_evidence > least]
-        steps = SEARCH.round_steps if self.budget.spent() else MOST_STEPS
+        steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
@@ -137,9 +137,9 @@ class Search:
             columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
         )
         first = _promising(_first_of_each(candidates))
-        running, out = self._raced(self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.round_steps))
-        running, behind = self._worth_polishing(running)
-        self.found += self._judged([*out, *behind])
+        begun = self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.first_steps)
+        running, behind = self._in_the_running(begun)
+        self.found += self._judged(behind)
         polished = self._further(running, MOST_STEPS)
         keys = {cause_key(each.model.causes[-1]) for each in running}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
@@ -147,47 +147,30 @@ class Search:
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
 
-    def _raced(self, refits: list[Refit]) -> tuple[list[Refit], list[Refit]]:
-        """Which of unfinished refits leave little enough, and which do not and hardly gain any more."""
-        for _ in range(SEARCH.most_rounds - 1):
-            limit = self._limit(refits)
-            behind = [each for each in refits if each.chi_square > limit and each.steps == SEARCH.round_steps]
-            further = self._further(behind, SEARCH.round_steps)
-            again = {id(each.model): each for each in further}
-            moved = {
-                id(each): again[id(each.model)]
-                for each in behind
-                if id(each.model) in again and again[id(each.model)].chi_square < SEARCH.still_gaining * each.chi_square
-            }
-            if not moved:
-                break
-            refits = [moved.get(id(each), each) for each in refits]
-        limit = self._limit(refits)
-        return [each for each in refits if each.chi_square <= limit], [
-            each for each in refits if each.chi_square > limit
-        ]
-
-    def _worth_polishing(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
-        """Which of the refits in the running may lead, by their evidence, and which are far behind.
+    def _in_the_running(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
+        """Which of unfinished refits may lead, by what they leave and by their evidence, and which are far behind.
 
         Where no single effect explains a strong gap, all leave about as much of it; but the evidence of most is so low
-        that nothing which is left to gain brings them back.
+        that nothing which is left to gain brings them back. Forms of one effect stay together: one that is stuck on
+        its way has lower evidence than one that arrives at a worse place.
         """
-        gap = self._gap_left(refits)
-        if gap <= SEARCH.strong_gap:
-            return list(refits), []
-        scores = []
-        for each in refits:
-            try:
-                scores.append(self._weighed(each).evidence.log_evidence)
-            except UNSOLVABLE:
-                scores.append(np.inf)  # said where it is judged
-        count = len(self.base.whitened)
-        best = max((score for score in scores if np.isfinite(score)), default=0.0)
-        left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
-        least = best - (SEARCH.worth_polishing - 1.0) * left - SEARCH.slack
-        marked = list(zip(refits, scores, strict=True))
-        return [each for each, score in marked if not score < least], [each for each, score in marked if score < least]
+        limit = self._limit(refits)
+        near = {id(each) for each in refits if each.chi_square <= limit}
+        if self._gap_left(refits) > SEARCH.strong_gap:
+            scores = {id(each): self._score(each) for each in refits if id(each) in near}
+            count = len(self.base.whitened)
+            best = max((score for score in scores.values() if np.isfinite(score)), default=0.0)
+            left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
+            least = best - (SEARCH.worth_polishing - 1.0) * left - SEARCH.slack
+            effects = {_placed(each) for each in refits if scores.get(id(each), -np.inf) >= least}
+            near = {id(each) for each in refits if id(each) in near and _placed(each) in effects}
+        return [each for each in refits if id(each) in near], [each for each in refits if id(each) not in near]
+
+    def _score(self, unfinished: Refit) -> float:
+        try:
+            return self._weighed(unfinished).evidence.log_evidence
+        except UNSOLVABLE:
+            return np.inf  # said where it is judged
 
     def _gap_left(self, refits: Sequence[Refit]) -> float:
         """What the best refit leaves of the gap, above the noise for certain; the noise itself is the same for all."""
@@ -223,10 +206,12 @@ class Search:
         ranked = self._credible(
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
-        chosen = _first_of_each_effect(
-            [each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions
-        )
-        self.found += self._judged(self._refitted(leading.refit, chosen))
+        chosen = _forms_of_the_best([each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions)
+        begun = self._refitted(leading.refit, chosen, steps=SEARCH.first_steps)
+        ahead = _least_of_each_effect(begun)
+        kept = {id(each) for each in ahead}
+        self.found += self._judged([each for each in begun if id(each) not in kept])
+        self.found += self._judged(self._further(ahead, MOST_STEPS))
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
@@ -464,6 +449,12 @@ def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
     return found
 
 
+def _placed(refit: Refit) -> tuple[str, tuple[str, ...] | None]:
+    """The effect of a single cause, and where it acts."""
+    cause = refit.model.causes[-1]
+    return cause.effect.name, cause.records
+
+
 def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Those whose linearised gain is not hopelessly below the best one's.
 
@@ -490,11 +481,23 @@ def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: 
     return found
 
 
-def _first_of_each_effect(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
-    """The best start of each of the best effects; in all records and in one count apart."""
-    found: dict[tuple[str, bool], Candidate] = {}
+def _forms_of_the_best(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
+    """The best start of every form of each of the best effects; in all records and in one count apart."""
+    effects = list(dict.fromkeys((each.cause.effect.name, each.cause.records is None) for each in candidates))[:count]
+    found: dict[tuple[str, bool, str], Candidate] = {}
     for each in candidates:
-        found.setdefault((each.cause.effect.name, each.cause.records is None), each)
-        if len(found) == count:
-            break
+        effect = each.cause.effect.name, each.cause.records is None
+        if effect in effects:
+            found.setdefault((*effect, each.cause.form.name), each)
     return list(found.values())
+
+
+def _least_of_each_effect(refits: Sequence[Refit]) -> list[Refit]:
+    """Of the forms of each effect that was added last, the one that leaves least."""
+    least: dict[tuple[str, bool], Refit] = {}
+    for each in refits:
+        cause = each.model.causes[-1]
+        key = cause.effect.name, cause.records is None
+        if key not in least or each.chi_square < least[key].chi_square:
+            least[key] = each
+    return list(least.values())

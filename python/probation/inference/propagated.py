@@ -24,7 +24,7 @@ STRAIN_STEP = 1e-6
 def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray | None:
     """Factor A of the stress covariance A A^T that the strain's noise makes, shape (n_samples, n_directions) [MPa].
 
-    Of a smoothed strain all that the smoother lets through; of a strain as measured the error of its first sample,
+    Of a smoothed strain all that the smoother leaves unknown; of a strain as measured the error of its first sample,
     which shifts the whole record: the rest of it is as rough as the stress noise and is measured with that.
 
     Parameters

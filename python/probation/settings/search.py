@@ -11,27 +11,10 @@ from probation.settings.setting import setting
 class SearchSettings:
     """Which explanations are tried."""
 
-    round_steps: int = setting(
+    first_steps: int = setting(
         4,
-        "Gauss-Newton steps of a round of the race.",
+        "Gauss-Newton steps of a refit before it is compared with the others.",
         unit="steps",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    most_rounds: int = setting(
-        4,
-        "Rounds of the race at most.",
-        unit="rounds",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    still_gaining: float = setting(
-        0.7,
-        (
-            "Part of what it left one round before that a cause still in motion leaves at most: such a "
-            "cause is not out yet."
-        ),
-        unit="-",
         origin="chosen",
         used_in="diagnosis/search.py",
     )

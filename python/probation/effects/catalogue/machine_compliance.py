@@ -23,7 +23,10 @@ _COMPLIANCE = EffectParameter(
 
 
 def _crosshead(view: RecordView, values: Values) -> FloatArray:
-    """The frame gives way by a F / A_0 per gauge length, which is engineering strain."""
+    """The frame gives way by a F / A_0 per gauge length, which is engineering strain.
+
+    A stress that was made with the recorded strain is converted with it: `Form.converts`, `inference/model.py`.
+    """
     own = values[0] * view.nominal_data / np.exp(view.true_strain)
     return view.true_strain + np.log1p(-np.minimum(own, 0.9))
 
