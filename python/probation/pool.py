@@ -107,8 +107,9 @@ def run_all(
         except BrokenExecutor as failure:
             raise WorkersLostError(tuple(waiting.values())) from failure
         finally:
-            for future in waiting:
-                future.cancel()
+            if executor is not None:  # processes of one's own end with the block, and their jobs with them
+                for future in waiting:
+                    future.cancel()
 
 
 @contextmanager
