@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import subprocess
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,6 +31,8 @@ class Layout:
         Labels that reach beyond the edge of their drawing.
     overlapping : list of str
         Pairs of labels of a drawing that lie on each other.
+    faint : list of str
+        Texts whose colour is close to what lies behind them, with their contrast (W3C: 1 is none, 21 black on white).
     hovered : list of str
         What the pointer shows on each drawing, in the middle of its first curve.
     """
@@ -40,6 +43,7 @@ class Layout:
     empty: list[str]
     clipped: list[str]
     overlapping: list[str]
+    faint: list[str]
     hovered: list[str]
 
 
@@ -48,17 +52,25 @@ def browser() -> str | None:
     return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
-def layouts(pages: dict[str, str], widths: tuple[int, ...], folder: Path) -> dict[tuple[str, int], Layout]:
-    """Open every page at every width, in frames of one window: a window itself is never narrower than 500 pixels."""
+def layouts(
+    pages: Mapping[str, str | Path], widths: tuple[int, ...], folder: Path, *, dark: bool = False
+) -> dict[tuple[str, int], Layout]:
+    """Open every page at every width, in frames of one window: a window itself is never narrower than 500 pixels.
+
+    A page is its text, or the file that holds it where it needs other files.
+    """
     frames = [
         f'<iframe data-name="{html.escape(name)}" style="border: 0; width: {width}px; height: 900px" '
-        f'srcdoc="{html.escape(page)}"></iframe>'
+        + (f'src="{page.as_uri()}"' if isinstance(page, Path) else f'srcdoc="{html.escape(page)}"')
+        + "></iframe>"
         for name, page in pages.items()
         for width in widths
     ]
     probe = folder / "probe.html"
     probe.write_text(f"<!DOCTYPE html><body>{''.join(frames)}<script>{_PROBE}</script></body>", encoding="utf-8")
     command = [str(browser()), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--dump-dom"]
+    command += ["--blink-settings=preferredColorScheme=0"] if dark else []
+    command += ["--allow-file-access-from-files"]
     done = subprocess.run(
         [*command, f"--user-data-dir={folder / 'profile'}", probe.as_uri()],
         check=True,

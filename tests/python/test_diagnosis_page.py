@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import replace
 from functools import cache
 from html import unescape
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -157,6 +158,21 @@ def test_bars_always_show_none_and_unknown_and_star_what_cannot_be_told_apart():
     texts = [text.get_text() for text in axes.texts]
     starred = {name for name, text in zip(names, texts, strict=True) if "★" in text}
     assert starred == {"self-heating", "structural softening"}
+
+
+def test_names_of_three_lines_do_not_meet_beside_the_bars():
+    """Every bar is an explanation of three effects, two of them with long titles."""
+    found = made_up.self_heating()
+    titles = ("offset of the force cell", "compliance of the machine", "another shape of the spectrum")
+    long = [replace(each, effects=("a", "b", "c"), titles=titles, probability=0.2) for each in found.explanations]
+    figure = probability_figure(replace(found, explanations=tuple(long)))
+    figure.draw_without_rendering()
+    labels = figure.axes[0].get_yticklabels()
+    assert sum(label.get_text().count("\n") >= 2 for label in labels) > 2
+    boxes = sorted((label.get_window_extent() for label in labels), key=lambda box: -box.y0)
+    assert all(below.y1 <= above.y0 for above, below in pairwise(boxes))
+    bars = [bar.get_y() + 0.5 * bar.get_height() for bar in figure.axes[0].patches]
+    assert bars == pytest.approx(list(figure.axes[0].get_yticks()))
 
 
 def test_a_strain_that_only_grows_is_the_axis_and_time_otherwise():

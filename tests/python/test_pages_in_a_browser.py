@@ -1,6 +1,7 @@
-"""Every page that the program writes, on a desk and on a telephone: nothing is cut, a pointer shows values."""
+"""Every page that the program writes, light and dark, on a desk, a telephone and paper: nothing cut, nothing faint."""
 
 import re
+from functools import cache
 
 import pytest
 
@@ -10,6 +11,7 @@ from campaigns.typical_results import NAMES, result
 from lab_files import bluehill, zwick
 from probation import init_campaign
 from probation.cli import main
+from probation.demo import demonstrate
 from probation.field import identify_field, open_maps
 from probation.field.example.make import make_example
 from probation.smoothing.answer import describe_excitation
@@ -18,8 +20,9 @@ DESK, TELEPHONE = 1280, 390
 PAPER = 718
 """Pixels of A4 between its margins."""
 
-RESULTS = [name for name in NAMES if name != "fit with a companion relation"]
+RESULTS = list(NAMES)
 OTHERS = ["files of a laboratory", "strain histories", "score of a sealed split", "maps of a field"]
+OTHERS += ["demonstration", "diagnosis of the demonstration", "the paper made again"]
 
 
 def written(name, folder):
@@ -40,9 +43,21 @@ def written(name, folder):
         field, truth = make_example(folder, size=8, times=60, processes=1)
         identify_field(field, folder / "maps.zarr", processes=1, threads=1)
         open_maps(folder / "maps.zarr").beside(truth).report(path)
+    elif name == "demonstration":
+        demonstration().report(path)
+    elif name == "diagnosis of the demonstration":  # by all effects of the catalogue
+        step = next(outcome for _, outcome in demonstration().outcomes if outcome.pages)
+        step.pages["diagnosis"].report(path)
+    elif name == "the paper made again":
+        assert main(["paper", "--draws", "2", "--report", str(path)]) == 0
     else:
         result(name).report(path)
     return path.read_text(encoding="utf-8")
+
+
+@cache
+def demonstration():
+    return demonstrate()
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +70,13 @@ def layout(pages, tmp_path_factory):
     if browser() is None:
         pytest.skip("no browser here: chromium was looked for")
     return layouts(pages, (DESK, TELEPHONE), tmp_path_factory.mktemp("browser"))
+
+
+@pytest.fixture(scope="module")
+def dark(pages, tmp_path_factory):
+    if browser() is None:
+        pytest.skip("no browser here: chromium was looked for")
+    return layouts(pages, (DESK, TELEPHONE), tmp_path_factory.mktemp("dark"), dark=True)
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +100,27 @@ def test_nothing_on_a_page_is_cut_or_sticks_out(name, width, layout, on_paper):
     assert found.overlapping == []
 
 
+@pytest.mark.parametrize("name", [*RESULTS, *OTHERS])
+def test_no_text_is_as_faint_as_what_lies_behind_it(name, layout, dark, on_paper):
+    screens = [each[name, width] for each in (layout, dark) for width in (DESK, TELEPHONE)]
+    assert [found.faint for found in (*screens, on_paper[name, PAPER])] == [[]] * 5
+
+
+def test_a_dark_page_is_dark_and_a_faint_text_is_found(tmp_path):
+    """Grey on the paper of either theme, and white in a square of the drawing."""
+    if browser() is None:
+        pytest.skip("no browser here: chromium was looked for")
+    page = result("fit").report(tmp_path / "fit.html").read_text(encoding="utf-8")
+    added = "<p style='color: #8d8d8d'>grey</p><svg width='9em' height='3em'>"
+    added += (
+        "<rect width='99%' height='99%' fill='#fff'/><text x='2em' y='2em' style='fill: #eee'>white</text></svg></body>"
+    )
+    pages = {"fit": page.replace("</body>", added)}
+    light, dark = (layouts(pages, (DESK,), tmp_path, dark=each) for each in (False, True))
+    assert [text.rpartition(": ")[2] for text in light["fit", DESK].faint] == ["grey", "white"]
+    assert [text.rpartition(": ")[2] for text in dark["fit", DESK].faint] == ["white"]
+
+
 @pytest.mark.parametrize("name", ["fit", "certificate", "diagnosis", "cross-check", "files of a laboratory"])
 def test_a_pointer_on_a_curve_shows_its_values_with_their_units(name, layout):
     """A value is a name, a number and, unless it is a pure number, its unit."""
@@ -91,6 +134,12 @@ def test_a_pointer_on_a_curve_shows_its_values_with_their_units(name, layout):
         assert 0.0 <= float(strain) <= 1.2
         assert float(stress) <= max(each.true_stress.max() for each in result("fit").records.values())
         assert record.true_stress.min() - 1.0 <= float(stress)
+
+
+def test_a_pointer_on_a_map_shows_the_value_of_its_pixel(layout):
+    told = layout["maps of a field", DESK].hovered
+    assert re.fullmatch(r"E_u τ_max \d+ MPa s\nx \S+ mm\ny \S+ mm", told[0])
+    assert any(re.match(r"standard error of E_u τ_max \S+ %\n", text) for text in told)
 
 
 @pytest.mark.parametrize("name", [*RESULTS, *OTHERS])

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 
@@ -211,6 +212,24 @@ def test_the_names_of_many_curves_stand_beside_the_curves():
     figure = stress_strain_with_residuals([curve] * 4)
     assert [axes.get_legend() for axes in figure.axes] == [None] * 5
     assert len(figure.legends) == 1
+
+
+@pytest.mark.parametrize("name", ["OUTRaw_MD_CSR_01_T40-{}", "film {0} of the second batch, cut across the roll, " * 3])
+def test_long_names_of_curves_do_not_reach_beyond_the_figure(name):
+    figure = stress_strain_with_residuals([replace(CURVE, name=name.format(at)) for at in range(3)])
+    figure.draw_without_rendering()
+    box = figure.legends[0].get_window_extent()
+    assert box.x0 >= 0.0
+    assert box.x1 <= figure.get_window_extent().width
+
+
+def test_a_band_of_predictions_much_wider_than_the_residual_is_told_not_drawn():
+    wide, near = (stress_strain_with_residuals([replace(CURVE, band95=0 * STRAIN + band)]) for band in (30.0, 0.2))
+    notes = [" ".join(text.get_text() for text in figure.axes[1].texts) for figure in (wide, near)]
+    assert "95 % prediction: ±30 MPa" in notes[0]
+    assert "dashed: 95 % prediction" in notes[1]
+    assert wide.axes[1].get_ylim()[1] < 0.5
+    assert [sum(line.get_linestyle() == "--" for line in figure.axes[1].lines) for figure in (wide, near)] == [0, 2]
 
 
 def test_a_long_curve_is_thinned_to_its_outline():

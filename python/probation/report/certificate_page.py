@@ -186,8 +186,8 @@ def _parameters(found: Certificate) -> Section:
             "Each record is identified alone, held-out ones too, after the predictions were made. A standard error "
             "holds the noise, the wave that the law leaves behind (taken as a sample of a bias that may also hide "
             "behind the parameters), and the uncertainty of the E_u that is held. p is the chance of values that "
-            "differ at least so much if the parameter were the same; a parameter fails below 1 %, shared between the "
-            "parameters (Holm).",
+            "differ at least so much if the parameter were the same; a parameter fails below "
+            f"{CERTIFICATE.significance:.0%}, shared between the parameters (Holm).",
             picture(
                 parameter_figure(found),
                 "Each parameter over the records, with 95 % intervals; line: their common value, where they have one.",

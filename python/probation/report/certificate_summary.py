@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.report.table import Table
+from probation.settings.certificate import CERTIFICATE
 from probation.wording import plus_minus
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ def certificate_summary(found: Certificate) -> str:
         f"{SYMBOLS[name]} {getattr(base.law, name):.5g} {UNITS[name]}".rstrip() for name in base.law.parameter_names
     )
     ending = f"  identified on {', '.join(base.records)}: {values}; scheme {base.scheme}"
-    parts.append("\n".join([ending, *(f"  warning: {warning}" for warning in found.warnings)]))
+    level = f"  a parameter fails where p is below {CERTIFICATE.significance:.0%}, shared between the parameters (Holm)"
+    parts.append("\n".join([ending, level, *(f"  warning: {warning}" for warning in found.warnings)]))
     return "\n\n".join(parts)
 
 

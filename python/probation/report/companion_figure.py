@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.errors import InputError
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import house_style, legend_outside, new_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def companion_figure(found: Calibration) -> Figure:
         if found.table is TABLE_2:
             printed = (("(11) as printed", 3), ("(12) as printed", 4))
             handles += [Line2D([], [], color=series_colour(at), lw=0.9, label=name) for name, at in printed]
-        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 3))
+        legend_outside(figure, handles, [str(each.get_label()) for each in handles], columns=3)
         left.set_title("dashed: beyond the calibrated rates")
         right.set_title(f"band: 95 % of {found.chosen}" if companion.covariance is not None else "")
     return figure

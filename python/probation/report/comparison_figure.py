@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.report.diagnosis_words import short_ids
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, thinned
 from probation.report.style import colour
 
 if TYPE_CHECKING:
@@ -53,4 +53,4 @@ def _name_curves(figure: Figure) -> None:
     """One legend for all panels."""
     named = (axes.get_legend_handles_labels() for axes in figure.axes)
     handles = {label: handle for each in named for handle, label in zip(*each, strict=True)}
-    figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=3)
+    legend_outside(figure, list(handles.values()), list(handles), columns=3)

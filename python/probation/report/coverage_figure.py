@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.identify.coverage import NOMINAL, TRUTH
 from probation.inference.parameter import SYMBOLS
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import house_style, legend_outside, new_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -38,5 +38,5 @@ def coverage_figure(coverage: Coverage) -> Figure:
             axes.set(title=SYMBOLS[name], xlabel="coverage [%]", xlim=(0.0, 103.0))
         panels[0].set_yticks(np.arange(len(cases)), cases)
         panels[0].invert_yaxis()
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(methods))
+        legend_outside(figure, *panels[0].get_legend_handles_labels(), columns=len(methods))
     return figure

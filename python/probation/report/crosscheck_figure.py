@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.figures import house_style, new_figure, number_logarithmic
+from probation.report.figures import house_style, legend_outside, new_figure, number_logarithmic
 from probation.report.style import SERIES, colour
 from probation.schemes.result import PAPERS_START
 
@@ -50,8 +50,7 @@ def steps_figure(studies: Sequence[StepStudy]) -> Figure:
             right.set(xlabel="time of one solve [µs]")
             for axis in (left.xaxis, right.xaxis):
                 number_logarithmic(axis)
-        handles, labels = rows[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4)
+        legend_outside(figure, *rows[0][0].get_legend_handles_labels())
     return figure
 
 

@@ -10,7 +10,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from probation.report.diagnosis_tables import WORTH_A_ROW
 from probation.report.diagnosis_words import closed, explanation_name, short_ids
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, thinned
 from probation.report.style import colour
 from probation.wording import chance, percent
 
@@ -97,28 +97,36 @@ def probability_figure(found: Diagnosis) -> Figure:
     """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
     shown = _shown(found)
     others = len(found.explanations) - len(shown)
-    rows = len(shown) + (others > 0)
+    names = [fill(explanation_name(each, found), _LINE) for each in shown]
+    if others:
+        names.append(f"{others} other{'s' if others > 1 else ''}")
+    places, rows = _rows(names)
     with house_style():
         figure = new_figure(5.3, 0.8 + 0.36 * rows)
         axes = figure.subplots()
-        for at, each in enumerate(shown):
+        for at, each in zip(places, shown, strict=False):
             inside = each.effects in found.answer_set
             size = 100.0 * each.probability
             axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
             axes.text(size + 1.0, at, f"{chance(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5)
-        names = [fill(explanation_name(each, found), _LINE) for each in shown]
         if others:
             rest = max(1.0 - sum(each.probability for each in shown), 0.0)
-            axes.barh(len(shown), 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
-            axes.text(100.0 * rest + 1.0, len(shown), percent(rest), va="center", fontsize=8.5)
-            names.append(f"{others} other{'s' if others > 1 else ''}")
-        axes.set_yticks(range(rows), names)
+            axes.barh(places[-1], 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
+            axes.text(100.0 * rest + 1.0, places[-1], percent(rest), va="center", fontsize=8.5)
+        axes.set_yticks(places, names)
         axes.set(xlim=(0.0, 112.0), ylim=(rows - 0.4, -0.6), xlabel="probability [%]")
         axes.set_xticks(range(0, 101, 20))
         axes.set_ylabel("explanation")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
     return figure
+
+
+def _rows(names: list[str]) -> tuple[list[float], float]:
+    """The middle of each row from the first, and their sum: a row has room for two lines, and grows with more."""
+    heights = [max(1.0, 0.16 + 0.42 * len(name.splitlines())) for name in names]
+    middles = [sum(heights[:at]) + 0.5 * height - 0.5 for at, height in enumerate(heights)]
+    return middles, sum(heights)
 
 
 def _shown(found: Diagnosis) -> list[Explanation]:
@@ -164,7 +172,7 @@ def closure_figure(found: Diagnosis) -> Figure:
         axes.set_title("gap closed", loc="right", fontsize=8.5, fontweight="normal")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
-        figure.legend(loc="outside lower center", ncols=3, handletextpad=0.2)
+        legend_outside(figure, *axes.get_legend_handles_labels(), columns=3)
     return figure
 
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.result import CauseParameter, Checks, Diagnosis, Explanation
+    from probation.effects.effect import EffectParameter
 
 NOTHING = "no effect is needed"
 OUTSIDE = "an effect outside the catalogue"
@@ -111,7 +112,8 @@ def parameter_text(each: CauseParameter) -> str:
         notes.append(f"at its {each.bound} bound")
     elif each.se is None:
         notes.append("not determined")
-    return " ".join([_words(each), value, each.unit, *(f"({note})" for note in notes)]).replace("  ", " ").rstrip()
+    words = [parameter_words(each), value, each.unit, *(f"({note})" for note in notes)]
+    return " ".join(words).replace("  ", " ").rstrip()
 
 
 def parameter_lines(each: Explanation, found: Diagnosis) -> list[str]:
@@ -127,7 +129,8 @@ def parameter_lines(each: Explanation, found: Diagnosis) -> list[str]:
     return lines
 
 
-def _words(each: CauseParameter) -> str:
+def parameter_words(each: CauseParameter | EffectParameter) -> str:
+    """The name of a parameter without its unit: "heating" for `heating_degC_per_MPa`."""
     suffix = _suffix(each.unit)
     return (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
 
@@ -158,7 +161,7 @@ def checks_text(each: Explanation) -> list[str]:
 
 def _without_names(note: str, each: Explanation) -> str:
     for parameter in sorted(each.parameters, key=lambda parameter: -len(parameter.name)):
-        note = note.replace(parameter.name, _words(parameter))
+        note = note.replace(parameter.name, parameter_words(parameter))
     return note
 
 

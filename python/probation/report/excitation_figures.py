@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.ticker import LogFormatter
 
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -190,8 +190,7 @@ def comparison_figure(comparison: Comparison) -> Figure:
             panel.set_axis_off()
         figure.supxlabel("strain noise [–]", fontsize=9)
         figure.supylabel("p95 of the relative error of the rate [%]", fontsize=9)
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+        legend_outside(figure, *panels[0].get_legend_handles_labels(), columns=3)
     return figure
 
 
@@ -270,7 +269,7 @@ def _jumps(axes: Axes, answer: RecordExcitation) -> None:
 
 
 def _note(axes: Axes, text: str) -> None:
-    axes.text(0.988, 0.95, text, transform=axes.transAxes, ha="right", va="top", fontsize=8, color=colour("muted"))
+    axes.text(0.988, 0.95, text, transform=axes.transAxes, ha="right", va="top", fontsize=8)
 
 
 def _around(scattered: FloatArray, curves: tuple[FloatArray, ...]) -> tuple[float, float]:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.legend import Legend
@@ -36,9 +37,10 @@ from probation.progress import in_notebook
 from probation.report.style import COLOURS, MATPLOTLIB
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from os import PathLike
 
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.backend_bases import RendererBase
@@ -53,7 +55,10 @@ NARROW = 4.3
 
 _TITLES: tuple[Literal["left", "center", "right"], ...] = ("left", "center", "right")
 _LINE = 48  # letters of a title across a narrow figure
+_MARKED = 6  # letters' width that the line and the gaps of an entry of a legend take
+_LEGEND_LINE = 0.17  # inch
 
+_MOST_PIXELS = 40_000  # of a map that a page tells the values of
 _DRAWN = 2000  # more points than that cannot be distinguished in a figure
 
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
@@ -76,8 +81,8 @@ def new_figure(width: float = 7.2, height: float = 4.2) -> SafeFigure:
 class SafeFigure(Figure):
     """A figure in which text is data: nothing in it is taken for mathematics, and what does not print is escaped."""
 
-    narrows = True
-    """Whether a telephone may get it narrower, its panels one below the other."""
+    on_a_telephone: Figure | None = None
+    """What a telephone gets instead, where this one made narrower, its panels one below the other, is of no use."""
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw, in a window as into a file."""
@@ -186,18 +191,18 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     )
 
 
-def narrow(figure: Figure) -> bool:
-    """Make a figure that is wider than `NARROW` as narrow as that, panels side by side one below the other.
-
-    A figure that is narrow already, or that says that it cannot be (`SafeFigure.narrows`), is left as it is.
+def narrow(figure: Figure) -> Figure | None:
+    """What a telephone gets of a figure: itself made as narrow as `NARROW`, panels side by side one below the other.
 
     Returns
     -------
-    bool
-        Whether the figure was changed.
+    Figure or None
+        The same figure, changed; or what it names for a telephone; None where it is narrow already.
     """
-    if figure.get_figwidth() <= NARROW or not getattr(figure, "narrows", True):
-        return False
+    if (other := getattr(figure, "on_a_telephone", None)) is not None:
+        return cast("Figure", other)
+    if figure.get_figwidth() <= NARROW:
+        return None
     width, height = figure.get_size_inches()
     panels = [(axes, spec) for axes in figure.axes if (spec := axes.get_subplotspec()) is not None]
     rows = max((spec.get_gridspec().nrows for _, spec in panels), default=1)
@@ -212,9 +217,10 @@ def narrow(figure: Figure) -> bool:
     elif not any(_bears_names(axes.yaxis) for axes in figure.axes):
         height *= max(NARROW / width, 0.75)  # rows with names keep their height
     for axes in figure.axes:
-        for title in axes.findobj(Text, include_self=False):
-            if isinstance(title, Text) and title.get_text() in {axes.get_title(loc) for loc in _TITLES}:
-                title.set_text(fill(title.get_text(), _LINE))
+        titles = {axes.get_title(loc) for loc in _TITLES}
+        for text in axes.findobj(Text, include_self=False):
+            if isinstance(text, Text) and (text in axes.texts or text.get_text() in titles):
+                text.set_text(fill(text.get_text(), _LINE))
         for axis in (axes.xaxis, axes.yaxis):
             if axis.get_scale() == "log":
                 number_logarithmic(axis)
@@ -223,15 +229,51 @@ def narrow(figure: Figure) -> bool:
             [each for each in legend.legend_handles if each is not None],
             [text.get_text() for text in legend.get_texts()],
         )
-        columns = max(1, _LINE // (max(map(len, labels), default=0) + 6))
         place = next(name for name, code in Legend.codes.items() if code == getattr(legend, "_loc", None))
         legend.remove()
         with house_style():
-            figure.legend(handles, labels, loc=cast("Any", f"outside {place}"), ncols=columns)
-        height += 0.17 * (len(labels) / columns - 1.0)
+            height += _LEGEND_LINE * (legend_outside(figure, handles, labels, place, width=NARROW) - 1)
     figure.set_size_inches(NARROW, height)
     _break_labels(figure)
-    return True
+    return figure
+
+
+def legend_outside(
+    figure: Figure,
+    handles: Sequence[Artist],
+    labels: Sequence[str],
+    place: str = "lower center",
+    *,
+    columns: int = 4,
+    width: float | None = None,
+) -> int:
+    """Name the curves of all panels beside them, in as many columns as the figure is wide enough for.
+
+    Parameters
+    ----------
+    figure : Figure
+    handles : sequence of Artist
+    labels : sequence of str
+        A label that is wider than the figure is broken.
+    place : {"lower center", "upper left"}
+    columns : int
+        At most so many.
+    width : float, optional [inch]
+        Of the figure; by default as wide as it is.
+
+    Returns
+    -------
+    int
+        Lines of text, one below the other.
+    """
+    letters = int(_LINE * (figure.get_figwidth() if width is None else width) / NARROW)
+    broken = [fill(label, letters - _MARKED) for label in labels]
+    widest = max((len(line) for label in broken for line in label.splitlines()), default=0)
+    most = max(1, min(columns, letters // (widest + _MARKED)))
+    tall = max(1, -(-len(broken) // most))  # a column is filled before the next
+    stacks = [broken[at : at + tall] for at in range(0, len(broken), tall)]
+    figure.legend(handles, broken, loc=cast("Any", f"outside {place}"), ncols=max(1, len(stacks)))
+    return max((sum(1 + each.count("\n") for each in stack) for stack in stacks), default=1)
 
 
 def number_logarithmic(axis: Axis) -> None:
@@ -275,9 +317,31 @@ def _axes(figure: Figure) -> str:
                     "" if (label := str(line.get_label())).startswith("_") else printable(label)
                     for line in _curves(axes)
                 ],
+                **_map(axes),
             }
         )
     return escape(json.dumps(known, ensure_ascii=False, separators=(",", ":")))
+
+
+def _map(axes: Axes) -> dict[str, object]:
+    """The pixels of a map with a title, and their borders; nothing where there is no map, or a very large one."""
+    title = next((text for loc in _TITLES if (text := axes.get_title(loc))), "")
+    mesh = next((each for each in axes.collections if isinstance(each, QuadMesh) and title), None)
+    drawn = None if mesh is None else mesh.get_array()
+    if mesh is None or drawn is None or drawn.ndim != 2 or drawn.size > _MOST_PIXELS:
+        return {}
+    corners = np.asarray(mesh.get_coordinates())
+    pixels = np.ma.filled(np.ma.asarray(drawn, dtype=np.float64), np.nan)
+    unit = mesh.colorbar.ax.get_ylabel().strip("[]") if mesh.colorbar else "-"
+    borders = {"x": corners[0, :, 0], "y": corners[:, 0, 1]}
+    return {
+        "map": {
+            "label": printable(title),
+            "unit": "" if unit == "-" else f" {unit}",
+            "values": [[float(f"{value:.3g}") if np.isfinite(value) else None for value in row] for row in pixels],
+            **{name: [float(f"{border:.7g}") for border in each] for name, each in borders.items()},
+        }
+    }
 
 
 def _scale(axis: Axis, first: float, last: float, label: str) -> dict[str, object] | None:

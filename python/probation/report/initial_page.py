@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.records.said_once import of_all
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import house_style, legend_outside, new_figure
 from probation.report.initial_summary import record_table
 from probation.report.page import Page, Section, picture
 from probation.report.style import colour
@@ -36,7 +36,7 @@ def initial_figure(made: InitialCampaign) -> Figure:
             over_strain.plot(record.true_strain, record.true_stress, lw=1.0, label=record.id)
             over_time.plot(record.time - record.time[0], record.true_strain, lw=1.0)
         _label(over_strain, over_time)
-        figure.legend(*over_strain.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        legend_outside(figure, *over_strain.get_legend_handles_labels())
     return figure
 
 

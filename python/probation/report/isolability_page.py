@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 HOW_TO_READ_THE_MAP = (
     "Suppose that the effect of a row is really there, at its usual size: an orange cell says that these tests might "
-    "take it for the effect of that column, and its number is the chance [%] that the right one of the two is named. "
-    "No colour means discriminated; a grey row means that these tests would not see the effect at all."
+    "take it for the effect of that column, and its number, where there is room for one, is the chance [%] that the "
+    "right one of the two is named. No colour means discriminated; a grey row means that these tests would not see "
+    "the effect at all."
 )
 
 

@@ -44,6 +44,13 @@
     return best;
   };
 
+  // The value of the pixel of a map, and its unit from the bar beside the map.
+  const pixel = (map, x, y) => {
+    const within = (borders, at) => borders.findIndex((border, of) => of && (at - borders[of - 1]) * (at - border) <= 0) - 1;
+    const told = map.values[within(map.y, y)]?.[within(map.x, x)];
+    return `${map.label} ${told === undefined || told === null ? "\u2013" : String(told).replace("-", "\u2212") + map.unit}`;
+  };
+
   const show = (event) => {
     const svg = event.currentTarget;
     const matrix = svg.getScreenCTM();
@@ -62,6 +69,7 @@
       }
     });
     const values = [["x", place.x], ["y", place.y]].filter(([axis]) => all[at][axis]);
+    if (all[at].map) name = pixel(all[at].map, value(all[at].x, x), value(all[at].y, y));
     tip.textContent = [name, ...values.map(([axis, where]) => told(all[at][axis], where))].filter(Boolean).join("\n");
     const box = tip.getBoundingClientRect();
     tip.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - box.width - 4))}px`;

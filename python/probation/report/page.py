@@ -117,7 +117,8 @@ def picture(figure: Figure, caption: str) -> Picture:
     The figure is made narrow for the second drawing: it is of no other use afterwards.
     """
     wide, width = figure_to_svg(figure, caption), figure.get_figwidth()
-    return Picture(wide, caption, width, figure_to_svg(figure, f"{caption} (narrow)") if narrow(figure) else "")
+    other = narrow(figure)
+    return Picture(wide, caption, width, "" if other is None else figure_to_svg(other, f"{caption} (narrow)"))
 
 
 _FOLDED = 12

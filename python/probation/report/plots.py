@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.figures import house_style, new_figure, number_logarithmic, thinned
+from probation.report.diagnosis_words import short_ids
+from probation.report.figures import house_style, legend_outside, new_figure, number_logarithmic, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 
 _DOTS = 400  # measured points that are drawn
+_TOO_WIDE = 4.0  # times the residual: a band that hides it
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +38,8 @@ class Curve:
     noise_MPa : float or None
         Standard deviation, drawn as a band of two either way around zero.
     band95 : ndarray, shape (n_times,) [MPa], or None
-        Half the width of the 95 % band of measured samples, drawn as dashed lines around zero.
+        Half the width of the 95 % band of measured samples, drawn as dashed lines around zero; where it would make
+        the residual a flat line, its largest value is written instead.
     """
 
     name: str
@@ -52,6 +55,7 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
 
     The paper's Figure 2. Each lower axis says how many times it is magnified.
     """
+    names = short_ids([curve.name for curve in curves], 44)
     with house_style():
         count = len(curves)
         figure = new_figure(7.2, 3.9 + 1.3 * count)
@@ -63,15 +67,15 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
             above.plot(
                 *measured, ".", ms=5, color=dots, alpha=1.0 if count == 1 else 0.35, mew=0, zorder=1.5, label=label
             )
-            name = curve.name if count > 1 else "model"
+            name = names[curve.name] if count > 1 else "model"
             above.plot(*thinned(curve.true_strain, curve.model), color=series_colour(at), lw=1.1, label=name)
             _residual(below[at], curve, series_colour(at))
         above.set(ylabel="true stress [MPa]", title=title)
         below[-1].set_xlabel("true strain [–]")
-        figure.legend(*above.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        legend_outside(figure, *above.get_legend_handles_labels())
         figure.canvas.draw()
         for at, axes in enumerate(below):
-            prefix = f"{curves[at].name}, " if count > 1 else ""
+            prefix = f"{names[curves[at].name]}, " if count > 1 else ""
             times = float(f"{_magnification(above, axes):.2g}")
             magnified = f", magnified {times:g} times" if times > 1.2 else ""  # at about one it says nothing
             _note(axes, f"{prefix}model − measured{magnified}")
@@ -79,14 +83,22 @@ def stress_strain_with_residuals(curves: Sequence[Curve], title: str = "") -> Fi
 
 
 def _residual(axes: Axes, curve: Curve, shade: str) -> None:
-    axes.plot(*thinned(curve.true_strain, curve.model - curve.measured), color=shade, lw=0.8)
-    if curve.noise_MPa:
-        axes.axhspan(-2 * curve.noise_MPa, 2 * curve.noise_MPa, color=colour("data"), alpha=0.18, lw=0)
-        dashed = "" if curve.band95 is None else "; dashed: 95 % prediction"
-        _note(axes, f"band: ±2 noise, {2 * curve.noise_MPa:.2g} MPa{dashed}", above=False)
+    residual, noise = curve.model - curve.measured, 2.0 * (curve.noise_MPa or 0.0)
+    axes.plot(*thinned(curve.true_strain, residual), color=shade, lw=0.8)
+    notes = []
+    if noise:
+        axes.axhspan(-noise, noise, color=colour("data"), alpha=0.18, lw=0)
+        notes.append(f"band: ±2 noise, {noise:.2g} MPa")
     if curve.band95 is not None:
-        for side in (-1.0, 1.0):
-            axes.plot(*thinned(curve.true_strain, side * curve.band95), "--", color=colour("muted"), lw=0.8)
+        widest = float(curve.band95.max())
+        if widest > _TOO_WIDE * max(float(np.abs(residual).max()), noise):
+            notes.append(f"95 % prediction: ±{widest:.2g} MPa")
+        else:
+            notes.append("dashed: 95 % prediction")
+            for side in (-1.0, 1.0):
+                axes.plot(*thinned(curve.true_strain, side * curve.band95), "--", color=colour("muted"), lw=0.8)
+    if notes:
+        _note(axes, "; ".join(notes), above=False)
     axes.axhline(0.0, color=colour("muted"), lw=0.8)
     axes.margins(y=0.3)
     axes.set_ylabel("residual [MPa]")
@@ -137,7 +149,7 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
         elif lowest > 0.0:  # constant but for its noise: zero shows how little that is
             axes.set_ylim(0.0, 1.25 * highest)
         axes.set(xlabel="true strain [–]", ylabel="true strain rate [1/s]")
-        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        legend_outside(figure, *axes.get_legend_handles_labels())
     return figure
 
 
@@ -163,7 +175,7 @@ def simulation_plot(simulation: Simulation) -> Figure:
 
 def _note(axes: Axes, text: str, *, above: bool = True) -> None:
     y, side = (0.96, "top") if above else (0.04, "bottom")
-    axes.text(0.012, y, text, transform=axes.transAxes, ha="left", va=side, fontsize=8, color=colour("muted"))
+    axes.text(0.012, y, text, transform=axes.transAxes, ha="left", va=side, fontsize=8)
 
 
 def _magnification(above: Axes, below: Axes) -> float:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, thinned
 from probation.report.style import colour, series_colour
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation_studies.paper.grip_tests import PUBLISHED, fit_residual, identified, twin
@@ -90,8 +90,7 @@ def _figure(
         _draw(right, strain, *biased)
         left.set(title=f"synthetic record of experiment {experiment}", ylabel="true stress; residual × 5 [MPa]")
         right.set(title="with a wavy bias of the paper's size")
-        handles, labels = left.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4)
+        legend_outside(figure, *left.get_legend_handles_labels())
     return figure
 
 

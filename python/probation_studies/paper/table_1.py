@@ -39,6 +39,7 @@ LIMITS = dict.fromkeys(RAMP_LAW.parameter_names, (0.0, np.inf))
 
 NAMES = RAMP_LAW.parameter_names
 SYMBOLS = ("E_u", "τ_max", "G")
+_DIGITS = (2, 2, 3)  # after the point, of their biases in percent
 
 PAPER = {
     "1": (3112.0, 5.394, 2.552),
@@ -179,16 +180,22 @@ class Table1:
         return next(row for row in self.rows if (row.condition, row.option) == (condition, option))
 
     def table(self) -> Table:
-        """Bias ± scatter of each option against the truth; its mean against identification 2, and the paper's."""
+        """Bias ± scatter of each option against the truth; its mean E_u against identification 2, and the paper's."""
         rows = []
         for row in self.rows:
-            own = [f"{bias:+.3g} ± {scatter:.2g}" for bias, scatter in zip(row.bias, row.scatter, strict=True)]
-            against, printed = (
-                " / ".join(f"{value:+.2f}" for value in values)
-                for values in (self.against_reference(row), paper_difference(row.key))
-            )
+            own = [
+                f"{bias:+.{digits}f} ± {scatter:.{digits}f}"
+                for bias, scatter, digits in zip(row.bias, row.scatter, _DIGITS, strict=True)
+            ]
+            against, printed = (f"{each[0]:+.2f}" for each in (self.against_reference(row), paper_difference(row.key)))
             rows.append((row.condition, row.option, *own, against, printed))
-        headings = ("twin", "identification", *(f"{symbol} [%]" for symbol in SYMBOLS), "against 2 [%]", "paper [%]")
+        headings = (
+            "twin",
+            "identification",
+            *(f"{symbol} [%]" for symbol in SYMBOLS),
+            "E_u against 2 [%]",
+            "the paper's [%]",
+        )
         return Table(headings, tuple(rows), left=2)
 
     def against_reference(self, row: Row) -> FloatArray:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-_SHADES = (0.15, 0.6)
+_SHADES = (0.15, 0.5)
 """Of a cell with one campaign of a row, and with all of them: numbers stand in it, on a dark page too."""
 
 _AIMS = {"5": 0.90, "8": 0.99}
@@ -74,7 +74,7 @@ def reliability_figure(board: Mapping[str, object]) -> Figure:
         reach = np.abs(ends.T - value)
         axes.errorbar(said, value, yerr=reach, fmt="o", ms=4, lw=1.2, color=series_colour(0))
         for x, y, each in zip(said, value, right, strict=True):
-            axes.annotate(str(each["n"]), (x, y), xytext=(8, -3), textcoords="offset points", color=colour("muted"))
+            axes.annotate(str(each["n"]), (x, y), xytext=(8, -3), textcoords="offset points")
         axes.set(xlabel="probability given to the best explanation [-]", ylabel="part that is right [-]")
         axes.set(xlim=(0.0, 1.06), ylim=(-0.03, 1.05))
     return figure
