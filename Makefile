@@ -44,8 +44,9 @@ test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and 
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
 	    --cov=probation --cov=probation_studies --cov-report=term:skip-covered --cov-fail-under=90
 
-docs: $(VENV)/.engine $(VENV)/.docs  ## build the site into build/docs/html; runs every tutorial, fails at a warning
+docs: $(VENV)/.engine $(VENV)/.docs  ## build the site into build/docs/html, open it in a browser; fails at a warning
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going --quiet -b html docs build/docs/html
+	@PYTHONPATH="$(CURDIR)/tests" $(BIN)/python -m site_pages build/docs/html
 	@echo "docs: build/docs/html/index.html"
 
 pictures: $(VENV)/.engine  ## draw the README's pictures anew, into docs/pictures

@@ -32,6 +32,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "mathml",
     "outside",
+    "stacked",
     "generated",
     "explained",
 ]
@@ -61,6 +62,7 @@ html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 html_copy_source = False
+html_sidebars = {"comparison": [], "index": [], "recipes": []}  # no page stands below them
 html_show_sourcelink = False
 html_theme_options = {
     "navbar_end": ["theme-switcher"],

@@ -25,10 +25,15 @@ from probation.exporting.formats import FORMATS
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.published.experiments import GRIP_LAWS, twin_campaign
+from probation.report.diagnosis_words import parameter_words
 from probation.report.style import COLOURS, MATPLOTLIB
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from sphinx.application import Sphinx
+
+_SEEN = 1e-3  # MPa: less is not drawn as a change
 
 GROUPS = {
     "Files and records": ("Campaign", "Record", "Specimens", "Noise", "preview", "read_history"),
@@ -146,6 +151,7 @@ def effects_page() -> str:
         "What `probation diagnose` considers, made from the registry when this page was built. Each figure shows",
         "experiment 2 (grips at 0.02 mm/s) and experiment 3 (0.08 mm/s) of the synthetic data: the law as it is",
         "(thin) and with the effect at the usual size that is written above it (thick), and below the difference.",
+        "Where neither would change, the records are a test that is unloaded, or the two at two temperatures.",
         "How an effect is chosen: [how a diagnosis is reached](../diagnosis-method.md). How to add one:",
         "[developing](../developing.md#adding-files).\n",
         "| effect | kind | what happens |", "|---|---|---|",
@@ -190,31 +196,50 @@ def _row(parameter: EffectParameter) -> str:
     return f"| `{parameter.name}` | {parameter.unit or '–'} | {bounds} | {prior} | {parameter.reason} |"
 
 
+def _drawn_on(law: probation.Law) -> "Iterator[tuple[tuple[str, str], probation.Campaign]]":
+    """Pairs of records with their names: the two driven by grips; loaded and unloaded; the two at two temperatures."""
+    grips = twin_campaign((2, 3), noise=0.0)
+    yield ("0.02 mm/s", "0.08 mm/s"), grips
+    records = []
+    for rate in (0.0005, 0.005):
+        history = probation.named_history("load-unload", rate=rate, strain=0.5, unload_rate=rate, unload_to=0.3)
+        stress = np.maximum(law.stress(history, scheme="sa3"), 0.0)  # measured on a strip, which does not push
+        records.append(probation.Record(f"{rate:g} 1/s", history.time, history.true_strain, stress))
+    yield (records[0].id, records[1].id), replace(grips, records=tuple(records))
+    warm = [
+        replace(each, temperature=np.full(len(each.time), degrees))
+        for each, degrees in zip(grips.records, (23.0, 28.0), strict=True)
+    ]
+    yield ("0.02 mm/s, 23 °C", "0.08 mm/s, 28 °C"), replace(grips, records=tuple(warm))
+
+
 def draw_effect(effect: Effect, path: Path) -> None:
-    """Both grip-driven records with and without the effect, at the size that its prior calls usual."""
+    """Two records with and without the effect, at the size that its prior calls usual."""
     form = effect.forms[0]
-    campaign = twin_campaign((2, 3), noise=0.0)
     law = GRIP_LAWS[3].with_parameters(np.array([3220.0, 1.0, 1.8]))
-    views = views_of(campaign, scheme="sa3")
-    model = CampaignModel(DnlrLaw(law), views)
-    without = model.predict(model.start)
-    values = form.typical
-    if form.starts is not None:  # instants, frequencies: from the records
-        starts = form.shapes_at([replace(view, data=without[view.id]) for view in views])
-        start = starts[len(starts) // 2]
-        values = start if form.threshold else (values[0], *start)
-    changed = model.with_causes([Cause(effect, form)])
-    stresses = changed.predict(changed.parameters(law.parameters, values))
+    for names, campaign in _drawn_on(law):
+        labels, views = names, views_of(campaign, scheme="sa3")
+        model = CampaignModel(DnlrLaw(law), views)
+        without = model.predict(model.start)
+        values = form.typical
+        if form.starts is not None:  # instants, frequencies: from the records
+            starts = form.shapes_at([replace(view, data=without[view.id]) for view in views])
+            start = starts[len(starts) // 2]
+            values = start if form.threshold else (values[0], *start)
+        changed = model.with_causes([Cause(effect, form)])
+        stresses = changed.predict(changed.parameters(law.parameters, values))
+        if max(float(np.abs(stresses[view.id] - without[view.id]).max()) for view in views) > _SEEN:
+            break
     with plt.rc_context(MATPLOTLIB):
         figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 4.2), sharex=True, height_ratios=(2, 1))
-        for view, colour, label in zip(views, ("model", "second"), ("0.02 mm/s", "0.08 mm/s"), strict=True):
+        for view, colour, label in zip(views, ("model", "second"), labels, strict=True):
             strain = view.recorded_strain[:: view.stride]
             shade = COLOURS[colour].light
             top.plot(strain, without[view.id], color=shade, lw=0.8, alpha=0.6)
             top.plot(strain, stresses[view.id], color=shade, lw=1.8, label=label)
             bottom.plot(strain, stresses[view.id] - without[view.id], color=shade)
         first = form.parameters[0]
-        top.set_title(f"{first.name} = {values[0]:.3g}".replace("_", " "))
+        top.set_title(f"{parameter_words(first)} {values[0]:.3g} {first.unit}".strip())
         top.set_ylabel("true stress [MPa]")
         top.legend()
         bottom.set(xlabel="true strain [–]", ylabel="change [MPa]")

@@ -60,7 +60,8 @@ def test_the_third_tutorial_finds_the_effect_that_it_put_in():
     names, _ = _run("tutorial_3_why_does_my_law_fail.py")
     diagnosis = names["diagnosis"]
     assert diagnosis.best.effects == ("self_heating",)
-    assert diagnosis.shrink.held_out.after_MPa < 0.05
+    assert diagnosis.shrink.held_out.after_MPa < 1.1 * names["load_cell"]
+    assert len(names["fewer"].answer_set) > 1
 
 
 def test_the_fourth_tutorial_exports_the_law_and_pulls_a_bar_that_necks():
@@ -188,3 +189,19 @@ def test_every_figure_of_the_explanation_is_drawn_and_shown(explained):
 def test_a_figure_of_the_explanation_has_labelled_axes(explained, name):
     figure = explained["FIGURES"][name]()
     assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
+
+
+def test_a_table_too_wide_for_a_telephone_bears_its_headings_in_its_cells(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS / "extensions"))
+    import stacked  # noqa: PLC0415
+
+    def table(*cells):
+        row = "".join(f"<td><p>{cell}</p></td>" for cell in cells)
+        head = "".join(f'<th class="head"><p>{name}</p></th>' for name in ("what &amp; why", "how"))
+        return f'<table class="table"><thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>'
+
+    assert stacked.stacked(table("a", "b")) == table("a", "b")
+    wide = stacked.stacked(table("a <code>long</code> cell of more than twenty letters", "and another as long as that"))
+    assert wide.startswith('<table class="stacks table"><thead><tr><th class="head"><p>what')
+    assert '<td data-label="what &amp; why"><div><p>a <code>long</code> cell' in wide
+    assert '<td data-label="how"></td>' in stacked._labelled("<td><p>a section</p></td><td></td>", ["what", "how"])
