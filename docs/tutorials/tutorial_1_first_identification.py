@@ -4,18 +4,22 @@ First identification
 
 *You have a file of a testing machine and want the parameters of the law, with standard errors.*
 
-You will read a file, look at what was understood, identify the law, and learn to read the
-answer. Everything here can be done from a terminal, too; each section names the command.
+The law has three parameters: the unrelaxed modulus E_u, the longest relaxation time τ_max and
+the hardening modulus G (:doc:`/law`). You will read a file, look at what was understood,
+identify the law, and learn to read the answer. A terminal will do for most of it: the commands
+stand beside.
 """
 
 # %%
 # A file as a laboratory has it
 # -----------------------------
 #
-# So that the tutorial needs no data, we write the file ourselves: time, crosshead displacement
-# and force of a tension test, with the noise of a load cell. It is a made-up record whose truth
-# we know: modulus 3220 MPa, relaxation time 5 s, hardening modulus 2.0 MPa. With a file of your
-# own, start at the next section.
+# So that the tutorial needs no data, we write the file ourselves: time, elongation of the gauge
+# length and force of a tension test at a constant rate of the true strain, with the noise of a
+# load cell. It is a made-up record whose truth we know: E_u 3220 MPa, τ_max 5 s, G 2.0 MPa.
+# With a file of your own, keep the imports and the lines of ``folder``, set
+# ``file = Path("yours.csv")`` and leave the rest of this block out; area and gauge length are
+# those of your specimen.
 
 import shlex
 import shutil
@@ -72,6 +76,10 @@ terminal(f"probation preview {file} --specimen area_mm2=40 --specimen gauge_leng
 # what it cannot know; with ``--yes`` it asks nothing. It also writes ``records.html``, with a
 # plot of every record: open it.
 
+# ``--control`` says how the test was driven: here at a constant true strain rate. A machine
+# whose crosshead moves at constant speed is ``displacement-rate``. Plots and warnings use it;
+# the strain itself always comes from the file.
+
 terminal(
     f"probation init {file} -o {folder}/hdpe --yes --control strain-rate "
     "--specimen area_mm2=40 --specimen gauge_length_mm=50"
@@ -79,16 +87,19 @@ terminal(
 print((folder / "hdpe" / "campaign.toml").read_text())
 
 # %%
-# One note comes with every record of force and displacement: *true stress made from force by
+# One warning comes with every record of force and displacement: *true stress made from force by
 # constant volume*. The section is taken to shrink as the specimen grows longer, everywhere
-# alike. That holds up to the largest force. Beyond it a specimen may neck: then the strain must
-# come from the neck itself, by an extensometer or a camera (:doc:`/lab-files`).
+# alike. A specimen that necks does not obey: it may neck from the largest force on, here at a
+# strain of 0.08. This made-up one does not. Of a real one the strain must then come from the
+# neck itself, by an extensometer or a camera, or the record must end there (:doc:`/lab-files`).
+# And where the crosshead alone tells the elongation, the frame's own is in it, and E_u comes
+# out too small.
 
 # %%
 # Identify
 # --------
 #
-# In a terminal: ``probation fit hdpe/ --report fit.html``. In Python:
+# In a terminal: ``probation fit tutorial-1/hdpe --report fit.html``. In Python:
 
 campaign = probation.Campaign.load(folder / "hdpe")
 fit = probation.fit(campaign)
@@ -109,11 +120,14 @@ print(fit.summary())
 #   steps from sample to sample that its error stays below the noise. **start exponential**:
 #   its first step is an exponential one (:doc:`/schemes`).
 # - The **condition number of the scaled Jacobian** says how far the parameters can replace each
-#   other: 1 where they cannot at all, and the larger, the more.
-# - **E_u·τ_max** is known better than either factor: the flow stress at small strain is their
-#   product. Quote it.
+#   other: 1 where they cannot at all; some tens are usual; thousands say that two do nearly the
+#   same.
+# - **E_u·τ_max** is known better than either factor: at a given rate the flow stress at small
+#   strain is in proportion to it. Quote it beside them.
+# - **They are of the specimens that were tested**: the errors hold for this specimen. How far
+#   another one differs, one specimen cannot tell; put several into one campaign.
 #
-# The truth lies within two standard errors, as it should in 95 of 100 such tests:
+# Each true value lies within two standard errors, as it should in 95 of 100 such tests:
 
 for name, true in (("unrelaxed_modulus", 3220.0), ("tau_max", 5.0), ("hardening_modulus", 2.0)):
     found = fit.parameters[name]
@@ -139,9 +153,9 @@ fit.plot()
 # What if the law is wrong?
 # -------------------------
 #
-# Take the same test on a material whose relaxation time changes with the strain rate, pulled at
-# a varying rate. The fit still returns three numbers. The first sentence and the residual say
-# that they are not to be trusted.
+# Take another test, in which the rate jumps tenfold, on a material whose relaxation time
+# changes with the strain rate. The fit still returns three numbers. The first sentence and the
+# residual say that they are not to be trusted.
 
 rated = probation.Law(
     unrelaxed_modulus=3220.0,
@@ -167,6 +181,7 @@ for name, found in misfit.parameters.items():
     print(f"{name:18} {found.value:9.4g} {error:12} {found.status}")
 # > the law leaves a bias of 16.1 MPa (36 % of the largest stress), 383 times the noise.
 # > unrelaxed_modulus      91.77 ± 2.9e+02    not_identifiable
+# > tau_max             1.75e+05 at its bound not_identifiable
 # > hardening_modulus          0 at its bound not_identifiable
 
 

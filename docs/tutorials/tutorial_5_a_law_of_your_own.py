@@ -129,7 +129,8 @@ for parameter in holds.base:
 #
 # The same law on the other material. Each strip is a record, from its start to its end:
 # blue where the law is too low, orange where it is too high, pale where only noise is left.
-# The thin strips are what remains with the best explanation.
+# The thin strips are what remains with the best explanation. A box marks where the law departs,
+# with its share of the squared gap.
 
 diagnosis = probation.diagnose(damaged, law=law)
 print(diagnosis.headline)

@@ -8,7 +8,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from lab_files import FILES, STRAIN, STRESS, TIME
+from lab_files import FILES, STRAIN, STRESS, TIME, bluehill
 from probation import Campaign, InputError, fit, init_campaign
 from probation.cli import main
 from probation.commands.init import _Asking
@@ -16,6 +16,7 @@ from probation.published.experiments import twin_campaign
 from probation.records.initial import init_campaign as init_campaign_module
 from probation.records.initial.control import guess_control
 from probation.records.initial.questions import Question
+from probation.records.said_once import of_all
 
 SPECIMEN = ["--specimen", "area_mm2=40", "--specimen", "gauge_length_mm=50"]
 
@@ -286,3 +287,17 @@ def test_a_name_that_no_campaign_can_hold_is_refused_before_anything_is_written(
 def test_a_dimension_beyond_all_specimens_is_refused(lab, value):
     with pytest.raises(InputError, match=r"specimen\.diameter_mm: found .* expected a positive number from"):
         Campaign.from_files([lab / next(iter(FILES))], specimen={"diameter_mm": value})
+
+
+def test_a_note_of_every_record_is_written_once(tmp_path):
+    """Engineering records without a transverse strain: the volume is assumed constant in both."""
+    files = [tmp_path / "one.csv", tmp_path / "other.csv"]
+    for file in files:
+        bluehill(file)
+    folder = tmp_path / "made"
+    assert main(["init", *map(str, files), "-o", str(folder), "--yes", *SPECIMEN]) == 0
+    shared = of_all(Campaign.load(folder).records)
+    text = (folder / "campaign.toml").read_text(encoding="utf-8")
+    assert shared
+    assert [text.count(f"# note, of every record: {warning}\n") for warning in shared] == [1] * len(shared)
+    assert not any(f"# note: {warning}" in text for warning in shared)

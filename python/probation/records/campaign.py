@@ -113,7 +113,7 @@ class Campaign(InOneLine):
         control : {"strain-rate", "displacement-rate", "hold", "cyclic", "other"}
             How the tests were driven.
         name : str, optional
-            The first file's name if left out.
+            The first file's name and how many more there are if left out.
         **how
             How each of the files is read, as in `preview`: ``profile``, ``columns``, ``units``, ``specimen``,
             ``specimen_index``, ``sheet``.
@@ -126,7 +126,9 @@ class Campaign(InOneLine):
         if not paths:
             raise InputError("found no files, expected at least one")
         records = [record for path in paths for record in read_records(path, control=control, **how)]
-        return cls(name=name or Path(paths[0]).name.split(".")[0], records=tuple(records))
+        if name is None:
+            name = Path(paths[0]).name.split(".")[0] + (f" and {len(paths) - 1} more" if len(paths) > 1 else "")
+        return cls(name=name, records=tuple(records))
 
     @classmethod
     def from_arrays(

@@ -6,6 +6,7 @@ from typing import Any
 
 from probation._text import printable
 from probation.records.record import Record
+from probation.records.said_once import of_all
 from probation.records.saving import lines_of
 
 
@@ -35,17 +36,19 @@ class Entry:
 
 def campaign_text(name: str, entries: Sequence[Entry]) -> str:
     """The campaign.toml of these records, with a constant tau_max."""
-    parts = [_HEAD, lines_of({"name": name}), _LAW, *map(_entry, entries)]
+    common = of_all([entry.record for entry in entries])
+    shared = "".join(f"# note, of every record: {printable(warning)}\n" for warning in common)
+    parts = [_HEAD, lines_of({"name": name}), _LAW + shared, *(_entry(entry, common) for entry in entries)]
     return "\n".join(parts)
 
 
-def _entry(entry: Entry) -> str:
+def _entry(entry: Entry, common: Sequence[str]) -> str:
     record = entry.record
     comments = [f"read: {entry.read}"]
     if entry.stated:
         stated = ", ".join(f"{key} = {value:.6g}" for key, value in sorted(entry.stated.items()))
         comments.append(f"stated in the file: {stated}")
-    comments += [f"note: {warning}" for warning in record.warnings]
+    comments += [f"note: {warning}" for warning in record.warnings if warning not in common]
     keys = {"id": record.id, "file": entry.file, "control": record.control, "role": record.role, **entry.keys}
     return "[[record]]\n" + "".join(f"# {printable(comment)}\n" for comment in comments) + lines_of(keys)
 
