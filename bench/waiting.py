@@ -1,7 +1,8 @@
-"""How long does a user wait? Processor time, user and system, of whole programs.
+"""How long does a user wait? Wall time of whole programs, and their processor time, user and system.
 
 `python -m bench.waiting [ROW …]`: all rows, or those that are named; each several times in a process of its own, the
-least is taken. A run of the bench leaves it out: it takes two minutes. `bench.from_source` measures the build.
+least is taken. Wall time means something only where nothing else runs. A run of the bench leaves it out: it takes two
+minutes. `bench.from_source` measures the build.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 
@@ -41,7 +43,7 @@ GOALS = {
     "strong gap": 10.0,
     "replicates": 30.0,
 }
-"""Seconds that were wanted on two idle cores; all cores count here."""
+"""Seconds of wall time that were wanted, on two idle cores."""
 
 DIAGNOSED = {
     "weak gap": {"force_drift": 1.0},
@@ -90,12 +92,12 @@ def campaign(sizes: dict[str, float]) -> Campaign:
     return replace(planned, records=tuple(records))
 
 
-def seconds(command: list[str]) -> float:
-    """Processor time of a program in a process of its own."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def seconds(command: list[str]) -> tuple[float, float]:
+    """Wall and processor time of a program in a process of its own."""
+    before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=os.environ | {"OMP_NUM_THREADS": "1"})
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
+    after, wall = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter() - begun
+    return wall, (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
 
 
 def commands(folder: Path) -> dict[str, list[str]]:
@@ -124,9 +126,10 @@ def main(wanted: list[str]) -> int:
             if wanted and row not in wanted:
                 continue
             repeats = 1 if GOALS[row] > REPEATS else REPEATS
-            least = min(seconds(command) for _ in range(repeats))
-            slow |= least > GOALS[row]
-            print(f"{row:12} {least:6.2f} s of processor time (wanted: {GOALS[row]:g} s on two idle cores)", flush=True)
+            wall, processor = min(seconds(command) for _ in range(repeats))
+            slow |= wall > GOALS[row]
+            wanted_here = f"wanted: {GOALS[row]:g} s on two idle cores"
+            print(f"{row:12} {wall:6.2f} s, of the processor {processor:6.2f} s ({wanted_here})", flush=True)
     return int(slow)
 
 

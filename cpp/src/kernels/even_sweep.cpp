@@ -1,3 +1,4 @@
+// Eq. (6) in the variables of schemes/step.hpp.
 // Even steps: the coefficients of every mode are formed once. Compiled once per instruction set.
 
 #include "convolution.hpp"

@@ -1,3 +1,4 @@
+// Eq. (6) in the variables of schemes/step.hpp.
 // Steps of any length: every step has its own coefficients. Compiled once per instruction set.
 
 #include "scale_table.hpp"
