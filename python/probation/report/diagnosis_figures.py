@@ -114,7 +114,7 @@ def probability_figure(found: Diagnosis) -> Figure:
             axes.barh(places[-1], 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
             axes.text(100.0 * rest + 1.0, places[-1], percent(rest), va="center", fontsize=8.5)
         axes.set_yticks(places, names)
-        axes.set(xlim=(0.0, 112.0), ylim=(rows - 0.4, -0.6), xlabel="probability [%]")
+        axes.set(xlim=(0.0, 128.0), ylim=(rows - 0.4, -0.6), xlabel="probability [%]")
         axes.set_xticks(range(0, 101, 20))
         axes.set_ylabel("explanation")
         axes.grid(axis="y", visible=False)
