@@ -11,7 +11,7 @@ from scipy.special import stdtrit
 
 import probation
 from probation import Campaign, Law, Noise, Record
-from probation.identify import strain_noise as strain_noise_module
+from probation.identify import errors_by_strain_noise as strain_noise_module
 from probation.identify import weighting as weighting_module
 from probation.identify.base import base_fit
 from probation.identify.bias import bias_of

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.diagnosis.variables import PHASES
 from probation.settings.remainder import REMAINDER
-from probation.wording import listed, percent
+from probation.wording import listed, percent, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -70,9 +70,9 @@ def _size(curve: RemainderCurve) -> str:
     """Where the function is largest, and how large: "the measured stress is up to 12 % below the law's"."""
     at = int(np.argmax(np.abs(curve.function_y)))
     value = float(curve.function_y[at])
-    unit = "%" if curve.unit == "%" else "MPa"
+    size = f"{percentage(0.01 * abs(value))} %" if curve.unit == "%" else f"{abs(value):.2g} MPa"
     side = "above" if value > 0.0 else "below"
-    return f"the measured stress is up to {abs(value):.2g} {unit} {side} the law's, at {_place(curve, at)}"
+    return f"the measured stress is up to {size} {side} the law's, at {_place(curve, at)}"
 
 
 def _place(curve: RemainderCurve, at: int) -> str:

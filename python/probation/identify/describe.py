@@ -11,9 +11,9 @@ from scipy.special import stdtrit
 from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance
 from probation.identify.ends import ends_of
+from probation.identify.errors_by_strain_noise import strain_noise_warnings
 from probation.identify.result import Fit, RecordFit
 from probation.identify.scheme_error import scheme_error
-from probation.identify.strain_noise import strain_noise_warnings
 from probation.identify.weighting import known_of
 from probation.inference.information import correlation, estimated
 from probation.inference.likelihood import log_likelihood, noise_parameters

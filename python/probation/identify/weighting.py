@@ -14,8 +14,8 @@ import numpy as np
 
 from probation.identify.bias import low_frequency
 from probation.identify.covariance import Covariance, covariance, noise_widening
+from probation.identify.errors_by_strain_noise import left_over, propagated_at_end, resampled, share_of_error
 from probation.identify.search import by_least_squares, first_guess
-from probation.identify.strain_noise import left_over, propagated_at_end, resampled, share_of_error
 from probation.inference.residual_noise import with_residual_noise
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.settings.certificate import CERTIFICATE

@@ -165,7 +165,7 @@ class CertificateSettings:
         ("Part of a parameter's error that comes from strain noise, over the rest of it, from which on it matters."),
         unit="-",
         origin="chosen",
-        used_in="identify/strain_noise.py",
+        used_in="identify/errors_by_strain_noise.py",
     )
     tolerated_scheme_error: float = setting(
         2.0,
@@ -189,7 +189,7 @@ class CertificateSettings:
         "Draws of the strain noise, of records too long for a matrix of it.",
         unit="draws",
         origin="chosen",
-        used_in="identify/strain_noise.py",
+        used_in="identify/errors_by_strain_noise.py",
     )
     most_substeps: int = setting(
         16,

@@ -1,4 +1,4 @@
-"""Noise of the measured strain, propagated by smoother, differentiator and law to the stress."""
+"""What noise of the measured strain adds to the errors of the parameters."""
 
 from __future__ import annotations
 
