@@ -67,7 +67,8 @@ def layouts(
         for width in widths
     ]
     probe = folder / "probe.html"
-    probe.write_text(f"<!DOCTYPE html><body>{''.join(frames)}<script>{_PROBE}</script></body>", encoding="utf-8")
+    head = '<!DOCTYPE html><meta charset="utf-8">'
+    probe.write_text(f"{head}<body>{''.join(frames)}<script>{_PROBE}</script></body>", encoding="utf-8")
     command = [str(browser()), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--dump-dom"]
     command += ["--blink-settings=preferredColorScheme=0"] if dark else []
     command += ["--allow-file-access-from-files"]

@@ -93,7 +93,11 @@ def test_with_an_output_file_no_picture_goes_to_the_terminal(tmp_path, capsys):
 
 
 def interrupted(arguments, seconds, folder):
-    """Ctrl-C, to all processes of a command as a terminal sends it, after so long; status, standard error, time."""
+    """Ctrl-C, to all processes of a command as a terminal sends it, after so long; status, standard error, time.
+
+    What a shell starts behind it is deaf to Ctrl-C, and so are its children; here the command hears it.
+    """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     with subprocess.Popen(
         [sys.executable, "-m", "probation", *arguments],
         cwd=folder,
@@ -102,6 +106,7 @@ def interrupted(arguments, seconds, folder):
         text=True,
         start_new_session=True,
     ) as started:
+        signal.signal(signal.SIGINT, before)
         time.sleep(seconds)
         os.killpg(started.pid, signal.SIGINT)
         begun = time.monotonic()
