@@ -1,8 +1,11 @@
-"""The same work on many things, several at once: the engine lets other threads run while it solves."""
+"""The same work on many things, several at once where the law lets other threads run while it solves.
+
+The engine does, but a solve of a record is too short: with two threads that take turns at Python between solves, a
+diagnosis takes longer than with one.
+"""
 
 from __future__ import annotations
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
@@ -11,11 +14,6 @@ if TYPE_CHECKING:
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
-
-
-def usual_threads() -> int:
-    """As many as there are processors, at most 4."""
-    return min(os.cpu_count() or 1, 4)
 
 
 def in_parallel(

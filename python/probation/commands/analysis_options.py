@@ -24,9 +24,9 @@ def add_seed(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
 
 
-def add_threads(parser: argparse._ActionsContainer, default: str = "one per core") -> None:
+def add_threads(parser: argparse._ActionsContainer) -> None:
     """Add ``--threads``."""
-    parser.add_argument("--threads", metavar="N", type=_count, help=f"at most so many at once ({default})")
+    parser.add_argument("--threads", metavar="N", type=_count, help="at most so many at once (1)")
 
 
 def effects_from_options(options: argparse.Namespace) -> list[str] | None:

@@ -74,7 +74,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_hold(parser)
     add_effects(parser)
     add_seed(parser)
-    add_threads(parser, "2")
+    add_threads(parser)
     add_delivery(parser)
     return parser
 

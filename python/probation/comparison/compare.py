@@ -22,7 +22,6 @@ from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
 from probation.inference.thinning import thin
-from probation.parallel import usual_threads
 from probation.progress import Part, shows_progress
 from probation.settings.comparison import COMPARISON
 
@@ -81,7 +80,7 @@ def compare(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        By default as many as there are processors, at most 4.
+        Refits at once; by default one. More are of use only for a law that lets others run while it solves, for long.
     budget : float, optional [s]
         Time after which the best answer so far is given; `skipped` says what was not tried.
     progress : callable, optional
@@ -100,7 +99,7 @@ def compare(
     deadline, skipping = Budget(budget), Skipping()
     advance = progress or (lambda part: None)
     advance(Part(0.0, "identifying the reference"))
-    workers = as_threads(threads) or usual_threads()
+    workers = as_threads(threads) or 1
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
     campaign, thinned = thin(campaign)

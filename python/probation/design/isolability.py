@@ -186,7 +186,7 @@ def isolability(
     noises: Sequence[NoiseModel],
     effects: Iterable[Effect],
     *,
-    threads: int = 2,
+    threads: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> Isolability:
     """Which effects these tests could discriminate, seen from the strain histories, the noise and the law alone.

@@ -108,7 +108,7 @@ def next_test(
     explanations: Sequence[tuple[CampaignModel, FloatArray, float, tuple[str, ...]]],
     *,
     noises: Sequence[NoiseModel],
-    threads: int = 2,
+    threads: int = 1,
     seed: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> NextTest | None:

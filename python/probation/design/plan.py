@@ -185,7 +185,7 @@ def plan(
     seed : int
         Of the noise on which it is found how strongly a noisy strain will be smoothed.
     threads : int, optional
-        At most so many at once (2).
+        At most so many at once (1).
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -240,7 +240,7 @@ def plan(
         model.start,
         noises,
         chosen,
-        threads=threads or 2,
+        threads=threads or 1,
         progress=lambda part: advance(Part(0.5 + 0.5 * part, "comparing effects")),
     )
     advance(1.0)

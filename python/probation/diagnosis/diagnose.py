@@ -35,7 +35,6 @@ from probation.inference.gap import as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
-from probation.parallel import usual_threads
 from probation.progress import Part, shows_progress
 from probation.records.checks import require_signal
 from probation.settings.detection import DETECTION
@@ -91,7 +90,7 @@ def diagnose(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        By default as many as there are processors, at most 4.
+        Refits at once; by default one. More are of use only for a law that lets others run while it solves, for long.
     design : bool
         Whether to say, too, what these tests could discriminate at all, and which test to do next.
     budget : float, optional [s]
@@ -117,7 +116,7 @@ def diagnose(
     as_tolerance(tolerance)
     scheme_name = identifying(scheme)[0].name
     known = catalogue(effects)
-    workers = as_threads(threads) or usual_threads()
+    workers = as_threads(threads) or 1
 
     for record in campaign.records:
         require_signal(record)

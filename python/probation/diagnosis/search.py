@@ -56,7 +56,7 @@ class Search:
 
     base: BaseFit
     effects: tuple[Effect, ...]
-    threads: int = 2
+    threads: int = 1
     progress: Callable[[float], None] | None = None
     skipping: Skipping = field(default_factory=Skipping)
     budget: Budget = field(default_factory=Budget)
