@@ -147,7 +147,7 @@ print(f"three dimensions less one: {np.abs(np.array(axial) - increments).max():.
 # hardly deform any more.
 
 from probation.fe.bar import Bar
-from probation.fe.necking import neck
+from probation.fe.neck import neck
 
 bar = Bar(elements=(12, 1), centre_strain=1.2, largest_step=0.02)
 necking = neck(point, bar)

@@ -29,7 +29,7 @@ from .law.creep import creep
 from .law.direction import Direction
 from .law.history import StrainHistory
 from .law.kinematics import haward_thackray_strain
-from .law.modal import Law, Spectrum
+from .law.modal import Law
 from .law.modification import (
     InitialStress,
     Modification,
@@ -40,9 +40,9 @@ from .law.modification import (
     StressActivation,
 )
 from .law.ramp import ramp_stress
-from .law.reduction import Reduction, reduce_spectrum
 from .law.schemes import BE2, CVODE, SA2, SA3, Exact
 from .law.settings import CompanionSettings, LawSettings
+from .law.spectrum import Reduction, Spectrum, reduce_spectrum
 from .records.campaign import Campaign
 from .records.initial.init_campaign import init_campaign
 from .records.preview import preview

@@ -15,7 +15,7 @@ from matplotlib.patches import Rectangle
 from PIL import Image
 
 from campaigns import made_up_diagnosis as made_up
-from probation.design.isolability import EffectIsolability, Isolability
+from probation.design.isolability_result import EffectIsolability, Isolability
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
 from probation.report.diagnosis_page import diagnosis_page
 from probation.report.isolability_figure import isolability_figure

@@ -8,8 +8,10 @@ import pytest
 
 import probation
 from probation.fe import MaterialPoint
+from probation.fe.bar import Bar
 from probation.fe.felupe import felupe_material
-from probation.fe.necking import Bar, main, neck
+from probation.fe.neck import neck
+from probation.fe.necking import main
 
 felupe = pytest.importorskip("felupe")
 

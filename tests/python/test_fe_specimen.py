@@ -8,7 +8,7 @@ import pytest
 import probation
 from probation.fe import MaterialPoint
 from probation.fe.bar import Bar
-from probation.fe.necking import neck
+from probation.fe.neck import neck
 from probation_studies.specimen import Loading, Recording, constant_rate_point, make_specimen, pull
 from probation_studies.specimen.__main__ import main
 from probation_studies.specimen.experiments import bridgman_factor

@@ -14,6 +14,7 @@ import probation
 from campaigns.few_records import LAW, few_records
 from probation import Fit, InputError
 from probation.identify.posterior import Posterior
+from probation.law.schemes import scheme_of
 
 TIME = np.linspace(0.0, 260.0, 120)
 STRAIN = np.interp(TIME, [0.0, 200.0, 260.0], [0.0, 1.0, 0.8])
@@ -149,7 +150,10 @@ def test_draws_have_the_mean_and_the_covariance_of_the_fit():
 def test_the_posterior_has_its_peak_and_its_curvature_where_the_fit_has_them():
     """With white noise its second derivatives are the inverse of the covariance."""
     fit = white()
-    posterior = Posterior.of(fit)
+    scheme = scheme_of(fit.scheme, fit.start)
+    posterior = Posterior.of(
+        fit.law, fit.names, fit.records.values(), fit.weighting, scheme=scheme, substeps=fit.substeps
+    )
     centre = np.array([getattr(fit.law, name) for name in fit.names])
     errors = np.sqrt(np.diag(np.asarray(fit.covariance)))
     peak = posterior(centre)

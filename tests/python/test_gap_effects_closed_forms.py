@@ -22,7 +22,7 @@ from probation.inference.callable_law import CallableLaw
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.law.companion import WEISSENBERG_AS_PRINTED
-from probation.law.modal import Spectrum
+from probation.law.spectrum import Spectrum
 from probation.records.record import Noise, Record
 
 RATE = 5e-3

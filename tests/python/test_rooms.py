@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,31 @@ def _crossings():
         for name, line in imports(path):
             if name.split(".")[0] in ("probation", "probation_studies") and room_of(name) != own:
                 yield own, room_of(name), f"{path.relative_to(SOURCES)}:{line} imports {name}"
+
+
+def needs_of_files():
+    """Which files every file imports, by their module names."""
+    paths = {
+        ".".join(each.relative_to(SOURCES).with_suffix("").parts): each for each in SOURCES.glob("probation*/**/*.py")
+    }
+    modules = {name.removesuffix(".__init__"): path for name, path in paths.items()}
+    for module, path in modules.items():
+        tree = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        needed = {
+            full if (full := f"{node.module}.{alias.name}") in modules else node.module
+            for node in tree
+            if isinstance(node, ast.ImportFrom)
+            for alias in node.names
+        }
+        yield module, needed & modules.keys()
+
+
+def test_no_two_files_need_each_other():
+    """Types included: what two files share stands in a third."""
+    try:
+        tuple(TopologicalSorter(dict(needs_of_files())).static_order())
+    except CycleError as circle:
+        pytest.fail(f"files that need each other: {' <- '.join(circle.args[1])}")
 
 
 def test_a_room_imports_only_from_rooms_below_it():

@@ -23,8 +23,8 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
 from probation.law.direction import Direction
 from probation.law.modal import Law
-from probation.law.reduction import spectrum_of
 from probation.law.schemes import as_scheme, make_solver
+from probation.law.spectrum import spectrum_of
 from probation.records.record import Noise
 from probation.settings.companion import COMPANION
 from probation.smoothing.excitation import excite

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.identify.result import RecordFit
+    from probation.identify.record_fit import RecordFit
 
 
 LENGTHS = np.geomspace(*CERTIFICATE.bias_lengths, 8)

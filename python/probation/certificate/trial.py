@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
-    from probation.identify.result import Fit, RecordFit
+    from probation.identify.record_fit import RecordFit
+    from probation.identify.result import Fit
     from probation.inference.scatter import Scatter
     from probation.law.schemes import Scheme
     from probation.law.settings import LawSettings

@@ -97,7 +97,7 @@ def make_law(values: dict[str, float], companion: Companion | None) -> Law:
             f"--set: found no {' and no '.join(missing)}, expected them; add "
             + " ".join(f"--set {name}=VALUE" for name in missing)
         )
-    from probation.law.reduction import spectrum_of  # noqa: PLC0415 - scipy is slow to load
+    from probation.law.spectrum import spectrum_of  # noqa: PLC0415 - scipy is slow to load
 
     modes = values.get("modes", 50.0)
     if not modes.is_integer():

@@ -18,10 +18,10 @@ from probation.detection.gap_test import GapTester
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.probabilities import leading
-from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
 from probation.inference.thinning import thin
+from probation.inference.unknown import UNKNOWN
 from probation.progress import Part, shows_progress
 from probation.settings.comparison import COMPARISON
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.design.planned_strain import History
     from probation.inference.parameter import Parameter
     from probation.law.modal import Law

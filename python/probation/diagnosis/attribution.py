@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.diagnosis.result import UNKNOWN
 from probation.inference.candidate import cause_key
 from probation.inference.refit import refit
+from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
 from probation.parallel import in_parallel

@@ -22,11 +22,11 @@ from probation.diagnosis.probabilities import (
     with_unknown_leading,
 )
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
-from probation.diagnosis.result import UNKNOWN
 from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
+from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:

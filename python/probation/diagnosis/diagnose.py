@@ -16,14 +16,13 @@ from probation.diagnosis.budget import Budget
 from probation.diagnosis.calibration import calibration_of
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
-from probation.diagnosis.headline import headline
+from probation.diagnosis.headline import headline, with_remainder
 from probation.diagnosis.held_out import all_but_one, made_worse
 from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
-from probation.diagnosis.remainder_words import with_remainder
-from probation.diagnosis.result import UNKNOWN, Diagnosis
+from probation.diagnosis.result import Diagnosis
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
 from probation.effects.registry import effects as catalogue
@@ -33,17 +32,18 @@ from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
 from probation.inference.gap import as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
+from probation.inference.unknown import UNKNOWN
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.progress import Part, shows_progress
-from probation.records.checks import require_signal
+from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.detection.where import Where
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.hypothesis import Hypothesis

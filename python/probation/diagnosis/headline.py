@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.result import UNKNOWN
+from probation.diagnosis.remainder_words import function_name
 from probation.effects.registry import effect
+from probation.inference.unknown import UNKNOWN
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
 from probation.wording import chance, listed, percent, percentage
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.attribution import Attribution
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.held_out import Worse
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import Explanation, Shrink, Verdict
     from probation.inference.gap import Gap
 
@@ -179,3 +181,14 @@ def _with_shares(parts: Attribution) -> str:
     first, *others = parts.named
     words = [f"{title(first)} ({shares[first]} of the gap)", *(f"{title(name)} ({shares[name]})" for name in others)]
     return listed(words, "and")
+
+
+def with_remainder(headline: str, left: Remainder | None) -> str:
+    """A headline that says on what the rest depends, where anything is left and that is known."""
+    if left is None or not left.depends_on:
+        return headline
+    first = left.depends_on[0]
+    return (
+        f"{headline.removesuffix('.')}; what is left is a function of {function_name(first)} "
+        f"({percent(first.explained)} of it)."
+    )

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.probabilities import leading, normalised
-from probation.diagnosis.result import UNKNOWN
 from probation.inference.model import CampaignModel
+from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
 from probation.settings.evidence import EVIDENCE

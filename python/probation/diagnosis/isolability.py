@@ -17,7 +17,7 @@ from probation.results.rendering import Result
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.law.schemes import SchemeName
     from probation.records.campaign import Campaign
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.next_test import next_test
-from probation.diagnosis.result import UNKNOWN, NextTest
+from probation.diagnosis.result import NextTest
+from probation.inference.unknown import UNKNOWN
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:

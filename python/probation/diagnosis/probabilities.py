@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 from scipy.special import logsumexp
 
-from probation.diagnosis.result import UNKNOWN
 from probation.inference.candidate import Key, cause_key
+from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.design.next_test import RankedTest
-    from probation.diagnosis.remainder import FreeFunction, Remainder
+    from probation.diagnosis.free_function import FreeFunction
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import NextTest
     from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit

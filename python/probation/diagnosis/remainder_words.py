@@ -13,7 +13,7 @@ from probation.wording import listed, percent, percentage
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.diagnosis.remainder import Dependence, Remainder, RemainderCurve
+    from probation.diagnosis.free_function import Dependence, RemainderCurve
 
 
 def description(
@@ -53,17 +53,6 @@ def description(
 def function_name(each: Dependence) -> str:
     """Such as "the largest strain so far, on unloading only"."""
     return each.title if each.when is None else f"{each.title}, {PHASES[each.when]}"
-
-
-def with_remainder(headline: str, left: Remainder | None) -> str:
-    """A headline that says on what the rest depends, where anything is left and that is known."""
-    if left is None or not left.depends_on:
-        return headline
-    first = left.depends_on[0]
-    return (
-        f"{headline.removesuffix('.')}; what is left is a function of {function_name(first)} "
-        f"({percent(first.explained)} of it)."
-    )
 
 
 def _size(curve: RemainderCurve) -> str:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.detection.gap_test import GapTest
     from probation.detection.where import Located, Where
     from probation.diagnosis.attribution import EffectShare
@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
 Verdict = Literal["no_gap", "not_predicted", "explained", "unexplained"]
 Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
-
-UNKNOWN = "unknown"
-"""An effect outside the catalogue."""
 
 
 @dataclass(frozen=True)

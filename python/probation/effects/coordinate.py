@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
@@ -11,7 +11,6 @@ from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.effects.effect import Values
     from probation.effects.record_view import RecordView
 
 Coordinate: TypeAlias = Literal[
@@ -27,7 +26,7 @@ Coordinate: TypeAlias = Literal[
     "order",
 ]
 
-CoordinateHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
+CoordinateHook: TypeAlias = "Callable[[RecordView, Sequence[float] | FloatArray], FloatArray]"
 """A coordinate that an effect works out itself, with its values in this record; shape (n,)."""
 
 NEARLY = 1e-6
@@ -37,7 +36,9 @@ LEAST: Mapping[Coordinate, float] = {"strain_rate": 0.1}
 """Range below which it is one value: a tenth of a decade for the rate, which is never quite steady."""
 
 
-def coordinate_of(view: RecordView, coordinate: Coordinate | CoordinateHook, values: Values) -> FloatArray:
+def coordinate_of(
+    view: RecordView, coordinate: Coordinate | CoordinateHook, values: Sequence[float] | FloatArray
+) -> FloatArray:
     """A coordinate at every sample of a record, by name or of an effect with these values; shape (n_samples,)."""
     found = COORDINATES[coordinate](view) if isinstance(coordinate, str) else coordinate(view, values)
     return np.asarray(view.sampled(found), dtype=np.float64)

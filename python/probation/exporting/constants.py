@@ -13,7 +13,8 @@ import numpy as np
 from probation._arrays import as_number
 from probation.errors import InputError
 from probation.law.companion import Exponential, PowerLaw, Table, Weissenberg
-from probation.law.modal import Law, Spectrum
+from probation.law.modal import Law
+from probation.law.spectrum import Spectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

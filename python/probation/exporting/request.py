@@ -10,8 +10,7 @@ import numpy as np
 
 from probation.errors import InputError
 from probation.law.answer import law_answer
-from probation.law.modal import Spectrum
-from probation.law.reduction import Reduction, reduce_spectrum
+from probation.law.spectrum import Reduction, Spectrum, reduce_spectrum
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.fe.bar import Snapshot
-    from probation.fe.necking import Necking
+    from probation.fe.neck import Necking
 
 
 def draw_neck(necking: Necking, path: str | PathLike[str]) -> None:

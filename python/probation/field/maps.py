@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ from probation.field.chunks import array_of, read, require_chunks
 from probation.field.grid import BlockGrid
 from probation.field.status import MEANINGS, Status
 from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of, read_run
+from probation.field.truth import Closeness, closeness
 from probation.results.rendering import Result
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.field.store import MapKind
-    from probation.field.truth import Closeness
 
 AGAIN = "probation field identify, called again,"
 
@@ -100,11 +100,7 @@ class FieldMaps(Result):
         InputError
             If there is no such store, or it lacks a map or is of another shape.
         """
-        from dataclasses import replace  # noqa: PLC0415
-
-        from probation.field.truth import closeness  # noqa: PLC0415
-
-        return replace(self, closeness=closeness(self, truth))
+        return replace(self, closeness=closeness(self.maps, self.names, self.identified, truth))
 
     def to_json(self) -> str:
         """Counts and medians as JSON text; the maps themselves stay in the store."""

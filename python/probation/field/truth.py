@@ -13,8 +13,11 @@ from probation.field.chunks import read
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Mapping
 
-    from probation.field.maps import FieldMaps
+    from numpy.typing import NDArray
+
+    from probation._arrays import FloatArray
 
 
 @dataclass(frozen=True)
@@ -41,11 +44,12 @@ class Closeness:
     coverage: float
 
 
-def closeness(maps: FieldMaps, truth: str | os.PathLike[str]) -> tuple[Closeness, ...]:
-    """One for the product and for each parameter."""
-    product, *parameters = maps.names
+def closeness(
+    maps: Mapping[str, FloatArray], names: tuple[str, ...], good: NDArray[np.bool_], truth: str | os.PathLike[str]
+) -> tuple[Closeness, ...]:
+    """One for the product and for each parameter, in the order of the names; over the pixels that are good."""
+    product, *parameters = names
     true = {name: read(str(Path(truth).absolute()), name) for name in parameters}
-    good = maps.identified
     for name, values in true.items():
         if values.dtype.kind not in "iuf":
             raise InputError(f"{truth}: {name}: found values of type {values.dtype}, expected numbers")
@@ -53,11 +57,11 @@ def closeness(maps: FieldMaps, truth: str | os.PathLike[str]) -> tuple[Closeness
             raise InputError(f"{truth}: {name}: found the shape {values.shape}, expected {good.shape}, as of the maps")
     true[product] = true[parameters[0]] * true[parameters[1]]
     found = []
-    for name in maps.names:
+    for name in names:
         if not good.any():
             break
-        error = maps.maps[name][good] - true[name][good]
-        relative, standard = error / true[name][good], error / maps.maps[f"{name}_standard_error"][good]
+        error = maps[name][good] - true[name][good]
+        relative, standard = error / true[name][good], error / maps[f"{name}_standard_error"][good]
         found.append(
             Closeness(
                 name,

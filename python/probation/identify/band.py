@@ -9,20 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import stdtrit
 
-from probation._arrays import as_number
 from probation._short_repr import ShortRepr
-from probation.errors import InputError
-from probation.law.history import as_history
 from probation.results.frames import data_frame, over_time
 from probation.results.rendering import Plotted
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
     from probation._arrays import FloatArray
-    from probation.identify.result import Fit
-    from probation.law.history import AnyHistory
-    from probation.law.schemes import Scheme, SchemeName
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,44 +101,18 @@ class StressBand(ShortRepr, Plotted):
         }
 
 
-def predicted(
-    fit: Fit,
-    history: AnyHistory | ArrayLike,
-    true_strain: ArrayLike | None,
-    *,
-    level: float,
-    scheme: Scheme | SchemeName,
-) -> StressBand:
-    """The stress of a fit's law along a history; `Fit.predict` says the arguments."""
-    if not 0.0 < as_number(level, "level") < 1.0:
-        raise InputError(f"level is {level!r}; expected a probability between 0 and 1, such as 0.95")
-    driven = as_history(history, true_strain)
-    stress, sensitivity = fit.law.sensitivity(driven, scheme=scheme)
-    return StressBand(
-        name=fit.campaign,
-        time=driven.time,
-        true_strain=driven.true_strain,
-        true_stress=stress,
-        standard_error=standard_error(fit, sensitivity),
-        scatter_MPa=fit.scatter_MPa,
-        level=float(level),
-        degrees=fit.degrees,
-    )
-
-
-def standard_error(fit: Fit, sensitivity: FloatArray) -> FloatArray:
-    """Of the stress by the uncertainty of a fit's parameters, shape (n_times,) [MPa].
+def standard_error(slopes: FloatArray, covariance: FloatArray) -> FloatArray:
+    """Of a stress by the uncertainty of the identified parameters, shape (n_times,) [MPa].
 
     Parameters
     ----------
-    fit : Fit
-    sensitivity : ndarray, shape (n_times, 3)
-        Along `law.parameters`.
+    slopes : ndarray, shape (n_times, free) [MPa per unit]
+        Along these parameters.
+    covariance : ndarray, shape (free, free)
+        Of them; not finite where the records do not determine one.
     """
-    slopes = sensitivity[:, [fit.law.parameter_names.index(name) for name in fit.names]]
-    matrix = fit.covariance.matrix
-    unknown = ~np.isfinite(np.diag(matrix))
-    known = np.where(np.isfinite(matrix), matrix, 0.0)
+    unknown = ~np.isfinite(np.diag(covariance))
+    known = np.where(np.isfinite(covariance), covariance, 0.0)
     variance = np.einsum("ij,jk,ik->i", slopes, known, slopes)
     matters = np.any(slopes[:, unknown] != 0.0, axis=1)
     return np.asarray(np.where(matters, np.inf, np.sqrt(np.maximum(variance, 0.0))))

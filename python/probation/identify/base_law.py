@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.companion import from_settings
 from probation.law.modal import Law
-from probation.law.reduction import spectrum_of
+from probation.law.spectrum import spectrum_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,7 +12,8 @@ from probation.identify.bias import bias_of
 from probation.identify.covariance import Covariance
 from probation.identify.ends import ends_of
 from probation.identify.errors_by_strain_noise import strain_noise_warnings
-from probation.identify.result import Fit, RecordFit
+from probation.identify.record_fit import RecordFit
+from probation.identify.result import Fit
 from probation.identify.scheme_error import scheme_error
 from probation.identify.weighting import known_of
 from probation.inference.information import correlation, estimated

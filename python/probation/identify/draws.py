@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from probation._arrays import as_whole_number, one_of
 from probation.errors import InputError
-from probation.inference.parameter import outside_name
 from probation.results.extras import needed
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.identify.result import Fit
+    from probation.results.labelled import LabelledMatrix
 
 Method = Literal["laplace", "emcee"]
 METHODS: tuple[Method, ...] = ("laplace", "emcee")
@@ -81,26 +79,12 @@ class Draws:
         return arviz.from_dict({"posterior": posterior})
 
 
-def draw(fit: Fit, count: int, method: Method, seed: int) -> Draws:
-    """Draws of the parameters of a fit; `Fit.sample` says the arguments."""
-    if as_whole_number(count, "n") < 1:
-        raise InputError(f"n is {count}; expected at least 1")
-    names = tuple(outside_name(name) for name in fit.names)
-    random = np.random.default_rng(as_whole_number(seed, "seed"))
-    if one_of(method, "method", METHODS) == "laplace":
-        return Draws(names, _normal(fit, count, random))
-    from probation.identify.posterior import WALKERS, walk  # noqa: PLC0415 - it solves the law again
-
-    return Draws(names, walk(fit, count, seed, _normal(fit, max(WALKERS, 2 * len(names) + 2), random)))
-
-
-def _normal(fit: Fit, count: int, random: np.random.Generator) -> FloatArray:
-    """From a normal distribution around the estimates, without what is negative."""
-    matrix = fit.covariance.matrix
+def normal_draws(centre: FloatArray, covariance: LabelledMatrix, count: int, random: np.random.Generator) -> FloatArray:
+    """From a normal distribution around the estimates, without what is negative; shape (count, n_parameters)."""
+    matrix = covariance.matrix
     if not np.all(np.isfinite(matrix)):
-        lost = [name for name, value in zip(fit.covariance.names, np.diag(matrix), strict=True) if not value < np.inf]
+        lost = [name for name, value in zip(covariance.names, np.diag(matrix), strict=True) if not value < np.inf]
         raise InputError(f"sample: found no standard error of {', '.join(lost)}, expected one; hold it, or add records")
-    centre = np.array([getattr(fit.law, name) for name in fit.names])
     size = np.where(centre != 0.0, np.abs(centre), 1.0)
     spread, basis = np.linalg.eigh(matrix / np.outer(size, size))
     root = size[:, None] * basis * np.sqrt(np.maximum(spread, 0.0))

@@ -13,13 +13,16 @@ from probation.inference.measured_view import measured_view
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
 from probation.inference.residual_noise import with_residual_noise
-from probation.law.schemes import scheme_of
 from probation.records.record import Noise, Record
 from probation.results.extras import needed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from probation._arrays import FloatArray
-    from probation.identify.result import Fit
+    from probation.identify.record_fit import RecordFit
+    from probation.law.modal import Law
+    from probation.law.schemes import Scheme
 
 WALKERS, BURN_IN, THIN = 16, 300, 10
 """Of the ensemble: how many, steps that are dropped, and one step kept of so many. Chosen."""
@@ -40,28 +43,36 @@ class Posterior:
     problem: Problem
 
     @classmethod
-    def of(cls, fit: Fit) -> Posterior:
-        """That of a fit.
+    def of(
+        cls,
+        law: Law,
+        names: Sequence[str],
+        records: Iterable[RecordFit],
+        weighting: str,
+        *,
+        scheme: Scheme,
+        substeps: int,
+    ) -> Posterior:
+        """That of a fit, from what `Fit` has under these names.
 
         Raises
         ------
         InputError
             Where the noise of the strain weighs the residual, or the fit was read from JSON without curves.
         """
-        scheme = scheme_of(fit.scheme, fit.start)
         views = []
-        for each in fit.records.values():
+        for each in records:
             if each.strain_noise_weighed:
                 raise InputError(
                     f"sample: found strain noise weighed in {each.id!r}, which method = 'emcee' does not know; "
                     "use method = 'laplace'"
                 )
             record = Record(each.id, each.time, each.true_strain, each.true_stress, noise=Noise(each.noise_MPa))
-            views.append(measured_view(record, each.excitation, scheme, fit.substeps))
-        law = DnlrLaw(fit.law, [name for name in fit.law.parameter_names if name not in fit.names])
-        problem = Problem.white(law, views)
-        if fit.weighting in ("autocorrelated", "varying"):
-            problem = with_residual_noise(problem, law.start, [None] * len(views))
+            views.append(measured_view(record, each.excitation, scheme, substeps))
+        identified = DnlrLaw(law, [name for name in law.parameter_names if name not in names])
+        problem = Problem.white(identified, views)
+        if weighting in ("autocorrelated", "varying"):
+            problem = with_residual_noise(problem, identified.start, [None] * len(views))
         return cls(problem)
 
     def __call__(self, values: FloatArray) -> float:
@@ -69,12 +80,12 @@ class Posterior:
         return log_likelihood(self.problem, values) if np.all(values > 0.0) else -np.inf
 
 
-def walk(fit: Fit, count: int, seed: int, around: FloatArray) -> FloatArray:
+def walk(posterior: Posterior, count: int, seed: int, around: FloatArray) -> FloatArray:
     """Draws by emcee's ensemble sampler, shape (count, free).
 
     Parameters
     ----------
-    fit : Fit
+    posterior : Posterior
     count, seed : int
     around : ndarray, shape (n_draws, free)
         Draws of the Laplace approximation: where the walkers start.
@@ -82,10 +93,9 @@ def walk(fit: Fit, count: int, seed: int, around: FloatArray) -> FloatArray:
     Raises
     ------
     InputError
-        Where emcee is not installed, or as `Posterior.of`.
+        Where emcee is not installed.
     """
     emcee = needed("emcee", "method = 'emcee'")
-    posterior = Posterior.of(fit)
     sampler = emcee.EnsembleSampler(len(around), around.shape[1], posterior)
     random = np.random.RandomState(seed)
     state = sampler.run_mcmc(around, BURN_IN, rstate0=random.get_state())

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from probation._arrays import one_of
-from probation._short_repr import ShortRepr
-from probation.identify.modelled_record import ModelledRecord
+from probation._arrays import as_number, as_whole_number, one_of
+from probation.errors import InputError
+from probation.identify.band import StressBand, standard_error
+from probation.identify.draws import METHODS as DRAWN_BY
+from probation.identify.draws import Draws, normal_draws
 from probation.inference.parameter import SYMBOLS, Parameter, outside_name
 from probation.law.answer import law_answer
-from probation.noise.whiteness import mean_inflation
-from probation.results.data import CURVE, Stored, from_curves
+from probation.law.history import as_history
+from probation.law.schemes import scheme_of
+from probation.results.data import Stored, from_curves
 from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.labelled import LabelledMatrix
 from probation.results.rendering import Result, rendered
@@ -24,10 +27,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from probation._arrays import FloatArray
-    from probation.identify.band import StressBand
-    from probation.identify.bias import Bias
-    from probation.identify.draws import Draws
     from probation.identify.profile import Profile
+    from probation.identify.record_fit import RecordFit
     from probation.inference.gap import Gap
     from probation.law.history import AnyHistory
     from probation.law.modal import Law
@@ -39,51 +40,6 @@ INTERVALS: tuple[Intervals, ...] = ("standard-error", "profile")
 Method = Literal["least-squares", "variable-projection", "simplex"]
 ErrorsOf = Literal["specimens", "material"]
 METHODS: tuple[Method, ...] = ("least-squares", "variable-projection", "simplex")
-
-
-@dataclass(frozen=True, eq=False)
-class RecordFit(ShortRepr, ModelledRecord):
-    """One record against the identified law.
-
-    Its `noise_MPa` is the high-frequency part of the fit residual; all of it where the noise model (correlation,
-    strain noise) leaves nothing else.
-
-    Attributes
-    ----------
-    sensitivity : ndarray, shape (n_times, 3) [MPa per unit]
-        Along E_u, tau_max or alpha, G.
-    bias : Bias
-        The low-frequency part: size and place.
-    noise_correlation : float
-        Of the stress noise from sample to sample; 0 where none was found.
-    strain_noise_weighed : bool
-        Whether the residual was weighed for the strain's noise.
-    """
-
-    sensitivity: FloatArray = field(metadata=CURVE)
-    bias: Bias
-    noise_correlation: float = 0.0
-    strain_noise_weighed: bool = False
-
-    @from_curves
-    def effective_samples(self) -> float:
-        """Independent samples that would say as much of the scatter around the law."""
-        return self.samples / mean_inflation(self.fit_residual)
-
-    def to_json(self) -> dict[str, Any]:
-        """Numbers only."""
-        return {
-            "rms_MPa": self.rms_MPa,
-            "max_MPa": self.max_MPa,
-            "noise_MPa": self.noise_MPa,
-            "bias_MPa": self.bias_MPa,
-            **self.bias.to_json(),
-            "noise_correlation": self.noise_correlation,
-            "strain_noise_weighed": self.strain_noise_weighed,
-            "differentiator": self.excitation.differentiator,
-            "strain_noise": self.excitation.strain_noise,
-            "rate_jumps_s": list(self.rate_jumps_s),
-        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,9 +253,31 @@ class Fit(Result, Stored):
         InputError
             For a history that is not possible, or a level that is no probability.
         """
-        from probation.identify.band import predicted  # noqa: PLC0415 - it draws
+        if not 0.0 < as_number(level, "level") < 1.0:
+            raise InputError(f"level is {level!r}; expected a probability between 0 and 1, such as 0.95")
+        driven = as_history(history, true_strain)
+        stress, sensitivity = self.law.sensitivity(driven, scheme=scheme)
+        return StressBand(
+            name=self.campaign,
+            time=driven.time,
+            true_strain=driven.true_strain,
+            true_stress=stress,
+            standard_error=self.stress_error(sensitivity),
+            scatter_MPa=self.scatter_MPa,
+            level=float(level),
+            degrees=self.degrees,
+        )
 
-        return predicted(self, history, true_strain, level=level, scheme=scheme)
+    def stress_error(self, sensitivity: FloatArray) -> FloatArray:
+        """Standard error of the law's stress by the uncertainty of its parameters, shape (n_times,) [MPa].
+
+        Parameters
+        ----------
+        sensitivity : ndarray, shape (n_times, 3) [MPa per unit]
+            Along `law.parameters`.
+        """
+        identified = [self.law.parameter_names.index(name) for name in self.names]
+        return standard_error(sensitivity[:, identified], self.covariance.matrix)
 
     def sample(self, n: int = 1000, *, method: Literal["laplace", "emcee"] = "laplace", seed: int = 0) -> Draws:
         """Draws of the identified parameters from their posterior.
@@ -325,9 +303,26 @@ class Fit(Result, Stored):
             If the records do not determine a parameter; of "emcee" also where the package is not installed, or where
             strain noise weighs the residual.
         """
-        from probation.identify.draws import draw  # noqa: PLC0415
+        if as_whole_number(n, "n") < 1:
+            raise InputError(f"n is {n}; expected at least 1")
+        number, how = as_whole_number(seed, "seed"), one_of(method, "method", DRAWN_BY)
+        names = tuple(outside_name(name) for name in self.names)
+        centre = np.array([getattr(self.law, name) for name in self.names])
+        random = np.random.default_rng(number)
+        if how == "laplace":
+            return Draws(names, normal_draws(centre, self.covariance, n, random))
+        from probation.identify.posterior import WALKERS, Posterior, walk  # noqa: PLC0415 - it solves the law again
 
-        return draw(self, n, method, seed)
+        start = normal_draws(centre, self.covariance, max(WALKERS, 2 * len(names) + 2), random)
+        posterior = Posterior.of(
+            self.law,
+            self.names,
+            self.records.values(),
+            self.weighting,
+            scheme=scheme_of(self.scheme, self.start),
+            substeps=self.substeps,
+        )
+        return Draws(names, walk(posterior, n, number, start))
 
     def plot(self, kind: Literal["curves", "corner"] = "curves") -> Figure:
         """The fit as a figure.

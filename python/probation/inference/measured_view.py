@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.effects.record_view import RecordView, view_of
 from probation.law.schemes import Scheme, SchemeName, at_samples
-from probation.records.checks import require_signal
+from probation.records.signal import require_signal
 
 if TYPE_CHECKING:
     from probation.records.record import Record

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from probation.inference.discrepancy import Discrepancy
     from probation.inference.refit import Refit
 
+UNKNOWN = "unknown"
+"""What it is called among the names of effects."""
+
 SIZES = np.geomspace(*EVIDENCE.unknown_range, 17)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 

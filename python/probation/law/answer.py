@@ -11,7 +11,8 @@ from probation._complaint import quoted
 from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
 from probation.law.companion import FORMS
-from probation.law.modal import Law, Spectrum
+from probation.law.modal import Law
+from probation.law.spectrum import Spectrum
 
 if TYPE_CHECKING:
     from probation.law.companion import Companion

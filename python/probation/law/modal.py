@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, cast
 
@@ -15,10 +15,8 @@ from probation._arrays import (
     as_number,
     as_output,
     as_samples,
-    as_whole_number,
     held_samples,
 )
-from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.companion import Companion
 from probation.law.history import AnyHistory, StrainHistory, as_history, history_arguments, is_history
@@ -32,6 +30,7 @@ from probation.law.modified import (
     refuse,
 )
 from probation.law.schemes import Scheme, SchemeName, as_scheme, at_samples, make_solver
+from probation.law.spectrum import Spectrum
 from probation.results.rendering import Displayed
 
 if TYPE_CHECKING:
@@ -42,69 +41,8 @@ if TYPE_CHECKING:
     from probation.law.direction import Direction
     from probation.law.modification import Modification
 
-ACCURACIES = (1e-5, 0.5)
-"""Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
-
 _FOLLOWS_PARAMETERS = frozenset({"initial_stress"})
 """A start that moves with G and the first strain, of which a direction says nothing; `initial_modal_stress` stays."""
-
-
-@dataclass(frozen=True, eq=False)
-class Spectrum(ShortRepr):
-    """The modes: relaxation times as fractions of tau_max, and weights.
-
-    Parameters
-    ----------
-    relaxation_ratio : array_like, shape (modes,) [-]
-        tau_j / tau_max, fastest mode first.
-    modal_weight : array_like, shape (modes,) [-]
-        p_j.
-    """
-
-    relaxation_ratio: FloatArray
-    modal_weight: FloatArray
-
-    def __post_init__(self) -> None:
-        for name in ("relaxation_ratio", "modal_weight"):
-            samples = as_samples(getattr(self, name), name).copy()
-            samples.flags.writeable = False
-            object.__setattr__(self, name, samples)
-        object.__setattr__(self, "_built", _core.Spectrum(self.relaxation_ratio, self.modal_weight))
-
-    @classmethod
-    def log_spaced(cls, modes: int = 50, decades: float = 6.0) -> Spectrum:
-        """The paper's spectrum: log-spaced times, eq. (4), weights proportional to sqrt(tau_j), eq. (5)."""
-        return _log_spaced(as_whole_number(modes, "modes"), as_number(decades, "decades"))
-
-    def reduced(self, *, accuracy: float | None = None, modes: int | None = None) -> Spectrum:
-        """Fewer modes with the same kernel, to an accuracy or as good as so many can; as in `reduce_spectrum`."""
-        from probation.law.reduction import reduce_spectrum  # noqa: PLC0415 - it needs this class, and scipy
-
-        return reduce_spectrum(self, accuracy=accuracy, modes=modes).spectrum
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Spectrum):
-            return NotImplemented
-        return self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash(self._key())
-
-    def __reduce__(self) -> tuple[type[Spectrum], tuple[FloatArray, FloatArray]]:
-        return type(self), (self.relaxation_ratio, self.modal_weight)  # through __init__: read-only again
-
-    def _key(self) -> tuple[bytes, bytes]:
-        return self.relaxation_ratio.tobytes(), self.modal_weight.tobytes()
-
-    def _engine(self) -> _core.Spectrum:
-        built: _core.Spectrum = self.__dict__["_built"]
-        return built
-
-
-@lru_cache(maxsize=16)  # of immutable values: most laws have the same modes
-def _log_spaced(modes: int, decades: float) -> Spectrum:
-    engine = _core.Spectrum.log_spaced(modes, decades)
-    return Spectrum(engine.relaxation_ratio, engine.modal_weight)
 
 
 @dataclass(frozen=True, kw_only=True)

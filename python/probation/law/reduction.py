@@ -10,14 +10,12 @@ neither E_u (K(0) = 1), nor the flow stress (the integral of K), nor what tau_ma
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from probation._arrays import FloatArray, as_number, as_whole_number
-from probation.errors import InputError
-from probation.law.modal import ACCURACIES, Spectrum
+if TYPE_CHECKING:
+    from probation._arrays import FloatArray
 
 _POINTS = 400  # reduced times of the fit
 _CHECK_POINTS = 2500  # of the error
@@ -25,119 +23,54 @@ _EXACTLY = 1e3  # weight of the two sums that are kept
 _FIRST_GAP = 2.0  # between the first two relaxation times, in ln
 
 
-@dataclass(frozen=True, eq=False)
-class Reduction:
-    """A spectrum of fewer modes in the place of another.
+class FewerModes(NamedTuple):
+    """Relaxation times over tau_max and weights, each of shape (modes,), and their errors.
 
-    Attributes
-    ----------
-    spectrum : Spectrum
-        Its times are fractions of the same tau_max.
-    original : Spectrum
-    error : float
-        Bound of the relative error of the stress [-]: along any history it errs by no more than this fraction of the
-        viscous stress that a ramp has at the history's largest Weissenberg number after the same reduced time. (As long
-        as the hardening is no steeper than 2 E_u.)
-    ramp_error : float
-        Largest relative error of the viscous stress on a ramp, at any rate and strain [-].
+    `error` and `ramp_error` are those of `spectrum.Reduction`.
     """
 
-    spectrum: Spectrum
-    original: Spectrum
+    relaxation_ratio: FloatArray
+    modal_weight: FloatArray
     error: float
     ramp_error: float
 
-    @property
-    def modes(self) -> int:
-        """How many are left."""
-        return len(self.spectrum.modal_weight)
 
-    def summary(self) -> str:
-        """One line."""
-        before = len(self.original.modal_weight)
-        return (
-            f"{self.modes} modes for {before}: the stress errs by at most {self.error:.1e} of the flow stress on any "
-            f"history, {self.ramp_error:.1e} on ramps"
-        )
-
-
-def reduce_spectrum(
-    spectrum: Spectrum | None = None, *, accuracy: float | None = None, modes: int | None = None
-) -> Reduction:
-    """Refit the kernel of a spectrum with fewer modes.
+def fewer_modes(
+    relaxation_ratio: FloatArray, modal_weight: FloatArray, accuracy: float, most: int
+) -> FewerModes | None:
+    """The best refit of a kernel with at most so many modes, fewer than it has; with the fewest that are accurate.
 
     Weights by non-negative least squares, relaxation times by Gauss-Newton around it, one mode more at a time.
 
     Parameters
     ----------
-    spectrum : Spectrum, optional
-        The paper's 50 modes over 6 decades if left out.
-    accuracy : float, optional
-        Take the fewest modes whose `Reduction.error` is no larger [-].
-    modes : int, optional
-        Take the best spectrum of no more modes. Give one of the two.
+    relaxation_ratio, modal_weight : ndarray, shape (modes,) [-]
+    accuracy : float
+        Error at which no further mode is added [-].
+    most : int
 
     Returns
     -------
-    Reduction
-        The original where fewer modes do not reach the accuracy, or are not wanted.
-
-    Raises
-    ------
-    InputError
-        Unless one of `accuracy` (1e-5 to 0.5) and `modes` (at least 1) is given.
-
-    Examples
-    --------
-    >>> reduce_spectrum(accuracy=1e-3).modes
-    9
+    FewerModes or None
+        None where the kernel has one mode only, or none could be refitted.
     """
-    if (accuracy is None) == (modes is None):
-        found = "neither" if accuracy is None else "both"
-        raise InputError(f"accuracy and modes: found {found}, expected one of them")
-    original = Spectrum.log_spaced() if spectrum is None else spectrum
-    if modes is not None:
-        count = as_whole_number(modes, "modes")
-        if count < 1:
-            raise InputError(f"modes is {count}; at least 1 is needed")
-        return _reduced(original, 0.0, count)
-    wanted = as_number(accuracy, "accuracy")
-    finest, coarsest = ACCURACIES
-    if not finest <= wanted <= coarsest:
-        raise InputError(f"accuracy is {wanted:g}; a relative error from {finest:g} to {coarsest:g} is needed")
-    return _reduced(original, wanted, len(original.modal_weight))
-
-
-def spectrum_of(modes: int, decades: float, accuracy: float | None) -> Spectrum:
-    """The spectrum that a campaign or the command line names: eqs. (4), (5), refitted where an accuracy is given."""
-    spectrum = Spectrum.log_spaced(modes, decades)
-    return spectrum if accuracy is None else spectrum.reduced(accuracy=accuracy)
-
-
-@lru_cache(maxsize=16)  # of immutable values; a refit takes half a second
-def _reduced(original: Spectrum, accuracy: float, most: int) -> Reduction:
-    active = original.modal_weight > 0.0
-    ratio, weight = original.relaxation_ratio[active], original.modal_weight[active]
-    unchanged = Reduction(original, original, 0.0, 0.0)
-    if most >= len(original.modal_weight) and accuracy == 0.0:
-        return unchanged
+    active = modal_weight > 0.0
+    ratio, weight = relaxation_ratio[active], modal_weight[active]
     kernel = _Kernel(ratio, weight)
     times = np.array([np.sum(weight * ratio**2) / np.sum(weight * ratio)])
-    best: Reduction | None = None
+    best: FewerModes | None = None
     for _ in range(min(most, len(ratio) - 1)):
         try:
             times, weights = kernel.refitted(times)
         except RuntimeError:  # nnls gives up on times that all but coincide: no more modes can be discriminated
             break
-        fewer = Spectrum(times, weights * (weight.sum() / weights.sum()))
-        found = Reduction(fewer, original, *kernel.errors(fewer))
+        weights = weights * (weight.sum() / weights.sum())
+        found = FewerModes(times, weights, *kernel.errors(times, weights))
         if best is None or found.error < best.error:
             best = found
-        if found.error <= max(accuracy, 0.5 * ACCURACIES[0]):
+        if found.error <= accuracy:
             break
         times = kernel.with_one_more(times)
-    if best is None or (best.error > accuracy > 0.0):
-        return unchanged
     return best
 
 
@@ -200,9 +133,9 @@ class _Kernel:
         begin: FloatArray = np.exp(more)
         return begin
 
-    def errors(self, fewer: Spectrum) -> tuple[float, float]:
+    def errors(self, times: FloatArray, weights: FloatArray) -> tuple[float, float]:
         """Relative error on any history (the total variation of the ramp's), and on ramps."""
-        difference = _ramp(self.check_at, fewer.relaxation_ratio) @ fewer.modal_weight - self.check_ramp
+        difference = _ramp(self.check_at, times) @ weights - self.check_ramp
         variation = np.cumsum(np.abs(np.diff(difference, prepend=0.0)))
         return float(np.max(variation / self.check_ramp)), float(np.max(np.abs(difference) / self.check_ramp))
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 from probation._complaint import listed, quoted, suggestion
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
-from probation.law.modal import ACCURACIES
+from probation.law.spectrum import ACCURACIES
 from probation.limits import LARGEST_DECADES, MOST_MODES, USABLE, is_usable
 
 COMPANION_FORMS: dict[str, tuple[str, ...]] = {

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from probation._complaint import bad_input, quoted
+from probation._complaint import bad_input
 from probation.errors import InputError
 from probation.limits import LARGEST, SHORTEST_STEP, SMALLEST
 from probation.records.roles import ROLES
 
 if TYPE_CHECKING:
-    from probation.records.record import Record
     from probation.records.table import Column, Table
 
 FloatArray = NDArray[np.float64]
@@ -41,27 +40,6 @@ class Fault:
     found: str
     expected: str
     remedy: str = ""
-
-
-def require_signal(record: Record) -> None:
-    """Refuse a record that a law cannot be put against: its strain does not move, or it bears no stress.
-
-    Raises
-    ------
-    InputError
-        It names the record.
-    """
-    strain = record.true_strain
-    if np.ptp(strain) == 0.0:
-        raise InputError(
-            f"record {quoted(record.id)}: found a true strain of {strain[0]:.4g} at every sample, expected a strain "
-            "that changes; check the column, or leave the record out"
-        )
-    if not record.true_stress.any():
-        raise InputError(
-            f"record {quoted(record.id)}: found a true stress of 0 MPa at every sample, expected a test under load; "
-            "check the column and its unit, or leave the record out"
-        )
 
 
 def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES) -> Fault | None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.result import UNKNOWN
 from probation.effects.registry import effects as known_effects
+from probation.inference.unknown import UNKNOWN
 from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
 from probation.report.diagnosis_summary import gap_text, next_test_text, signs, specimens_text

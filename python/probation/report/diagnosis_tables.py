@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.headline import title
-from probation.diagnosis.result import UNKNOWN
+from probation.inference.unknown import UNKNOWN
 from probation.report.diagnosis_words import (
     checks_text,
     closed,

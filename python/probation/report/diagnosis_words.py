@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import floor, log10
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.result import UNKNOWN
+from probation.inference.unknown import UNKNOWN
 from probation.settings.detection import DETECTION
 from probation.wording import plus_minus
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import stdtrit
 
-from probation.identify.band import standard_error
 from probation.inference.parameter import SYMBOLS, Parameter
 from probation.provenance import provenance
 from probation.report.fit_summary import estimate_text, noise_text
@@ -21,7 +20,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from probation.identify.result import Fit, RecordFit
+    from probation.identify.record_fit import RecordFit
+    from probation.identify.result import Fit
 
 
 def fit_figure(fit: Fit) -> Figure:
@@ -50,7 +50,7 @@ def write_fit_page(fit: Fit, path: Path) -> None:
 
 
 def _curve(fit: Fit, record: RecordFit) -> Curve:
-    reach = float(stdtrit(fit.degrees, 0.975)) * np.hypot(standard_error(fit, record.sensitivity), record.rms_MPa)
+    reach = float(stdtrit(fit.degrees, 0.975)) * np.hypot(fit.stress_error(record.sensitivity), record.rms_MPa)
     band = reach if np.all(np.isfinite(reach)) else None
     return Curve(record.id, record.true_strain, record.true_stress, record.model_stress, record.noise_MPa, band)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.design.plan import Plan
     from probation.diagnosis.isolability import CampaignIsolability
 

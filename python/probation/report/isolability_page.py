@@ -12,7 +12,7 @@ from probation.report.page import Page, Section, picture
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from probation.design.isolability import Isolability
+    from probation.design.isolability_result import Isolability
     from probation.diagnosis.isolability import CampaignIsolability
 
 HOW_TO_READ_THE_MAP = (

@@ -11,7 +11,7 @@ from probation.settings.design import DESIGN
 from probation.wording import listed, percent
 
 if TYPE_CHECKING:
-    from probation.design.isolability import EffectIsolability, Isolability
+    from probation.design.isolability_result import EffectIsolability, Isolability
 
 HOW_TO_READ = (
     "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "

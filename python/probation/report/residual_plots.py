@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
-    from probation.identify.result import Fit, RecordFit
+    from probation.identify.record_fit import RecordFit
+    from probation.identify.result import Fit
 
 
 def residual_parts(record: RecordFit) -> Figure:

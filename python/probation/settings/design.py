@@ -51,14 +51,14 @@ class DesignSettings:
         ),
         unit="-",
         origin="chosen",
-        used_in="design/isolability.py",
+        used_in="design/isolability_result.py",
     )
     no_signal: float = setting(
         0.01,
         "Length in standard deviations below which an effect is taken to do nothing at all.",
         unit="standard deviations",
         origin="chosen",
-        used_in="design/isolability.py",
+        used_in="design/isolability_result.py",
     )
     least_help: float = setting(
         0.01,
@@ -170,7 +170,7 @@ class DesignSettings:
         "Part of the largest bias from which on another one is named too.",
         unit="largest bias",
         origin="chosen",
-        used_in="design/isolability_words.py",
+        used_in="design/isolability_result.py",
     )
     listed_tests: int = setting(
         5,

@@ -16,14 +16,14 @@ class RemainderSettings:
         "Coefficients of the free functions that are fitted to a remainder: a straight line, and cubic splines.",
         unit="coefficients",
         origin="chosen",
-        used_in="diagnosis/remainder.py",
+        used_in="diagnosis/free_function.py",
     )
     left_out_parts: int = setting(
         8,
         "Contiguous parts of a record that are left out one by one where whole records cannot be.",
         unit="parts",
         origin="chosen",
-        used_in="diagnosis/remainder.py",
+        used_in="diagnosis/free_function.py",
     )
     linearisations: int = setting(
         3,
@@ -37,7 +37,7 @@ class RemainderSettings:
         "Standard errors of the noise's mean square by which a remainder must exceed it.",
         unit="standard errors",
         origin="chosen",
-        used_in="diagnosis/remainder.py",
+        used_in="diagnosis/free_function.py",
     )
     least_part: float = setting(
         0.2,

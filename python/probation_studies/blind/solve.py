@@ -6,11 +6,10 @@ import hashlib
 import json
 import time
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 import probation
 from probation._files import make_folder, read_whole, write_whole
@@ -18,9 +17,8 @@ from probation.origin import origin
 from probation.pool import Progress, run_all
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.seal import read_object
-from probation_studies.blind.solvers import solver_named
+from probation_studies.blind.solvers import Solver, solver_named
 
-Solver: TypeAlias = "Callable[[Path], dict[str, object]]"
 """From a campaign's folder to the answer of ``probation diagnose --json``."""
 
 ANSWER_SCHEMA = "probation.blind.answer/1"

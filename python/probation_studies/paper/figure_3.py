@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.law.modal import Spectrum
+from probation.law.spectrum import Spectrum
 from probation.published.experiments import necking_history
 from probation.published.numbers import CONSTANT_TIME_MODULUS, CONSTANT_TIME_ONSET
 from probation.report.figures import house_style, new_figure

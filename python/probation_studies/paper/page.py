@@ -9,11 +9,10 @@ from probation.report.page import Page, Picture, Section, picture
 from probation_studies.paper.exhibit import TOLERANCE, Drawing
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterable
 
     from probation.report.table import Table
     from probation_studies.paper.exhibit import Exhibit
-    from probation_studies.paper.reproduction import Reproduction
 
 _LEAD = (
     "André, Becker, Noûs, Farge and Delconte, “Certifying the intrinsic character of a constitutive law for "
@@ -27,20 +26,18 @@ _READING = (
 )
 
 
-def write_paper_page(reproduction: Reproduction, path: Path) -> Path:
-    """Write the page and return its path."""
-    Page(
+def paper_page(
+    verdict: str, overview: Table, exhibits: Iterable[Exhibit], *, good: bool, data_sha256: str, seed: int
+) -> Page:
+    """The page: the verdict, how the numbers of each exhibit came out, and the exhibits."""
+    return Page(
         title="The paper, reproduced",
-        verdict=reproduction.verdict,
-        mood="bad" if reproduction.unexplained else "good",
+        verdict=verdict,
+        mood="good" if good else "bad",
         lead=_LEAD,
-        sections=(
-            Section("What came out", (_READING, reproduction.overview())),
-            *(_section(each) for each in reproduction.exhibits.values()),
-        ),
-        provenance=provenance(reproduction.data_sha256, reproduction.settings.seed),
-    ).write(path)
-    return path
+        sections=(Section("What came out", (_READING, overview)), *map(_section, exhibits)),
+        provenance=provenance(data_sha256, seed),
+    )
 
 
 def _section(exhibit: Exhibit) -> Section:

@@ -128,9 +128,18 @@ class Reproduction:
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write one self-contained HTML page and return its path."""
-        from probation_studies.paper.page import write_paper_page  # noqa: PLC0415 - templates only when asked for
+        from probation_studies.paper.page import paper_page  # noqa: PLC0415 - templates only when asked for
 
-        return write_paper_page(self, Path(path))
+        page = paper_page(
+            self.verdict,
+            self.overview(),
+            self.exhibits.values(),
+            good=not self.unexplained,
+            data_sha256=self.data_sha256,
+            seed=self.settings.seed,
+        )
+        page.write(Path(path))
+        return Path(path)
 
     def save_figures(self, folder: str | PathLike[str]) -> tuple[Path, ...]:
         """Save every figure as PNG into `folder`, which is made if need be, and this answer as paper.json."""

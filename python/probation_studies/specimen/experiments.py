@@ -9,11 +9,11 @@ import numpy as np
 
 from probation._arrays import FloatArray, as_number, one_of
 from probation.errors import InputError
-from probation.fe.necking import neck
+from probation.fe.neck import neck
 
 if TYPE_CHECKING:
     from probation.fe.bar import Bar
-    from probation.fe.necking import Necking
+    from probation.fe.neck import Necking
     from probation.fe.point import MaterialPoint
 
 StrainMeasure = Literal["section", "surface"]

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from probation_studies.blind.laboratory.material import FloatArray
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[np.float64]
 
 BLOCK = 30
 """Samples that are summed at once."""

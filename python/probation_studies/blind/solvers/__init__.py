@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
 
 from probation.errors import InputError
 
-if TYPE_CHECKING:
-    from probation_studies.blind.solve import Solver
+Solver: TypeAlias = Callable[[Path], dict[str, object]]
+"""From the folder of a campaign to an answer."""
 
 BASELINES = {
     "nearest-signature": "probation_studies.blind.solvers.nearest_signature:nearest_signature",
