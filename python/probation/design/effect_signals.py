@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.effects.cause import Cause
 from probation.errors import InputError
+from probation.inference.own_force import ROUGHLY
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 from probation.settings.design import DESIGN
@@ -180,7 +181,8 @@ def signal(
                 if not cause.touches(view.id):
                     continue
                 specimen, recorded = still[view.id] if still else at_rest(model, view, parameters)
-                stress = model.recorded(view, base, moved, None if cause.form.needs_solve else specimen)
+                specimen_stress = None if cause.form.needs_solve else specimen
+                stress = model.recorded(view, base, moved, specimen_stress, settled=ROUGHLY)
                 added[model.rows(view.id)] = view.sampled(stress - recorded) / part
         except UNSOLVABLE:
             continue

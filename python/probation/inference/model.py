@@ -11,7 +11,7 @@ import numpy as np
 from probation._complaint import suggestion
 from probation.effects.cause import Cause
 from probation.errors import InputError
-from probation.inference.own_force import OwnForce
+from probation.inference.own_force import SETTLED, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 
@@ -266,16 +266,25 @@ class CampaignModel:
         return self.residual(parameters) - self.residual(absent)
 
     def specimen(
-        self, view: RecordView, base: FloatArray, causes: CauseValues, *, sensitivity: bool = False
+        self,
+        view: RecordView,
+        base: FloatArray,
+        causes: CauseValues,
+        *,
+        sensitivity: bool = False,
+        settled: float = SETTLED,
     ) -> Specimen:
-        """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel."""
+        """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel.
+
+        With `settled`, to so much of the largest force where this is the model's own (`own_force.ROUGHLY`).
+        """
         if not any(each.form.own_force for each, _ in causes):
             return self._driven(view, base, causes, sensitivity)
 
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
             return self._driven(view.quietened(stress), base, causes, sensitivity)
 
-        found = OwnForce(lambda stress: under(stress).stress, view.smooth_nominal_data * view.stretch)
+        found = OwnForce(lambda stress: under(stress).stress, view.smooth_nominal_data * view.stretch, settled)
         if not sensitivity:
             return Specimen(found.stress, None)
         slopes = under(found.stress, sensitivity=True).sensitivity
@@ -306,15 +315,22 @@ class CampaignModel:
         return Specimen(stress, slopes)
 
     def recorded(
-        self, view: RecordView, base: FloatArray, causes: CauseValues, specimen_stress: FloatArray | None = None
+        self,
+        view: RecordView,
+        base: FloatArray,
+        causes: CauseValues,
+        specimen_stress: FloatArray | None = None,
+        *,
+        settled: float = SETTLED,
     ) -> FloatArray:
         """Recorded true stress as the model has it, at the view's instants; shape (n,) [MPa].
 
-        With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved.
+        With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved. `settled`
+        as in `specimen`.
         """
         here = _touching(causes, view)
         if specimen_stress is None:
-            specimen_stress = self.specimen(view, base, here).stress
+            specimen_stress = self.specimen(view, base, here, settled=settled).stress
         return _as_recorded(view, here, specimen_stress)
 
     def _solved(

@@ -35,6 +35,9 @@ LOOK = 8
 SETTLED = 1e-8
 """Step at which the force is found, and what a step may leave of what it is to remove; of the largest force."""
 
+ROUGHLY = 1e-3
+"""The same where only the look of an effect counts, before it is refitted."""
+
 GOOD_ENOUGH = 1e-5
 """What may be left at the end; beyond it there is no prediction: the start is a measurement."""
 
@@ -61,6 +64,8 @@ class OwnForce:
         G: stress (n,) [MPa] from stress (n,) [MPa].
     start : ndarray, shape (n,) [MPa]
         The recorded stress, or something near it.
+    settled : float
+        `SETTLED` or `ROUGHLY`.
 
     Attributes
     ----------
@@ -68,7 +73,7 @@ class OwnForce:
         The fixed point.
     """
 
-    def __init__(self, stress: Callable[[FloatArray], FloatArray], start: FloatArray) -> None:
+    def __init__(self, stress: Callable[[FloatArray], FloatArray], start: FloatArray, settled: float = SETTLED) -> None:
         self._of = stress
         self.stress = start
         self._size = max(float(np.max(np.abs(start))), 1e-300)
@@ -76,7 +81,7 @@ class OwnForce:
         left = self._next - start
         norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
         for _ in range(MOST_STEPS):
-            if np.max(np.abs(left)) <= SETTLED * self._size:
+            if np.max(np.abs(left)) <= settled * self._size:
                 return
             stuck = len(norms) > PATIENCE and norms[-1] > 0.5 * norms[-1 - PATIENCE]
             if stuck or not np.max(np.abs(left)) < HOPELESS * self._size:
@@ -94,7 +99,7 @@ class OwnForce:
             self.stress, self._next = there, beyond
             norms.append(norm)
             part_left = min(max((norm / norms[-2]) ** 2, FINEST), ROUGHEST)
-        if not np.max(np.abs(left)) <= GOOD_ENOUGH * self._size:
+        if not np.max(np.abs(left)) <= max(GOOD_ENOUGH, settled) * self._size:
             raise ConvergenceError("the force that the frame and the specimen share was not found")
 
     def answer(self, change: FloatArray, left: float = SETTLED) -> FloatArray:

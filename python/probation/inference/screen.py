@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation.effects.cause import Cause
+from probation.inference.own_force import ROUGHLY
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
@@ -113,7 +114,7 @@ def screen(
             size = values[0] if form.threshold else form.amplitude.step(0.0)
             moved = (*active, (cause, (size, *values[1:])))
             try:
-                stress = model.recorded(view, base, moved, None if form.needs_solve else specimen)
+                stress = model.recorded(view, base, moved, None if form.needs_solve else specimen, settled=ROUGHLY)
                 found[_key(cause, values)] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
                 found[_key(cause, values)] = error
