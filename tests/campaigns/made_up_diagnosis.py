@@ -16,7 +16,8 @@ from probation.detection.gap_test import gap_test
 from probation.detection.where import locate
 from probation.diagnosis.attribution import EffectShare
 from probation.diagnosis.closure import Closure
-from probation.diagnosis.remainder import Dependence, Remainder, RemainderCurve
+from probation.diagnosis.free_function import Dependence, RemainderCurve
+from probation.diagnosis.remainder import Remainder
 from probation.diagnosis.result import (
     BaseParameter,
     CauseParameter,
