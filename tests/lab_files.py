@@ -219,6 +219,90 @@ def english(path: Path) -> None:
     path.write_text("\n".join(["Time (s),Strain (%),Stress (MPa)", *rows]) + "\n")
 
 
+def bluehill_in_german(path: Path) -> None:
+    """Instron Bluehill in German: facts of any name, semicolons, decimal commas and points between thousands."""
+    head = ['Breite;"10,00";mm', 'Dicke;"4,00";mm', 'Anfangsmesslänge;"50,00";mm', ""]
+    head += ["Zeit;Verlängerung;Last;Zugdehnung (Dehnung 1)", "(s);(mm);(N);(mm/mm)"]
+    rows = []
+    for t, u, f, e in zip(TIME, EXTENSION, FORCE, STRAIN, strict=True):
+        force = f"{f:,.4f}".translate(str.maketrans(",.", ".,"))
+        rows.append(f'"{_comma(t)}";"{_comma(u)}";"{force}";"{_comma(e)}"')
+    path.write_bytes("\r\n".join([*head, *rows, ""]).encode("cp1252"))
+
+
+def trapezium_with_results(path: Path) -> None:
+    """Shimadzu: a table of dimensions above the samples, and one of results below them."""
+    head = ['"Name","Thickness","Width","Gauge Length"', '"Units","mm","mm","mm"', '"1 _ 1","4.0","10.0","50.0"', ""]
+    head += ['"Time","Stress","Strain(Ext.)","Stroke"', '"min","N/mm2","%","mm"']
+    rows = [
+        f'"{t / 60:.9f}","{s:.6f}","{100 * e:.6f}","{1.1 * u:.6f}"'
+        for t, s, e, u in zip(TIME, STRESS, STRAIN, EXTENSION, strict=True)
+    ]
+    foot = ["", '"Name","Max_Stress","Break_Strain"', '"Units","N/mm2","%"', '"1 _ 1","44.0","20.0"']
+    path.write_text("\n".join([*head, *rows, *foot]) + "\n")
+
+
+def stage_with_clock(path: Path) -> None:
+    """A stage whose samples have the time of day, across midnight; headings and dimensions in remarks."""
+    head = ["# tensile stage", "# sample A, thickness 4.0 mm, width 10 mm, free length 50 mm"]
+    head.append("# time       elongation[um]  force[N]")
+    rows = []
+    for t, u, f in zip(TIME, EXTENSION, FORCE, strict=True):
+        of_day = (86390.0 + t) % 86400.0
+        clock = f"{int(of_day // 3600):02d}:{int(of_day // 60) % 60:02d}:{of_day % 60:06.3f}"
+        rows.append(f"{clock} {1000 * u:12.3f} {f:12.5f}")
+    path.write_text("\n".join([*head, *rows]) + "\n")
+
+
+def catman_with_counts(path: Path) -> None:
+    """HBM catman: a row of counts above channels that have the user's names."""
+    head = [
+        *("HBM\tcatmanAP", "T0:\t12/03/2024 10:33:22", "Channels:\t3", f"Length:{f'{chr(9)}{len(TIME)}' * 3}"),
+        "Time  1 - default sample rate\tU10M_Force\tExtens_DD1",
+        *("s\tkN\tµm/m", "SR=5 Hz\tSR=5 Hz\tSR=5 Hz", "CH 0\tCH 1\tCH 2"),
+    ]
+    rows = [f"{t:.3f}\t{f / 1000:.8f}\t{1e6 * e:.3f}" for t, f, e in zip(TIME, FORCE, STRAIN, strict=True)]
+    path.write_bytes("\r\n".join([*head, *rows, ""]).encode("cp1252"))
+
+
+def catman_in_french(path: Path) -> None:
+    """HBM catman in French: dimensions with their symbols, units in the headings."""
+    head = ["catmanEasy ; Exportation ASCII", "Longueur initiale L0 : 50,0 mm", "Section initiale S0 : 40,0 mm²", ""]
+    head.append("Temps [s];Force [kN];Allongement [mm];Déformation [%]")
+    rows = [
+        ";".join(map(_comma, values)) for values in zip(TIME, FORCE / 1000, 1.1 * EXTENSION, 100 * STRAIN, strict=True)
+    ]
+    path.write_bytes("\r\n".join([*head, *rows, ""]).encode("cp1252"))
+
+
+def zwick_series(path: Path) -> None:
+    """Zwick testXpert: the gauge length on one sheet, each specimen's section on another."""
+    book = openpyxl.Workbook()
+    book.active.title = "Parameter"
+    book.active.append(["Messlänge L0", 50, "mm"])
+    results = book.create_sheet("Ergebnisse")
+    for row in (["Legende", "Nr.", "h", "b", "S0"], [None, None, "mm", "mm", "mm²"], ["Probe 1", 1, 4.0, 10.0, 40.0]):
+        results.append(row)
+    results.append(["Probe 2", 2, 4.1, 10.0, 41.0])
+    for number in (1, 2):
+        sheet = book.create_sheet(f"Probe {number}")
+        sheet.append(["Prüfzeit", "Standardkraft", "Standardweg"])
+        sheet.append(["s", "N", "mm"])
+        for values in zip(TIME, FORCE * (1.0, 1.025)[number - 1], EXTENSION, strict=True):
+            sheet.append([float(value) for value in values])
+    book.save(path)
+
+
+def with_remarks(path: Path) -> None:
+    """A file that somebody kept by hand: remarks above, between and beside the samples, results below."""
+    head = ["// strip 13, second try", "# gauge length 50 mm, section 4.0 x 10 mm", ""]
+    head += ["Running Time,Axial Force,Stroke,Extensometer,Remarks", "sec,N,mm,mm,"]
+    rows = [f"{t:.3f},{f:.5f},{1.1 * u:.5f},{u:.5f}," for t, f, u in zip(TIME, FORCE, EXTENSION, strict=True)]
+    rows[7] += "necking?"
+    rows[50:50] = ["", "# light switched on here"]
+    path.write_text("\n".join([*head, *rows, "", "Max force,641.38,N", "Mean,12.3,4.5,6.7", "END OF TEST"]) + "\n")
+
+
 FILES: dict[str, tuple[Callable[[Path], None], str, int]] = {
     "Specimen_RawData_1.csv": (bluehill, "bluehill", 1),
     "Specimen_RawData_2.csv": (bluehill_with_commas, "bluehill", 1),
@@ -234,5 +318,12 @@ FILES: dict[str, tuple[Callable[[Path], None], str, int]] = {
     "Temp_LP.asc": (catman_text, "catman", 1),
     "essai.csv": (french, "csv", 1),
     "tension.csv": (english, "csv", 1),
+    "Zug 1.csv": (bluehill_in_german, "bluehill", 1),
+    "raw-results.csv": (trapezium_with_results, "trapezium", 1),
+    "in-situ.asc": (stage_with_clock, "csv", 1),
+    "counts.asc": (catman_with_counts, "catman", 1),
+    "essai-catman.csv": (catman_in_french, "catman", 1),
+    "Serie.xlsx": (zwick_series, "testxpert", 2),
+    "strip-13.csv": (with_remarks, "testsuite", 1),
 }
-"""Fourteen files by name: what makes each, the profile that reads it, how many specimens it holds."""
+"""Files by name: what makes each, the profile that reads it, how many specimens it holds."""

@@ -23,7 +23,7 @@ SPECIMEN = ["--specimen", "area_mm2=40", "--specimen", "gauge_length_mm=50"]
 
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
-    """The fourteen files."""
+    """The files."""
     folder = tmp_path_factory.mktemp("lab")
     for name, (make, _, _) in FILES.items():
         make(folder / name)
@@ -38,10 +38,10 @@ def made(lab, tmp_path_factory):
     return folder
 
 
-def test_fourteen_messy_files_become_a_campaign_without_writing_toml(made):
+def test_twenty_one_messy_files_become_a_campaign_without_writing_toml(made):
     campaign = Campaign.load(made)
     assert {record.file.name for record in campaign.records} == set(FILES)
-    assert len(campaign.records) == sum(count for _, _, count in FILES.values()) == 17
+    assert len(campaign.records) == sum(count for _, _, count in FILES.values()) == 25
     assert {record.control for record in campaign.records} == {"displacement-rate"}
 
 
@@ -55,7 +55,7 @@ def test_the_campaign_fits(made):
 
 def test_a_campaign_survives_being_moved(made, tmp_path):
     moved = shutil.move(shutil.copytree(made, tmp_path / "copy"), tmp_path / "elsewhere")
-    assert len(Campaign.load(moved).records) == 17
+    assert len(Campaign.load(moved).records) == 25
 
 
 def test_a_page_shows_every_record(made):

@@ -13,7 +13,7 @@ from probation.records.reading import read_record, read_records
 DATA = Path(__file__).parents[2].parent / "shared" / "data"
 needs_data = pytest.mark.skipif(not DATA.exists(), reason="the measured records are not here")
 
-WITHOUT_DIMENSIONS = ("Zugversuch.xlsx", "DAQ- Axial.csv", "specimen.dat", "Temp_LP.xlsx", "Temp_LP.asc")
+WITHOUT_DIMENSIONS = ("Zugversuch.xlsx", "DAQ- Axial.csv", "specimen.dat", "Temp_LP.xlsx", "Temp_LP.asc", "counts.asc")
 HOW = {
     **{name: {"specimen": {"area_mm2": 40.0, "gauge_length_mm": 50.0}} for name in WITHOUT_DIMENSIONS},
     "tension.csv": {"columns": {"engineering_strain": "Strain (%)", "engineering_stress": "Stress (MPa)"}},
@@ -88,6 +88,42 @@ def test_the_best_of_several_columns_is_read(tmp_path):
     path.write_text("Time (s),Extension (mm),Stroke (mm),Force (N)\n" + rows)
     record = read_record(path, specimen={"area_mm2": 1.0, "gauge_length_mm": 1.0})
     assert record.true_strain[-1] == pytest.approx(np.log(1.11))
+
+
+def test_each_sheet_has_the_section_that_stands_in_the_row_of_its_specimen(lab):
+    first, second = read_records(lab("Serie.xlsx"))
+    assert second.true_stress == pytest.approx(first.true_stress)
+
+
+def test_what_stands_between_the_samples_is_left_out_and_said(lab):
+    notes = read_record(lab("strip-13.csv")).warnings
+    assert any("left out 1 remark between the numbers: '# light switched on here' in row 57" in note for note in notes)
+    assert any("left out 3 rows of text below the numbers: 'Max force'" in note for note in notes)
+
+
+def test_times_of_day_are_seconds_since_the_first_and_said(lab):
+    record = read_record(lab("in-situ.asc"))
+    assert record.time[-1] == pytest.approx(20.0)
+    assert any("'time' holds times of day" in note for note in record.warnings)
+
+
+def test_a_bad_time_of_day_is_named_by_its_row(tmp_path):
+    path = tmp_path / "clock.csv"
+    rows = [f"10:00:{at:02d},{at / 100},{at}" for at in range(12)]
+    rows[8] = "10:00:8x,0.08,8"
+    path.write_text("\n".join(["time,true strain,true stress (MPa)", *rows]) + "\n")
+    with pytest.raises(
+        InputError, match=r"row 10, column 'time': found '10:00:8x', expected a time of day as in row 2"
+    ):
+        read_record(path)
+
+
+def test_a_bad_last_row_is_no_table_of_results(tmp_path):
+    path = tmp_path / "last.csv"
+    rows = [f"{at},{at / 100},{at}" for at in range(12)]
+    path.write_text("\n".join(["time (s),true strain,true stress (MPa)", *rows, "x,0.12,12"]) + "\n")
+    with pytest.raises(InputError, match=r"row 14, column 'time \(s\)': found 'x', expected a number"):
+        read_record(path)
 
 
 def test_preview_shows_the_facts_of_the_head_and_what_it_takes_from_them(lab):

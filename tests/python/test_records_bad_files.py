@@ -76,7 +76,7 @@ def test_a_position_outside_the_table_is_refused(refusal):
         ("abc", "correct or remove the cell"),
         ("1_0", "correct or remove the cell"),
         ("12 MPa", "put the unit into the heading instead"),
-        ('"1,234.5"', "remove thousands separators"),
+        ('"1,23,4.5"', "remove thousands separators"),
         ('"0,5"', "use one decimal mark throughout"),
     ],
 )

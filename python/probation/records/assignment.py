@@ -16,6 +16,7 @@ from probation.records.roles import (
     VAGUE,
     is_further,
     normalised,
+    role_in,
     role_of,
 )
 from probation.records.table import Column, Table
@@ -61,6 +62,8 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
         if column := named.get(role) or implied.get(role):
             assigned[role] = column
     assigned = {role: _with_unit_of_label(role, column) for role, column in assigned.items()}
+    if "time" in assigned and table.clock_times(assigned["time"]) is not None:
+        assigned["time"] = replace(assigned["time"], unit="s")  # whatever the heading says of hours and minutes
     for role in options.units:
         if role not in assigned:
             raise InputError(
@@ -76,9 +79,9 @@ def _from_labels(table: Table, roles: Mapping[str, str | int]) -> dict[str, Colu
 
 def _from_headings(table: Table) -> dict[str, Column]:
     implied: dict[str, Column] = {}
-    better = {role_of(column.name) for column in table.columns if not _is_further(column)}
+    better = {role_in(column.name, column.unit) for column in table.columns if not _is_further(column)}
     for column in table.columns:
-        role = role_of(column.name)
+        role = role_in(column.name, column.unit)
         if _is_further(column) and role in better:
             continue
         if role in implied:
@@ -101,7 +104,7 @@ def _from_headings(table: Table) -> dict[str, Column]:
 
 
 def _is_further(column: Column) -> bool:
-    role = role_of(column.name)
+    role = role_in(column.name, column.unit)
     return role is not None and is_further(role, column.name)
 
 

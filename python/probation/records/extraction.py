@@ -210,10 +210,14 @@ def _with_time(table: Table, reading: Reading, options: ReadOptions, columns: di
 
 def _untimed_samples(table: Table, columns: dict[str, Column]) -> _Raw:
     """The columns, padding and repeated last rows cut."""
-    samples = {role: table.numbers(column) for role, column in columns.items()}
+    samples = {
+        role: table.times(column) if role == "time" else table.numbers(column) for role, column in columns.items()
+    }
     blank = [role for role in OPTIONAL_ROLES if role in samples and np.isnan(samples[role]).all()]
     notes = [f"left out {role}: its column {quoted(columns[role].label)} is empty" for role in blank]
     samples = {role: values for role, values in samples.items() if role not in blank}
+    if "time" in columns and table.clock_times(columns["time"]) is not None:
+        notes.append(f"column {quoted(columns['time'].label)} holds times of day: seconds since the first are read")
     stacked = np.stack(list(samples.values()))
     filled = np.flatnonzero(~np.isnan(stacked).all(axis=0))
     if not filled.size:

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 
 from probation._complaint import bad_input
 from probation.limits import CELL_CHARACTERS, CELLS, COLUMNS, LINE_CHARACTERS, ROWS
+from probation.records.cell import is_sample
 from probation.records.source import Source
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}
 BLANKS = "blanks"
 _SNIFFED_LINES = 200
 _NAME_AND_UNIT = re.compile(r"[^\s(\[]+(?:\s*[(\[][^)\]]*[)\]])?")
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
-_WITH_COMMA = re.compile(r"^[^\S\n]*[+-]?\d*,\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
-_WITH_POINT = re.compile(r"^[^\S\n]*[+-]?\d*\.\d+([eE][+-]?\d+)?[^\S\n]*$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -149,9 +147,9 @@ def sniff_separator(text: str) -> str | None:
 
 
 def _numbers_alone(line: str) -> bool:
-    """Whether there is nothing but numbers between blanks, two at least."""
+    """Whether there is nothing but samples between blanks, two at least."""
     cells = line.split()
-    return len(cells) > 1 and all(map(is_number, cells))
+    return len(cells) > 1 and all(map(is_sample, cells))
 
 
 def _with_tabs(text: str) -> str:
@@ -163,12 +161,15 @@ def _with_tabs(text: str) -> str:
 
 
 def _cells(line: str, columns: int) -> list[str]:
-    """The cells of a line; a heading may hold blanks, if only that gives as many cells as the numbers have."""
+    """The cells of a line; a heading may hold blanks, if only that gives as many cells as the numbers have.
+
+    Any other line is a remark, and one cell.
+    """
     if _numbers_alone(line):
         return line.split()
     heading = line.strip().lstrip("#%").strip()
     ways = (heading.split(), re.split(r"\s{2,}|\t+", heading), _NAME_AND_UNIT.findall(heading))
-    return next((cells for cells in ways if len(cells) == columns), line.split())
+    return next((cells for cells in ways if len(cells) == columns), [line.strip()])
 
 
 def _number_share(lines: Sequence[str], separator: str) -> float:
@@ -181,16 +182,5 @@ def _number_share(lines: Sequence[str], separator: str) -> float:
             continue
         filled = [cell for cell in cells if cell.strip()]
         if len(cells) > 1 and filled:
-            total += sum(map(is_number, filled)) / len(filled)
+            total += sum(map(is_sample, filled)) / len(filled)
     return total
-
-
-def is_number(cell: str) -> bool:
-    """Tell whether a cell is meant as a number, NaN and decimal commas included."""
-    return _NUMBER.fullmatch(cell.strip()) is not None
-
-
-def decimal_mark(rows: Sequence[Sequence[str]]) -> str:
-    """Find the decimal mark of the cells: the comma only where no cell uses the point."""
-    cells = "\n".join("\n".join(row) for row in rows)
-    return "," if _WITH_COMMA.search(cells) and not _WITH_POINT.search(cells) else "."

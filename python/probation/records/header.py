@@ -4,7 +4,8 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from probation.records.grid import Grid, is_number
+from probation.records.cell import is_number, is_sample
+from probation.records.grid import Grid
 from probation.records.roles import normalised, role_of, split_suffix
 from probation.records.table import Column
 from probation.records.units import is_percent, is_unit, measures
@@ -91,10 +92,10 @@ def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str], known: C
 
 
 def _is_data_row(row: Sequence[str]) -> bool:
-    """More than half of the filled cells are numbers, and at least two are."""
-    filled = [cell for cell in row if cell.strip()]
-    count = sum(map(is_number, filled))
-    return count >= 2 and count > len(filled) / 2
+    """More than half of the filled cells are samples, at least two are, and the first is no name of a fact."""
+    filled = [cell.strip() for cell in row if cell.strip()]
+    count = sum(map(is_sample, filled))
+    return count >= 2 and count > len(filled) / 2 and not filled[0].endswith(":")
 
 
 def _first_data_row(rows: Sequence[Sequence[str]], start: int) -> int:

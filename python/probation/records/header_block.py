@@ -4,6 +4,7 @@ Laboratories write ``Gauge Length(mm) : 5.1`` in one cell, ``Dimension : Width,1
 specimens with a row of names, a row of units and a row for each.
 """
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from probation.errors import InputError
-from probation.records.grid import is_number
+from probation.records.cell import is_number, with_point
 from probation.records.header import split_unit, without_brackets
 from probation.records.options import with_area
 from probation.records.roles import normalised
@@ -20,14 +21,16 @@ from probation.records.units import convert, measures
 
 _NAMES = {
     "gauge_length_mm": (
-        *("gauge_length", "gage_length", "initial_gauge_length", "gauge_length_l0", "gauge_length_lo", "l0", "lo"),
-        *("length", "specimen_length", "messlänge", "messlaenge", "anfangsmesslänge", "messlänge_l0", "einspannlänge"),
-        *("messlänge_standardweg", "einspannlänge_bei_startposition"),
-        *("longueur_initiale", "longueur_de_jauge", "longueur_utile", "base_de_mesure"),
+        *("gauge_length", "gage_length", "initial_gauge_length", "gauge_length_initial_value", "l0", "lo"),
+        *("length", "specimen_length", "free_length", "grip_separation"),
+        *("messlänge", "messlaenge", "anfangsmesslänge", "anfangslänge", "probenlänge", "messlänge_bei_start"),
+        *("freie_länge", "einspannlänge", "messlänge_standardweg", "einspannlänge_bei_start"),
+        "einspannlänge_bei_startposition",
+        *("longueur_initiale", "longueur_de_jauge", "longueur_utile", "base_de_mesure", "longueur_libre"),
     ),
-    "width_mm": ("width", "specimen_width", "b0", "breite", "probenbreite", "probenbreite_b0", "largeur"),
+    "width_mm": ("width", "specimen_width", "b0", "b", "breite", "probenbreite", "largeur"),
     "thickness_mm": (
-        *("thickness", "specimen_thickness", "a0", "dicke", "probendicke", "probendicke_a0"),
+        *("thickness", "specimen_thickness", "a0", "h", "dicke", "probendicke"),
         *("épaisseur", "epaisseur"),
     ),
     "diameter_mm": ("diameter", "specimen_diameter", "d0", "durchmesser", "probendurchmesser", "diamètre", "diametre"),
@@ -37,6 +40,11 @@ _NAMES = {
     ),
 }
 _DIMENSIONS = {name: key for key, names in _NAMES.items() for name in names}
+_SYMBOL = re.compile(r"_(l0|lo|s0|a0|b0|d0)$")  # at the end of a name: "Section initiale S0"
+_REMARK = re.compile(r"^[\s#%/*]+")
+_PART = re.compile(r"[;,]\s+")
+_NAME_AND_NUMBER = re.compile(r"(\D*[^\d\s:=])\s*[:=]?\s*([\d.,]+)\s*(\S{1,12})")
+_SIDES = re.compile(r"(\D*[^\d\s:=])\s*[:=]?\s*([\d.,]+)\s*(\S{1,4}?)?\s*[x×*]\s*([\d.,]+)\s*(\S{1,12})")
 _TRAILING_NUMBER = re.compile(r"\s*([+-]?[\d.,]+(?:[eE][+-]?\d+)?)\s*(\S{0,12})\s*")
 
 
@@ -76,7 +84,8 @@ def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
     if tabled:
         return HeaderBlock(_facts(rows), tabled)
     found: dict[str, float] = {}
-    for key, value, _ in sorted(filter(None, map(_dimension, rows)), key=lambda dimension: dimension[2]):
+    said = [*filter(None, map(_dimension, rows)), *(each for row in rows for each in _in_remarks(row))]
+    for key, value, _ in sorted(said, key=lambda dimension: dimension[2]):
         found.setdefault(key, value)
     needed = _needed(path, found)
     return HeaderBlock(_facts(rows), (needed,) if needed else ())
@@ -109,12 +118,36 @@ def _dimension(row: Sequence[str]) -> tuple[str, float, int] | None:
     if not values or len(values) > 2:
         return None
     name, unit = split_unit(label)
-    key = _DIMENSIONS.get(normalised(name))
+    known = _known(name)
     match = _TRAILING_NUMBER.fullmatch(" ".join(values))
-    if key is None or match is None:
+    if known is None or match is None:
         return None
-    dimension = _in_millimetres(key, match[1], match[2] or unit or "")
-    return None if dimension is None else (*dimension, _NAMES[key].index(normalised(name)))
+    dimension = _in_millimetres(known[0], match[1], match[2] or unit or "")
+    return None if dimension is None else (*dimension, known[1])
+
+
+def _known(name: str) -> tuple[str, int] | None:
+    """The dimension of that name, perhaps with its symbol behind it, and how far the name stands down in `_NAMES`."""
+    folded = normalised(name)
+    for text in (folded, _SYMBOL.sub("", folded)):
+        if text in _DIMENSIONS:
+            return _DIMENSIONS[text], _NAMES[_DIMENSIONS[text]].index(text)
+    return None
+
+
+def _in_remarks(row: Sequence[str]) -> list[tuple[str, float, int]]:
+    """Dimensions in running text: ``# gauge length 33 mm, section 3.2 x 4.0 mm``."""
+    said = []
+    for part in (part for cell in row for part in _PART.split(_REMARK.sub("", cell))):
+        if (match := _SIDES.fullmatch(part)) and (known := _known(match[1])) and known[0] == "area_mm2":
+            sides = [_in_millimetres("width_mm", text, match[5]) for text in (match[2], match[4])]
+            if None not in sides:
+                said.append((known[0], math.prod(side[1] for side in sides if side), known[1]))
+        elif (match := _NAME_AND_NUMBER.fullmatch(part)) and (known := _known(match[1])):
+            dimension = _in_millimetres(known[0], match[2], match[3])
+            if dimension is not None:
+                said.append((*dimension, known[1]))
+    return said
 
 
 def _in_millimetres(key: str, text: str, unit: str) -> tuple[str, float] | None:
@@ -123,18 +156,15 @@ def _in_millimetres(key: str, text: str, unit: str) -> tuple[str, float] | None:
     unit = without_brackets(unit) or target
     if not is_number(text) or not measures(unit, target):
         return None
-    value = float(convert(np.array([float(text.replace(",", "."))]), unit, target)[0])
+    number = with_point(text, "," if text.rfind(",") > text.rfind(".") else ".")
+    value = float(convert(np.array([float(number)]), unit, target)[0])
     return (key, value) if 0.0 < value < np.inf else None
 
 
 def _table_of_specimens(path: Path, rows: Sequence[Sequence[str]]) -> tuple[dict[str, float], ...]:
     """Dimensions in a table: a row of names, perhaps a row of units, a row of numbers for each specimen."""
     for at, row in enumerate(rows):
-        keys = {
-            place: _DIMENSIONS[normalised(split_unit(cell)[0])]
-            for place, cell in enumerate(row)
-            if normalised(split_unit(cell)[0]) in _DIMENSIONS
-        }
+        keys = {place: known[0] for place, cell in enumerate(row) if (known := _known(split_unit(cell)[0])) is not None}
         if len(set(keys.values())) < 2:
             continue
         units = {place: split_unit(row[place])[1] or "" for place in keys}

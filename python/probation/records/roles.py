@@ -3,6 +3,8 @@
 import re
 from dataclasses import dataclass
 
+from probation.records.units import measures
+
 
 @dataclass(frozen=True)
 class Role:
@@ -36,7 +38,17 @@ _STRESS_UNIT = "a stress unit such as 'MPa'"
 ROLES: dict[str, Role] = {
     "time": _role(
         *("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
-        further=("running_time", "total_time", "zeit", "prüfzeit", "pruefzeit", "temps", "durée", "temps_écoulé"),
+        further=(
+            "running_time",
+            "total_time",
+            "zeit",
+            "prüfzeit",
+            "pruefzeit",
+            "messzeit",
+            "temps",
+            "durée",
+            "temps_écoulé",
+        ),
     ),
     "true_strain": _role(
         *("dimensionless", _STRAIN_UNIT, "true_strain", "hencky_strain", "log_strain", "logarithmic_strain"),
@@ -45,7 +57,8 @@ ROLES: dict[str, Role] = {
     "engineering_strain": _role(
         *("dimensionless", _STRAIN_UNIT, "engineering_strain", "eng_strain", "nominal_strain"),
         further=(
-            *("tensile_strain", "axial_strain", "technische_dehnung", "nominelle_dehnung"),
+            *("tensile_strain", "axial_strain", "technische_dehnung", "nominelle_dehnung", "zugdehnung"),
+            *("extensometer", "axial_extensometer", "extensometer_strain", "feindehnung", "extensomètre"),
             *("déformation_nominale", "déformation_conventionnelle", "deformation_nominale"),
         ),
     ),
@@ -78,7 +91,10 @@ ROLES: dict[str, Role] = {
     ),
     "force": _role(
         *("N", "a force unit such as 'N'", "force", "load"),
-        further=("axial_force", "axial_load", "kraft", "standardkraft", "prüfkraft", "pruefkraft", "effort", "charge"),
+        further=(
+            *("axial_force", "axial_load", "kraft", "last", "standardkraft", "prüfkraft", "pruefkraft"),
+            *("effort", "charge"),
+        ),
     ),
     "strain_rate": _role("1/s", "a rate unit such as '1/s'", "strain_rate", "true_strain_rate"),
     "transverse_strain": _role("dimensionless", _STRAIN_UNIT, "transverse_strain", "true_transverse_strain"),
@@ -88,7 +104,10 @@ ROLES: dict[str, Role] = {
     ),
 }
 VAGUE = {
-    "strain": ("strain", "dehnung", "déformation", "deformation", "elongation", "allongement", "strain_1"),
+    "strain": (
+        *("strain", "strain_1", "elongation", "dehnung", "verlängerung", "verlaengerung"),
+        *("déformation", "deformation", "allongement"),
+    ),
     "stress": ("stress", "spannung", "contrainte"),
 }
 """Headings, as `normalised`, that do not say whether a strain or a stress is true or engineering."""
@@ -114,6 +133,14 @@ def role_of(heading: str) -> str | None:
     """Tell the role that a heading without unit stands for, if it says so unmistakably."""
     folded = normalised(heading)
     return next((name for name, role in ROLES.items() if folded in role.headings | role.further), None)
+
+
+def role_in(heading: str, unit: str | None) -> str | None:
+    """Tell the role that a heading stands for in that unit: an extensometer's column in mm is a displacement."""
+    role = role_of(heading)
+    if role == "engineering_strain" and unit and measures(unit, "mm"):
+        return "displacement"
+    return role
 
 
 def is_further(role: str, heading: str) -> bool:

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from probation._complaint import bad_input, quoted
+from probation.records.cell import seconds_of_day, with_point
 
 FloatArray = NDArray[np.float64]
+_HALF_A_DAY = 43200.0  # s; a step back by more is midnight
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,53 @@ class Table:
                 return values
         return self._cell_by_cell(column, cells)
 
+    def times(self, column: Column) -> FloatArray:
+        """Values of a column of times, those of day in seconds since the first.
+
+        Raises
+        ------
+        InputError
+            As `numbers`.
+        """
+        of_day = self.clock_times(column)
+        return self.numbers(column) if of_day is None else of_day
+
+    def clock_times(self, column: Column) -> FloatArray | None:
+        """Seconds since the first sample, where the column holds times of day; None where it does not.
+
+        A time that is earlier than the one above is one of the next day.
+
+        Returns
+        -------
+        ndarray, shape (n_rows,) [s] or None
+            NaN where the cell is empty.
+
+        Raises
+        ------
+        InputError
+            If the first sample has a time of day and another has none.
+        """
+        cells = self.cells(column)
+        filled = [at for at, cell in enumerate(cells) if cell.strip()]
+        if not filled or seconds_of_day(cells[filled[0]]) is None:
+            return None
+        times = [seconds_of_day(cells[at]) for at in filled]
+        if None in times:
+            at = filled[times.index(None)]
+            raise bad_input(
+                self.path,
+                quoted(cells[at]),
+                f"a time of day as in row {self.row_numbers[filled[0]]}, {quoted(cells[filled[0]])}",
+                row=self.row_numbers[at],
+                column=column.label,
+                remedy=self._remedy(cells[at].strip()),
+            )
+        of_day = np.array(times, dtype=np.float64)
+        days = np.cumsum(np.diff(of_day, prepend=of_day[0]) < -_HALF_A_DAY)
+        values = np.full(len(cells), np.nan)
+        values[filled] = of_day - of_day[0] + 2.0 * _HALF_A_DAY * days
+        return values
+
     def _cell_by_cell(self, column: Column, cells: list[str]) -> FloatArray:
         """Parse slowly: tolerate blanks, and name the first cell that is no number."""
         values = np.full(len(cells), np.nan)
@@ -114,7 +163,7 @@ class Table:
                 if "_" in text:
                     raise ValueError
                 if text:
-                    values[at] = float(text.replace(",", ".") if self.decimal == "," else text)
+                    values[at] = float(with_point(text, self.decimal))
             except ValueError:
                 raise bad_input(
                     self.path,

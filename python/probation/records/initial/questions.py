@@ -12,7 +12,7 @@ from probation.records.assignment import assign_columns
 from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadingKeys, read_options, with_area
 from probation.records.roles import STRAIN_ROLES, STRESS_ROLES, VAGUE, normalised, role_of
-from probation.records.table import Column, Table
+from probation.records.table import Table
 from probation.records.units import measures
 
 _DIAMETER = re.compile(r"d\s*=?\s*(\S+)", re.IGNORECASE)
@@ -86,6 +86,7 @@ def refuse_unanswered(questions: Sequence[Question]) -> None:
         raise InputError(f"{'; '.join(said)}; {ending}")
 
 
+_UNITS = {"stress": "MPa", "strain": "dimensionless"}
 _STAND_IN = {"area": "1", "gauge_length": "1", "test_rate": "1 1/s"}
 """Answers with which the other questions of a file are found."""
 
@@ -164,8 +165,9 @@ def answered(path: Path, how: ReadingKeys, question: Question, answer: str) -> R
 
 
 def _about_column(path: Path, table: Table, quantity: str) -> Question | None:
-    vague = [column for column in table.columns if normalised(column.name) in VAGUE[quantity]]
-    vague += [column for column in table.columns if _is_vague_by_unit(column, quantity)]
+    measured = [column for column in table.columns if not column.unit or measures(column.unit, _UNITS[quantity])]
+    vague = [column for column in measured if normalised(column.name) in VAGUE[quantity]]
+    vague += [column for column in measured if column.unit and role_of(column.name) is None]
     if not vague:
         return None
     label = vague[0].label
@@ -177,12 +179,6 @@ def _about_column(path: Path, table: Table, quantity: str) -> Question | None:
         "engineering",
         ("engineering", "true"),
     )
-
-
-def _is_vague_by_unit(column: Column, quantity: str) -> bool:
-    """A column of no known name in MPa or in percent."""
-    units = {"stress": "MPa", "strain": "dimensionless"}
-    return role_of(column.name) is None and bool(column.unit) and measures(column.unit or "", units[quantity])
 
 
 def _has_lone_unit(table: Table, unit: str) -> bool:

@@ -27,7 +27,7 @@ _ITS_FACTS = re.compile(r"Hardware channel:|Hardware-Kanal:|^(Time|Zeit)\s+\d+ -
 def _roles(columns: Sequence[Column]) -> dict[str, int]:
     """The first channel of each unit, one that is called an extensometer before others."""
     roles: dict[str, int] = {}
-    if columns and normalised(columns[0].name).startswith(("time", "zeit")):
+    if columns and normalised(columns[0].name).startswith(("time", "zeit", "temps")):
         roles["time"] = columns[0].position + 1
     for role, unit in _UNITS.items():
         fitting = [column for column in columns[1:] if column.unit and measures(column.unit, unit)]

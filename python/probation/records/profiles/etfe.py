@@ -6,7 +6,8 @@ reads the other. The authors' strain rate is the numerical derivative of their s
 taken as a measured rate unless asked for: ``columns = { strain_rate = "true strain rate SOI" }``.
 """
 
-from probation.records.grid import is_number, read_grid
+from probation.records.cell import is_number
+from probation.records.grid import read_grid
 from probation.records.options import ReadOptions
 from probation.records.profiles.positional import tables_by_position
 from probation.records.profiles.profile import Profile, Reading

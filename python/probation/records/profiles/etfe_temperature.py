@@ -1,6 +1,7 @@
 """Profile ``etfe_temperature``: chamber temperatures of Comitti and Bosi's tests."""
 
-from probation.records.grid import decimal_mark, read_grid
+from probation.records.cell import decimal_mark
+from probation.records.grid import read_grid
 from probation.records.options import ReadOptions
 from probation.records.profiles.profile import Profile, Reading
 from probation.records.source import Source

@@ -4,7 +4,7 @@ import io
 import re
 import warnings
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from probation.errors import InputError
 from probation.limits import INFLATED_BYTES, MEBIBYTE
 from probation.records.checks import MINIMUM_SAMPLES
 from probation.records.grid import Grid, check_extent
+from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
 from probation.records.profiles.profile import Profile, Reading
 from probation.records.profiles.tables import read_tables
@@ -60,6 +61,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
                 + suggestion(options.sheet, workbook.sheetnames)
             )
         filled = [(name, found) for name in sheets if (found := _grid(source, workbook, name))[0].rows]
+        heads = {name: _grid(source, workbook, name, _HEADED_ROWS)[0] for name in workbook.sheetnames}
     finally:
         workbook.close()
     if not filled:
@@ -67,22 +69,37 @@ def _read(source: Source, options: ReadOptions) -> Reading:
     long = [sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES]
     name, (grid, percents) = (long or filled)[0]
     reading = read_tables(source, grid, options)
-    like = tuple(other for other, (grid, _) in long if _is_headed_alike(grid, reading.tables[0]))
+    like = tuple(other for other, head in heads.items() if _is_headed_alike(head, reading.tables[0]))
+    elsewhere = _said_elsewhere(source, heads, like, name)
     ignored = [other for other, _ in filled if other != name]
     note = f"read sheet {quoted(name)} only; choose another with sheet = … (--sheet): {', '.join(ignored)}"
     return replace(
         reading,
-        tables=tuple(_as_shown(table, percents) for table in reading.tables),
+        tables=tuple(
+            replace(_as_shown(table, percents), specimen=elsewhere | table.specimen) for table in reading.tables
+        ),
         warnings=(*reading.warnings, note) if ignored else reading.warnings,
-        like_sheets=like,
+        like_sheets=like if options.sheet is None else (),
     )
 
 
 def _is_headed_alike(grid: Grid, table: Table) -> bool:
     """The sheet has the headings of the table, so it is another specimen of the same test."""
     headings = [column.label for column in table.columns if column.label]
-    rows = ([text for cell in row if (text := " ".join(cell.split()))] for row in grid.rows[:_HEADED_ROWS])
+    rows = ([text for cell in row if (text := " ".join(cell.split()))] for row in grid.rows)
     return any(row[: len(headings)] == headings for row in rows)
+
+
+def _said_elsewhere(source: Source, heads: Mapping[str, Grid], like: Sequence[str], name: str) -> dict[str, float]:
+    """Dimensions in the sheets without samples: of all specimens, or a row for each in the order of their sheets."""
+    found: dict[str, float] = {}
+    for other, head in heads.items():
+        if other == name or other in like:
+            continue
+        block = header_block(source.path, head.rows)
+        if len(block.specimens) in (1, len(like)):
+            found = block.specimen(like.index(name) if name in like else 0) | found
+    return found
 
 
 def _open(source: Source) -> "Workbook":
@@ -101,8 +118,10 @@ def _open(source: Source) -> "Workbook":
     return openpyxl.load_workbook(content, read_only=True, data_only=True, keep_links=False)
 
 
-def _grid(source: Source, workbook: "Workbook", name: str) -> tuple[Grid, set[tuple[int, int]]]:
-    """The cells of a sheet; and which of them, by row number and position, are shown as percentages."""
+def _grid(
+    source: Source, workbook: "Workbook", name: str, last: int | None = None
+) -> tuple[Grid, set[tuple[int, int]]]:
+    """The cells of a sheet, to a last row; and which, by row number and position, are shown as percentages."""
     sheet = workbook[name]
     percents: set[tuple[int, int]] = set()
     rows: list[list[str]] = []
@@ -111,7 +130,7 @@ def _grid(source: Source, workbook: "Workbook", name: str) -> tuple[Grid, set[tu
     if hasattr(sheet, "iter_rows"):  # a chart sheet has none
         if hasattr(sheet, "reset_dimensions"):
             sheet.reset_dimensions()  # some programs write a wrong extent
-        for number, cells in enumerate(sheet.iter_rows(), start=1):
+        for number, cells in enumerate(sheet.iter_rows(max_row=last), start=1):
             count += len(cells)
             check_extent(source, number, len(cells), count)
             percents.update((number, at) for at, cell in enumerate(cells) if _is_percentage(cell))

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from probation._complaint import bad_input
-from probation.records.grid import Grid, decimal_mark
+from probation.records.cell import decimal_mark
+from probation.records.grid import Grid
 from probation.records.source import Source
 from probation.records.table import Column, Table
 

@@ -26,7 +26,8 @@ class Reading:
     machine : str
         Name of the machine or program that wrote the file, where its tables are known; empty otherwise.
     like_sheets : tuple of str
-        Of a workbook, the sheets that have the headings of the one that was read, itself included.
+        Of a workbook, the sheets that have the headings of the one that was read, itself included; empty where a
+        sheet was asked for.
     auxiliary : str
         Empty for stress-strain records; otherwise what the file holds instead.
     """

@@ -6,7 +6,8 @@ from itertools import pairwise
 
 from probation._complaint import bad_input, quoted
 from probation.errors import InputError
-from probation.records.grid import Grid, decimal_mark, is_number
+from probation.records.cell import decimal_mark, is_sample
+from probation.records.grid import Grid
 from probation.records.header import Heading, find_heading
 from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
@@ -15,6 +16,8 @@ from probation.records.profiles.profile import Reading
 from probation.records.roles import normalised, role_of
 from probation.records.source import Source
 from probation.records.table import Column, Table
+
+_REMARK = ("#", "//")
 
 
 def read_tables(source: Source, grid: Grid, options: ReadOptions) -> Reading:
@@ -80,7 +83,8 @@ def _tables(source: Source, grid: Grid, heading: Heading, blocks: Sequence["_Blo
         )
     tables = []
     for block in blocks:
-        rows, row_numbers = grid.rows[block.first : block.end], grid.row_numbers[block.first : block.end]
+        samples = [at for at in range(block.first, block.end) if not _is_remark(grid.rows[at])]
+        rows, row_numbers = [grid.rows[at] for at in samples], [grid.row_numbers[at] for at in samples]
         _check_width(source, rows, row_numbers, len(heading.columns))
         decimal = decimal_mark(rows)
         tables += [
@@ -119,7 +123,10 @@ class _Block:
 
 
 def _blocks(grid: Grid, heading: Heading) -> list[_Block]:
-    """The rows of each table, where the row of the headings comes again below the numbers; text below is cut."""
+    """The rows of each table, where the row of the headings comes again below the numbers; text below is cut.
+
+    A table of results may stand below, too: from a row of text on, no row begins with a number.
+    """
     starts = [-1 if heading.row is None else heading.row]
     if heading.row is not None:
         cells = _stripped(grid.rows[heading.row])
@@ -127,18 +134,37 @@ def _blocks(grid: Grid, heading: Heading) -> list[_Block]:
     blocks = []
     for start, end in pairwise([*starts, len(grid.rows)]):
         first = start + heading.first - starts[0]
-        last = end
-        while last > first and _is_text(grid.rows[last - 1]):
-            last -= 1
+        last = _end_of_numbers(grid.rows, first, end)
         if last > first:
             blocks.append(_Block(start, first, last))
     return blocks or [_Block(starts[0], heading.first, len(grid.rows))]
 
 
+def _end_of_numbers(rows: Sequence[Sequence[str]], first: int, end: int) -> int:
+    """The row after the last one of numbers; where rows begin with a sample, one that does not is none below text."""
+    last = end
+    if first < end and _begins_with_sample(rows[first]):
+        while not _begins_with_sample(rows[last - 1]):
+            last -= 1
+        return next((at for at in range(last, end) if _is_text(rows[at])), end)
+    while last > first and _is_text(rows[last - 1]):
+        last -= 1
+    return last
+
+
 def _is_text(row: Sequence[str]) -> bool:
     """The row begins with text, and not most of its cells are numbers: a fact, a remark, a name."""
     filled = [cell for cell in row if cell.strip()]
-    return not filled or (not is_number(filled[0]) and 2 * sum(map(is_number, filled)) <= len(filled))
+    return not filled or (not is_sample(filled[0]) and 2 * sum(map(is_sample, filled)) <= len(filled))
+
+
+def _is_remark(row: Sequence[str]) -> bool:
+    return next((cell for cell in row if cell.strip()), "").lstrip().startswith(_REMARK)
+
+
+def _begins_with_sample(row: Sequence[str]) -> bool:
+    first = next((cell for cell in row if cell.strip()), "")
+    return is_sample(first)
 
 
 def _continued(tables: Sequence[Table]) -> tuple[Table, ...]:
@@ -163,7 +189,7 @@ def _goes_on(before: Table, table: Table) -> bool:
     if column is None:
         return False
     try:
-        ends = [(float(times[0]), float(times[-1])) for times in (before.numbers(column), table.numbers(column))]
+        ends = [(float(times[0]), float(times[-1])) for times in (before.times(column), table.times(column))]
     except InputError:
         return False  # where the bad cell stands is said when the column is read
     (start, end), (goes_on, _) = ends
@@ -179,6 +205,13 @@ def _notes(grid: Grid, blocks: Sequence[_Block], tables: Sequence[Table]) -> tup
         plural = "row" if len(below) == 1 else "rows"
         notes.append(
             f"left out {len(below)} {plural} of text below the numbers: {text} in row {grid.row_numbers[below[0]]}"
+        )
+    remarks = [at for block in blocks for at in range(block.first, block.end) if _is_remark(grid.rows[at])]
+    if remarks:
+        text = quoted(" ".join(_stripped(grid.rows[remarks[0]])).strip())
+        notes.append(
+            f"left out {len(remarks)} remark{'s' * (len(remarks) > 1)} between the numbers: {text} in row "
+            f"{grid.row_numbers[remarks[0]]}"
         )
     columns = tables[0].columns
     for role, place in tables[0].roles.items():

@@ -14,7 +14,9 @@ from probation.records.profiles.machine import machine_by_headings
 
 _HEADINGS = {
     "time": ("running_time", "time", "test_time", "total_time"),
-    "engineering_strain": ("axial_strain", "strain_1", "extensometer_strain", "strain"),
+    "engineering_strain": (
+        *("axial_strain", "strain_1", "extensometer_strain", "axial_extensometer", "extensometer", "strain"),
+    ),
     "displacement": ("axial_ext", "axial_extension", "axial_displacement", "crosshead", "displacement", "extension"),
     "engineering_stress": ("axial_stress", "stress"),
     "force": ("axial_force", "load", "force"),
