@@ -131,3 +131,9 @@ def test_many_choices_are_listed_in_the_help_of_their_option(monkeypatch, capsys
     shown = " ".join(capsys.readouterr().out.split())
     assert "--excitation EXCITATION" in shown
     assert "quintic-spline, spline, savitzky-golay" in shown
+
+
+def test_a_table_never_breaks_what_belongs_together():
+    rate = "−25.5 % (−34.0\N{NO-BREAK SPACE}to\N{NO-BREAK SPACE}−18.2\N{NO-BREAK SPACE}%)"
+    table = Table(("aim", "wanted", "reached", "met"), (("x" * 20, "y" * 20, rate, "z" * 20),), left=3)
+    assert rate.split(" (")[1] in table.text()

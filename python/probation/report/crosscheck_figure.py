@@ -55,21 +55,21 @@ def steps_figure(studies: Sequence[StepStudy]) -> Figure:
 
 
 def _slopes(axes: Axes, study: StepStudy) -> None:
-    """Guides at the fine end: order 2 above be2, order 3 below sa3."""
-    for name, order, apart in (("be2", 2, 3.5), ("sa3", 3, 0.25)):
-        errors = study.largest_error_MPa.get(name)
-        if errors is None or not np.isfinite(errors[-1]):
+    """Guides at the fine end: order 2 above all that have it, order 3 below sa3."""
+    for names, order, apart in ((("be2", "sa2"), 2, 3.0), (("sa3",), 3, 0.25)):
+        errors = [study.largest_error_MPa[name][-1] for name in names if name in study.largest_error_MPa]
+        if not np.isfinite(errors).any():
             continue
         step = study.step[-3:]
-        guide: FloatArray = apart * errors[-1] * (step / step[-1]) ** order
+        guide: FloatArray = apart * np.nanmax(errors) * (step / step[-1]) ** order
         axes.loglog(step, guide, color=colour("muted"), lw=0.8, ls="--")
         axes.annotate(
             f"order {order}",
-            (step[1], guide[1]),
-            xytext=(-3, 3) if apart > 1 else (3, -3),
+            (step[0], guide[0]),
+            xytext=(-4, 4) if apart > 1 else (4, 0),
             textcoords="offset points",
             ha="right" if apart > 1 else "left",
-            va="bottom" if apart > 1 else "top",
+            va="bottom" if apart > 1 else "center",
             fontsize=8,
             color=colour("muted"),
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -72,8 +73,8 @@ class Table:
         least = []
         for at, (heading, *cells) in enumerate(self._by_column()):
             words = at < self.left or _longest(cells) > _NUMBER
-            needed = [part for cell in cells for part in (cell.split() if words else cell.split("\n"))]
-            least.append(min(max(_longest(heading.split()), _longest(needed)), _NAME))
+            needed = [part for cell in cells for part in re.split(r"[ \n]" if words else r"\n", cell)]
+            least.append(min(max(_longest(re.split(r"[ \n]", heading)), _longest(needed)), _NAME))
         return least
 
     def _by_column(self) -> list[tuple[str, ...]]:

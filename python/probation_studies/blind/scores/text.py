@@ -56,27 +56,29 @@ def score_text(content: Mapping[str, object]) -> str:
         f"amplitude in its interval   {_rate(answers['amplitudes'])}",
         "",
     ]
-    heading = (
-        f"{'':<24}{'n':>5}{'top-1':>9}{'oracle':>9}{'P(truth)':>10}{'covered':>9}{'size':>7}{'ln P':>9}{'Brier':>8}"
-    )
-    for name, board in boards.items():
-        lines.append(f"{name:<24}" + heading[24:])
-        strata = cast("Mapping[str, Mapping[str, object]]", board["by_stratum"])
-        groups = {**strata, "resolvable": cast("Mapping[str, object]", board["resolvable"])}
-        lines += [_row(group, each) for group, each in groups.items() if each["n"]]
-        lines.append("")
+    lines += [f"{_board(name, board).text(indent='')}\n" for name, board in boards.items()]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _row(name: str, group: Mapping[str, object]) -> str:
+def _board(name: str, board: Mapping[str, object]) -> Table:
+    """The scores of one method, a row for each stratum."""
+    strata = cast("Mapping[str, Mapping[str, object]]", board["by_stratum"])
+    groups = {**strata, "resolvable": cast("Mapping[str, object]", board["resolvable"])}
+    return Table(
+        (name, "n", "top-1", "oracle", "P(truth)", "covered", "size", "ln P", "Brier"),
+        tuple(_row(group, each) for group, each in groups.items() if each["n"]),
+    )
+
+
+def _row(name: str, group: Mapping[str, object]) -> tuple[str, ...]:
     answer_set = cast("Mapping[str, object]", group["answer_set"])
     covered = cast("Mapping[str, object]", answer_set["coverage"])
     top = cast("Mapping[str, object]", group["top1"])
-    return (
-        f"  {name:<22}{group['n']:>5}{_number(top['rate']):>9}{_number(group['oracle_expected']):>9}"
-        f"{_number(group['probability_on_truth']):>10}{_number(covered['rate']):>9}"
-        f"{_number(answer_set['mean_size']):>7}{_number(group['log_score']):>9}{_number(group['brier_score']):>8}"
+    values = (
+        *(top["rate"], group["oracle_expected"], group["probability_on_truth"], covered["rate"]),
+        *(answer_set["mean_size"], group["log_score"], group["brier_score"]),
     )
+    return (name, str(group["n"]), *map(_number, values))
 
 
 def _number(value: object) -> str:
