@@ -25,7 +25,7 @@ def as_predicted(model: CampaignModel, parameters: FloatArray) -> CampaignModel:
     views = []
     for view in model.views:
         stress = model.recorded(view, base, causes)
-        views.append(view.with_data(view.sampled(stress)).quietened(stress))
+        views.append(view.as_predicted(stress))
     return CampaignModel(model.law, views, model.causes)
 
 

@@ -135,7 +135,7 @@ def predictions(
     """
     view = _view(test, model)
     noise = planned_noise(view, noises, model.views)
-    view = view.with_data(view.sampled(model.law.stress(view, base)))
+    view = view.as_predicted(model.law.stress(view, base))
     found = []
     for owner, each in enumerate(explanations):
         confined = {cause.effect.name: cause for cause in each.model.causes if _may_come_back(cause)}

@@ -211,10 +211,13 @@ class RecordView:
     def smooth_nominal_data(self) -> FloatArray:
         """Recorded force over the initial section by a penalised spline between jumps of the rate, (n,) [MPa].
 
-        No law enters it, unlike `nominal_data`. Kinks that are no jump of the rate are rounded.
+        No law enters it, unlike `nominal_data`, except where a prediction is what was recorded. Kinks that are no jump
+        of the rate are rounded.
         """
         if self.same_data is not None:
             return self.same_data.smooth_nominal_data
+        if self.quiet_stress is not None:
+            return self.nominal_data
         from probation.smoothing.penalised_spline import smooth_cubic  # noqa: PLC0415 - few need scipy.interpolate
         from probation.smoothing.segmented import smooth_segments  # noqa: PLC0415
 
@@ -272,13 +275,17 @@ class RecordView:
         )
 
     def with_data(self, data: FloatArray) -> RecordView:
-        """The same test with other stresses recorded, shape (n_samples,) [MPa]: a bootstrap's, or a planned test's.
-
-        A planned test should have the base law's prediction: a machine's compliance acts on the force that there is.
-        """
+        """The same test with other stresses recorded, shape (n_samples,) [MPa]: a bootstrap's."""
         if data.shape != self.sampled(self.time).shape:
             raise InputError(f"{self.id}: found data of shape {data.shape}, expected {self.sampled(self.time).shape}")
         return replace(self, data=data, quiet_stress=None, same_data=None)
+
+    def as_predicted(self, stress: FloatArray) -> RecordView:
+        """The same test with a prediction recorded, true stress, shape (n,) [MPa], without noise.
+
+        So has a planned test: a machine's compliance acts on the force that there is.
+        """
+        return replace(self, data=self.sampled(stress), quiet_stress=stress, same_data=None)
 
     def quietened(self, stress: FloatArray) -> RecordView:
         """The same record, effects that hand its force back to the strain taking this true stress, shape (n,) [MPa]."""
