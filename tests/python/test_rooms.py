@@ -17,7 +17,7 @@ SOURCES = Path(__file__).parents[2] / "python"
 ORDER = re.findall(
     r"\w+",
     """
-    _core errors settings
+    _core errors normal settings
     _interrupt _text _arrays _short_repr _complaint limits _files wording answers provenance origin parallel pool
     progress results law records histories published smoothing noise detection effects inference
     identify design calibration certificate diagnosis comparison

@@ -10,6 +10,7 @@ from scipy.special import stdtrit
 
 from probation.calibration.cross_validation import percent
 from probation.calibration.rate_table import rate_groups
+from probation.normal import TWO_SIDED_95
 from probation.records.saving import companion_text
 from probation.results.data import Stored, encoded, named_in
 from probation.results.rendering import Result
@@ -64,7 +65,7 @@ class Candidate:
         errors = self.companion.standard_errors
         if not np.all(np.isfinite(errors)):
             return None
-        reach = (1.959964 if self.degrees is None else float(stdtrit(self.degrees, 0.975))) * errors
+        reach = (TWO_SIDED_95 if self.degrees is None else float(stdtrit(self.degrees, 0.975))) * errors
         values = self.companion.parameters
         return np.stack([values - reach, values + reach], axis=1)
 

@@ -22,6 +22,7 @@ from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
+from probation.normal import TWO_SIDED_95
 from probation.progress import Part, shows_progress
 from probation.settings.comparison import COMPARISON
 
@@ -40,9 +41,6 @@ SPECIMENS = (
     "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs (a specimen_id of "
     "every record, in both campaigns, says which are other ones)"
 )
-
-
-Z95 = 1.959963984540054
 
 
 @shows_progress
@@ -184,8 +182,8 @@ def _sizes(hypothesis: Hypothesis) -> tuple[ChangedParameter, ...]:
             cause.records or everywhere,
             value,
             (
-                max(parameter.from_search(at - Z95 * spread), parameter.lower),
-                min(parameter.from_search(at + Z95 * spread), parameter.upper),
+                max(parameter.from_search(at - TWO_SIDED_95 * spread), parameter.lower),
+                min(parameter.from_search(at + TWO_SIDED_95 * spread), parameter.upper),
             ),
         )
         for (cause, parameter), value, at, spread in zip(named, found.parameters.tolist(), x, deviation, strict=True)

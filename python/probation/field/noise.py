@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.records.noise import NORMAL_CONSISTENCY
+from probation.normal import SD_OF_MEDIAN
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -56,7 +56,7 @@ def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> Flo
 def _deviation(differences: FloatArray) -> FloatArray:
     """From the moduli of differences, along the rows."""
     few = np.sqrt(1.0 + _FEW / differences.shape[1])
-    return np.asarray(NORMAL_CONSISTENCY / few * np.median(differences, axis=1))
+    return np.asarray(SD_OF_MEDIAN / few * np.median(differences, axis=1))
 
 
 def _pooled(deviation: FloatArray, neighbourhood: IndexArray) -> FloatArray:

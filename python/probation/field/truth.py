@@ -10,6 +10,7 @@ import numpy as np
 
 from probation.errors import InputError
 from probation.field.chunks import read
+from probation.normal import TWO_SIDED_95
 
 if TYPE_CHECKING:
     import os
@@ -68,7 +69,7 @@ def closeness(
                 float(np.mean(relative)),
                 float(np.std(relative)),
                 float(np.std(standard)),
-                float(np.mean(np.abs(standard) < 1.959964)),
+                float(np.mean(np.abs(standard) < TWO_SIDED_95)),
             )
         )
     return tuple(found)

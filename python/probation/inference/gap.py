@@ -19,6 +19,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
+from probation.normal import TWO_SIDED_95
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from probation.inference.screen import Column
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
-
-TWO_SIDED = 1.96
-"""Standard errors on either side of an estimate that hold 95 %."""
 
 
 @dataclass(frozen=True)
@@ -300,7 +298,7 @@ def _size(error: FloatArray, noise: NoiseModel, stress: float) -> GapSize:
     variance += 4.0 * max(gap, 0.0) * rough * noise.slow_inflation / count
     variance += 2.0 * float(np.sum((noise.propagated.T @ noise.propagated) ** 2)) / count**2
     variance += 4.0 * float(np.sum((noise.propagated.T @ error) ** 2)) / count**2
-    low, high = (np.sqrt(max(gap + side * TWO_SIDED * np.sqrt(variance), 0.0)) for side in (-1.0, 1.0))
+    low, high = (np.sqrt(max(gap + side * TWO_SIDED_95 * np.sqrt(variance), 0.0)) for side in (-1.0, 1.0))
     return GapSize(noise.name, float(np.sqrt(max(gap, 0.0))), (float(low), float(high)), stress)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.records.noise import NORMAL_CONSISTENCY
+from probation.normal import SD_OF_MEDIAN, UPPER_95
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -42,8 +42,8 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     sides = np.stack(shifts)
     later, earlier = np.median(sides[:arm], axis=0), np.median(sides[arm:], axis=0)
     away = residual - 0.5 * (later + earlier)
-    spread = NORMAL_CONSISTENCY * float(np.median(np.abs(away)))
-    spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / 1.645, 1e-300)
+    spread = SD_OF_MEDIAN * float(np.median(np.abs(away)))
+    spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / UPPER_95, 1e-300)
     out = (np.abs(away) > NOISE.outlier_distance * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
     for border in (0, *jumps):
         out[max(border - reach, 0) : border + reach + 1] = False

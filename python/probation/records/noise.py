@@ -6,19 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.normal import SD_OF_MEDIAN
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.records.record import Record
 
-NORMAL_CONSISTENCY = 1.482602218505602
-"""Standard deviation of normal values over the median of their moduli."""
-
 
 def robust_deviation(values: FloatArray) -> float:
     """Standard deviation of normal values (n,), by the median distance to their median: outliers hardly count."""
-    return float(NORMAL_CONSISTENCY * np.median(np.abs(values - np.median(values))))
+    return float(SD_OF_MEDIAN * np.median(np.abs(values - np.median(values))))
 
 
 def scatter(time: FloatArray, values: FloatArray) -> float:

@@ -9,6 +9,7 @@ from scipy.special import chdtri
 
 from probation.errors import InputError
 from probation.inference.parameter import SYMBOLS, UNITS
+from probation.normal import TWO_SIDED_95
 from probation.report.figures import house_style, new_figure
 from probation.report.style import colour
 from probation.wording import percentage
@@ -89,7 +90,7 @@ def corner_figure(fit: Fit) -> Figure:
 def _alone(axes: Axes, centre: float, error: float) -> None:
     x = np.linspace(centre - REACH * error, centre + REACH * error, 200)
     density = np.exp(-0.5 * ((x - centre) / error) ** 2)
-    inside = np.abs(x - centre) <= 1.96 * error
+    inside = np.abs(x - centre) <= TWO_SIDED_95 * error
     axes.fill_between(x[inside], density[inside], color=colour("model"), alpha=0.25, lw=0)
     axes.plot(x, density, color=colour("model"))
     axes.set_yticks([])

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.law.kinematics import haward_thackray_strain
+from probation.normal import TWO_SIDED_95
 from probation.provenance import provenance
 from probation.report.certificate_summary import (
     hardening_table,
@@ -90,7 +91,9 @@ def parameter_figure(found: Certificate) -> Figure:
             good = not each.tested or each.passes
             for at, (_, value, error) in enumerate(entries):
                 shade = colour("model" if good else "bad")
-                axes.errorbar(value, at, xerr=1.96 * (error or 0.0), fmt="o", ms=4, capsize=3, lw=1.2, color=shade)
+                axes.errorbar(
+                    value, at, xerr=TWO_SIDED_95 * (error or 0.0), fmt="o", ms=4, capsize=3, lw=1.2, color=shade
+                )
             if good:  # values that differ have no common one
                 axes.axvline(each.mean, color=colour("muted"), lw=0.8)
             axes.set_yticks(range(len(entries)), [record for record, *_ in entries])

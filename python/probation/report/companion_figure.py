@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.errors import InputError
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
+from probation.normal import TWO_SIDED_95
 from probation.report.figures import house_style, legend_outside, new_figure
 from probation.report.style import colour, series_colour
 
@@ -108,7 +109,7 @@ def _band(
         return
     values = _times(companion.relation, rates)
     with np.errstate(invalid="ignore"):
-        reach = 1.96 * companion.log_time_se(np.where(np.isfinite(values), rates, np.nan_to_num(calibrated[1])))
+        reach = TWO_SIDED_95 * companion.log_time_se(np.where(np.isfinite(values), rates, np.nan_to_num(calibrated[1])))
     reach = np.minimum(reach, 20.0)
     low, high = (values * np.exp(side * reach) * rates**power for side in (-1.0, 1.0))
     axes.fill_between(rates, low, high, color=series_colour(0), alpha=0.16, lw=0)
@@ -122,7 +123,7 @@ def _data(axes: Axes, found: Calibration, power: float) -> None:
         error = table.se
         if error is None and table is TABLE_2:
             error = FICTITIOUS_ERROR * table.tau_max
-        bars = None if error is None else 1.96 * error * scale if table.se is not None else error * scale
+        bars = None if error is None else TWO_SIDED_95 * error * scale if table.se is not None else error * scale
         axes.errorbar(table.rates, table.tau_max * scale, yerr=bars, zorder=4, **look)  # type: ignore[arg-type]
         return
     chosen = found.candidates[found.chosen]

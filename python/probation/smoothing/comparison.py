@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.answers import json_answer
 from probation.errors import InputError
+from probation.normal import TWO_SIDED_95
 from probation.records.record import Record
 from probation.results.reading import answer_in
 from probation.results.rendering import Plotted, Summarised
@@ -186,6 +187,6 @@ def _closeness(key: Key, draws: int, seed: int) -> Closeness | str:
             return str(reason)
         off = np.abs(found.rate - known.strain_rate)
         relative = off / np.abs(known.strain_rate)
-        seen.append((np.quantile(relative, 0.95), np.median(relative), np.mean(off < 1.96 * found.rate_se)))
+        seen.append((np.quantile(relative, 0.95), np.median(relative), np.mean(off < TWO_SIDED_95 * found.rate_se)))
     p95, median, coverage = np.mean(seen, axis=0).tolist()
     return Closeness(p95, median, coverage)

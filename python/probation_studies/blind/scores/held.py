@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
+from probation.normal import TWO_SIDED_95
 from probation_studies.blind.scores.answer import UNKNOWN
 from probation_studies.blind.scores.intervals import Rate
 
 if TYPE_CHECKING:
     from probation_studies.blind.scores.case import Case
-
-_TWO_SIDED = 1.96
 
 AMPLITUDES = {
     "force_offset": "offset_MPa",
@@ -33,7 +32,7 @@ def base_parameters(cases: Sequence[Case]) -> dict[str, object]:
         true = cast("dict[str, float]", case.truth["base"])
         for name, (value, error) in case.answer.base.items():
             if name in true:
-                inside["explained" if case.causes else "none"].append(abs(value - true[name]) <= _TWO_SIDED * error)
+                inside["explained" if case.causes else "none"].append(abs(value - true[name]) <= TWO_SIDED_95 * error)
     return {name: Rate.of(each).plain() for name, each in inside.items()}
 
 
@@ -46,7 +45,7 @@ def amplitudes(cases: Sequence[Case]) -> dict[str, object]:
         for cause in case.causes:
             known = case.answer.parameters.get(AMPLITUDES.get(str(cause["effect"]), ""))
             if known is not None:
-                inside.append(abs(known[0] - _amplitude(cause)) <= _TWO_SIDED * known[1])
+                inside.append(abs(known[0] - _amplitude(cause)) <= TWO_SIDED_95 * known[1])
     return Rate.of(inside).plain()
 
 
