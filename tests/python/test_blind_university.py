@@ -14,7 +14,7 @@ from probation_studies.blind.laboratories.university.design import draw_design
 from probation_studies.blind.laboratories.university.errors import strain_response
 from probation_studies.blind.laboratories.university.histories import FINER, loops, relaxation
 from probation_studies.blind.laboratories.university.modal_law import Material, base_course, integrate
-from probation_studies.blind.laboratories.university.oracle import discriminability
+from probation_studies.blind.laboratories.university.oracle import Candidate, consult, discriminability
 from probation_studies.blind.laboratories.university.signals import added, bench_of, course_of
 
 PLAIN = Material(2000.0, 5.0, 2.0)
@@ -177,6 +177,15 @@ def test_discriminability_is_what_the_method_says():
     """95 % takes a detectability of 2.8 at 90 degrees and 18.9 at 10."""
     assert discriminability(2.8, 0.0) == pytest.approx(0.95, abs=0.01)
     assert discriminability(18.9, np.cos(np.radians(10.0))) == pytest.approx(0.95, abs=0.01)
+
+
+def test_an_oracle_is_not_disturbed_by_what_no_record_shows():
+    """A candidate whose signal is round-off alone."""
+    candidates = [Candidate(name, name, 1.0, outside=False) for name in ("a", "b")]
+    gram = np.array([[25.0, 1e-4], [1e-4, -1e-24]])
+    clean = np.array([25.0, 1e-4])
+    found = consult(np.random.default_rng(0), candidates, gram, clean, clean, ("a",))
+    assert sum(found.posterior.values()) == pytest.approx(1.0, abs=1e-3)
 
 
 def test_holds_hold_and_loops_return():

@@ -20,6 +20,9 @@ Names: TypeAlias = "tuple[str, ...]"
 REPEATS = 200
 RESOLVABLE = 0.95
 _PRIOR_NONE, _PRIOR_SINGLE, _PRIOR_PAIR, _PRIOR_OUTSIDE = 0.35, 0.35, 0.2, 0.1
+_UNSEEN = 1e-6
+"""Norm of a signal, over the largest one's, below which it is round-off."""
+
 _USUAL = 15.0
 """Detectability at one standard deviation of a cause's prior."""
 
@@ -87,8 +90,9 @@ def consult(
         Inner products of their signals with what acts, and with what acts and the errors that were drawn.
     truth : tuple of str
     """
-    norms = np.sqrt(np.maximum(np.diag(gram), 1e-12))
-    unit = gram / np.outer(norms, norms)
+    norms = np.sqrt(np.maximum(np.diag(gram), 0.0))
+    norms = np.where(norms > _UNSEEN * norms.max(), norms, np.inf)  # no record shows it: a score of 0
+    unit = np.clip(gram / np.outer(norms, norms), -1.0, 1.0)
     values, vectors = np.linalg.eigh(unit)
     root = vectors * np.sqrt(np.maximum(values, 0.0))
     repeats = clean / norms + random.standard_normal((REPEATS, len(norms))) @ root.T
