@@ -74,9 +74,11 @@ prony = probation.export(law, "abaqus-prony", name="hdpe", rate=0.005)
 print(prony.summary())
 # > Abaqus *VISCOELASTIC, TIME=PRONY: the linear part at one rate.
 # > left out, on a ramp to strain 1.5 at 0.005 1/s, against the whole law: 27 MPa
-# > (82 % of the largest stress)
+# > at most (40 % of the largest stress)
+# > left out, on a ramp to strain 1.5 at 0.0005 1/s, against the whole law: 50 MPa
+# > at most (82 % of the largest stress)
 # > left out, on a ramp to strain 1.5 at 0.05 1/s, against the whole law: 2.7e+02
-# > (370 % of the largest stress)
+# > MPa at most (370 % of the largest stress)
 
 # %%
 # Compare before you trust
