@@ -16,6 +16,7 @@ from probation.published.experiments import twin_campaign
 from probation.records.initial import init_campaign as init_campaign_module
 from probation.records.initial.control import guess_control
 from probation.records.initial.questions import Question
+from probation.records.reading import read_record
 from probation.records.said_once import of_all
 
 SPECIMEN = ["--specimen", "area_mm2=40", "--specimen", "gauge_length_mm=50"]
@@ -301,3 +302,14 @@ def test_a_note_of_every_record_is_written_once(tmp_path):
     assert shared
     assert [text.count(f"# note, of every record: {warning}\n") for warning in shared] == [1] * len(shared)
     assert not any(f"# note: {warning}" in text for warning in shared)
+
+
+def test_a_strain_beside_a_displacement_is_asked_for_and_taken(tmp_path):
+    rows = (f"{t};{1.1 * e * 50};{f};{100 * e}" for t, e, f in zip(TIME, STRAIN, 40.0 * STRESS, strict=True))
+    (tmp_path / "a.csv").write_text("\n".join(["Time (s);Crosshead (mm);Force (N);Strain (%)", *rows]) + "\n")
+    arguments = ["init", str(tmp_path / "a.csv"), "-o", str(tmp_path / "made"), "--yes", "--specimen", "area_mm2=40"]
+    assert main(arguments) == 0
+    (record,) = Campaign.load(tmp_path / "made").records
+    assert record.true_strain == pytest.approx(np.log1p(STRAIN))
+    plain = read_record(tmp_path / "a.csv", specimen={"area_mm2": 40.0, "gauge_length_mm": 50.0})
+    assert any("column 'Strain (%)' is not read" in warning for warning in plain.warnings)

@@ -95,6 +95,30 @@ def test_each_sheet_has_the_section_that_stands_in_the_row_of_its_specimen(lab):
     assert second.true_stress == pytest.approx(first.true_stress)
 
 
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "Tiempo (s);Desplazamiento (mm);Fuerza (N)",
+        "Tempo (s);Spostamento (mm);Forza (N)",
+        "Timestamp (s);LVDT (mm);Load cell (N)",
+        "Test time (s);Standard travel (mm);Standard force (N)",
+    ],
+)
+def test_headings_of_further_languages_and_lone_units_are_known(tmp_path, heading):
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([heading, *(f"{at};{at / 100};{at}" for at in range(12))]) + "\n")
+    record = read_record(path, specimen={"area_mm2": 2.0, "gauge_length_mm": 1.0})
+    assert record.true_strain[-1] == pytest.approx(np.log(1.11))
+    assert record.true_stress[-1] == pytest.approx(5.5 * 1.11)
+
+
+def test_two_columns_of_one_unit_tell_no_displacement(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["Time (s);LVDT 1 (mm);LVDT 2 (mm);Force (N)", *(f"{at};1;2;3" for at in range(12))]))
+    with pytest.raises(InputError, match="found no strain column"):
+        read_record(path)
+
+
 def test_what_stands_between_the_samples_is_left_out_and_said(lab):
     notes = read_record(lab("strip-13.csv")).warnings
     assert any("left out 1 remark between the numbers: '# light switched on here' in row 57" in note for note in notes)

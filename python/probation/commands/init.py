@@ -35,7 +35,7 @@ a plot of every record.
       --role b.csv:held-out
 
 It knows the files of Instron Bluehill, ZwickRoell testXpert, MTS TestSuite, Shimadzu TRAPEZIUM, Kammrath & Weiss and
-HBM catman, and tables with English, German or French headings; each specimen of a file becomes a record. What no file
+HBM catman, and tables with English, German, French, Italian or Spanish headings; each specimen of a file becomes a record. What no file
 says (the section of a specimen, true or engineering) is asked, with a default where there is one; without a terminal,
 or with --yes, defaults are taken, and one line says which option gives what has none.
 

@@ -22,8 +22,8 @@ from probation.records.roles import (
 from probation.records.table import Column, Table
 from probation.records.units import is_percent, measures
 
-# Roles that a heading of nothing but a unit implies, where no column plays one of these already. A stress or
-# a strain may be true or engineering, so its unit alone does not tell.
+# Roles that the unit of a heading implies, where no column plays one of these already and only one has such a unit. A
+# stress or a strain may be true or engineering, so its unit alone does not tell.
 _ROLES_OF_UNITS = {"time": ("time",), "displacement": STRAIN_ROLES, "force": STRESS_ROLES}
 _WORD_END = re.compile(r"[\s_,;:]+")
 
@@ -109,13 +109,9 @@ def _is_further(column: Column) -> bool:
 
 
 def is_role_of_unit(role: str, column: Column) -> bool:
-    """Tell whether the heading is nothing but a unit of the role's quantity, such as "kN" of a force.
-
-    An "Elongation (mm)" is a displacement, too: a vague name of a strain with a unit of length.
-    """
-    if role == "displacement" and column.unit is not None and normalised(column.name) in VAGUE["strain"]:
-        return measures(column.unit, ROLES[role].unit)
-    return role_of(column.name) is None and measures(without_brackets(column.label), ROLES[role].unit)
+    """Tell whether the heading has no known name, but a unit of the role's quantity: "kN", "Load cell (kN)"."""
+    unit = without_brackets(column.label) if column.unit is None else column.unit
+    return role_of(column.name) is None and measures(unit, ROLES[role].unit)
 
 
 def _with_unit_of_label(role: str, column: Column) -> Column:

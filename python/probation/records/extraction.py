@@ -16,7 +16,7 @@ from probation.records.joining import Film, join
 from probation.records.made_time import parse_rate, time_along
 from probation.records.options import ReadOptions
 from probation.records.profiles import Reading
-from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES
+from probation.records.roles import OPTIONAL_ROLES, ROLES, STRAIN_ROLES, STRESS_ROLES, VAGUE, normalised
 from probation.records.strain_limits import (
     expected_strain,
     impossible_sample,
@@ -25,7 +25,7 @@ from probation.records.strain_limits import (
     strain_doubts,
 )
 from probation.records.table import Column, Table
-from probation.records.units import convert
+from probation.records.units import convert, measures
 
 FloatArray = NDArray[np.float64]
 
@@ -117,6 +117,7 @@ def extract(
         *_unit_warnings(columns, options),
         *_unstated_units(table, columns, raw.samples, options),
         *_roles_of_units(table, columns, options),
+        *_strain_left_aside(table, columns, options),
         *dimension_warning(table, reading, options, "gauge_length_mm", length),
         *strain_doubts(role, column, samples[role], stated),
     )
@@ -347,9 +348,23 @@ def _unstated_units(
     )
 
 
+def _strain_left_aside(table: Table, columns: Mapping[str, Column], options: ReadOptions) -> tuple[str, ...]:
+    """Say which column would be nearer to the specimen than the displacement that is read."""
+    if "displacement" not in columns or "displacement" in options.columns or table.roles:
+        return ()
+    for column in table.columns:
+        if normalised(column.name) in VAGUE["strain"] and measures(column.unit or "", "dimensionless"):
+            return (
+                f"column {quoted(column.label)} is not read, for it may be a true or an engineering strain; say "
+                f"columns = {{ engineering_strain = {quoted(column.label)} }} (--column) to read it instead of the "
+                "displacement",
+            )
+    return ()
+
+
 def _roles_of_units(table: Table, columns: Mapping[str, Column], options: ReadOptions) -> list[str]:
     return [
-        f"column {quoted(column.label)} is read as {role}: its heading is a unit and nothing else; "
+        f"column {quoted(column.label)} is read as {role}, by its unit alone; "
         f"if that is wrong, say columns = {{ … }} (--column)"
         for role, column in columns.items()
         if role not in options.columns and not table.roles and is_role_of_unit(role, column)

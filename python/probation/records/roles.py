@@ -39,15 +39,8 @@ ROLES: dict[str, Role] = {
     "time": _role(
         *("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
         further=(
-            "running_time",
-            "total_time",
-            "zeit",
-            "prüfzeit",
-            "pruefzeit",
-            "messzeit",
-            "temps",
-            "durée",
-            "temps_écoulé",
+            *("running_time", "total_time", "timestamp", "zeit", "prüfzeit", "pruefzeit", "messzeit"),
+            *("temps", "durée", "temps_écoulé", "tempo", "tiempo"),
         ),
     ),
     "true_strain": _role(
@@ -76,6 +69,7 @@ ROLES: dict[str, Role] = {
             ),
             *("standardweg", "traversenweg", "kolbenweg", "weg", "verschiebung"),
             *("déplacement", "deplacement", "déplacement_traverse", "course"),
+            *("standard_travel", "spostamento", "corsa", "desplazamiento", "carrera"),
         ),
     ),
     "true_stress": _role(
@@ -93,22 +87,22 @@ ROLES: dict[str, Role] = {
         *("N", "a force unit such as 'N'", "force", "load"),
         further=(
             *("axial_force", "axial_load", "kraft", "last", "standardkraft", "prüfkraft", "pruefkraft"),
-            *("effort", "charge"),
+            *("standard_force", "effort", "charge", "forza", "carico", "fuerza", "carga"),
         ),
     ),
     "strain_rate": _role("1/s", "a rate unit such as '1/s'", "strain_rate", "true_strain_rate"),
     "transverse_strain": _role("dimensionless", _STRAIN_UNIT, "transverse_strain", "true_transverse_strain"),
     "temperature": _role(
         *("degC", "a temperature unit such as 'degC'", "temperature", "temp"),
-        further=("temperatur", "température"),
+        further=("temperatur", "température", "temperatura"),
     ),
 }
 VAGUE = {
     "strain": (
         *("strain", "strain_1", "elongation", "dehnung", "verlängerung", "verlaengerung"),
-        *("déformation", "deformation", "allongement"),
+        *("déformation", "deformation", "allongement", "deformazione", "allungamento", "deformación", "alargamiento"),
     ),
-    "stress": ("stress", "spannung", "contrainte"),
+    "stress": ("stress", "spannung", "contrainte", "tensione", "sforzo", "tensión", "esfuerzo"),
 }
 """Headings, as `normalised`, that do not say whether a strain or a stress is true or engineering."""
 STRAIN_ROLES = ("true_strain", "engineering_strain", "stretch", "displacement")

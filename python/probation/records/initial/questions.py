@@ -114,7 +114,10 @@ def next_question(path: Path, how: ReadingKeys) -> Question | None:
             '--test-rate "0.001 1/s" (or --column time=HEADING)',
         )
     for quantity, group in (("strain", STRAIN_ROLES), ("stress", STRESS_ROLES)):
-        if not (named | implied) & set(group) and not (quantity == "strain" and options.strain_from):
+        known = (named | implied) & set(group)
+        if known == {"displacement"} and "displacement" not in named and not table.roles:
+            known = set()  # a strain, should there be one, is nearer to the specimen
+        if not known and not (quantity == "strain" and options.strain_from):
             question = _about_column(path, table, quantity)
             if question is not None:
                 return question
