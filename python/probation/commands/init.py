@@ -35,9 +35,9 @@ a plot of every record.
       --role b.csv:held-out
 
 It knows the files of Instron Bluehill, ZwickRoell testXpert, MTS TestSuite, Shimadzu TRAPEZIUM, Kammrath & Weiss and
-HBM catman, and tables with English, German, French, Italian or Spanish headings; each specimen of a file becomes a record. What no file
-says (the section of a specimen, true or engineering) is asked, with a default where there is one; without a terminal,
-or with --yes, defaults are taken, and one line says which option gives what has none.
+HBM catman, and tables with English, German, French, Italian or Spanish headings; each specimen of a file becomes a
+record. What no file says (the section of a specimen, true or engineering) is asked, with a default where there is
+one; without a terminal, or with --yes, defaults are taken, and one line says which option gives what has none.
 
 --specimen is for the files that state no dimensions; --specimen FILE:… wins over what that file states.
 Files are copied, so that the folder can be moved, archived and sent; --link names them where they are.
