@@ -140,6 +140,19 @@ def test_moisture_between_tests():
     assert value(found, "log_modulus_loss") == pytest.approx(-np.log(0.76), rel=0.1)
 
 
+def test_a_specimen_that_creeps_out_of_its_grips():
+    """In one of three ramps, from 0.3 of its time on, by 0.02 x / (1 + x), x the time since over 0.06 of it all."""
+    made = []
+    for index, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.9])
+        since = np.maximum(time / time[-1] - 0.3, 0.0) / 0.06
+        gone = 0.02 * since / (1.0 + since) if index == 1 else np.zeros_like(time)
+        made.append(record(f"at-{rate:g}", time, strain, np.exp(gone) * LAW.stress(time, strain - gone), index))
+    found = named(campaign(made), "grip_slip")
+    assert found.best.records == ("at-0.005",)
+    assert 0.015 < value(found, "slip_strain") < 0.025
+
+
 def test_strain_induced_crystallisation():
     """Crystals take over beyond a strain of 0.5 as a power of the way beyond it, and stay on the way back."""
 

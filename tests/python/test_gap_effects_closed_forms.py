@@ -498,6 +498,20 @@ def test_a_bent_strip_is_pulled_straight():
     np.testing.assert_allclose(own, seen, atol=2e-4)
 
 
+def test_a_specimen_creeps_out_of_its_grips_ever_slower():
+    """The bar has lost a (1 - e^(-t / c)) since the instant; the stress was made with the recorded strain."""
+    record = ramp(end=1.0)
+    model = CampaignModel(
+        bar(),
+        views_of(probation.Campaign(name="creep", records=(record,))),
+        [cause("grip_slip", "creeping", record.id)],
+    )
+    found = model.predict(model.parameters(np.array([1000.0]), (0.01, 0.4, 0.05)))[record.id]
+    since = np.maximum(record.time / record.time[-1] - 0.4, 0.0) / 0.05
+    lost = 0.01 * (1.0 - np.exp(-since))
+    np.testing.assert_allclose(found, np.exp(lost) * 1000.0 * (record.true_strain - lost), rtol=1e-9, atol=1e-9)
+
+
 def test_jaws_give_way_beyond_what_friction_holds():
     """Nothing up to a nominal stress of 50 MPa, then a per MPa."""
     _, record = strip(lambda nominal: 1e-4 * np.maximum(nominal - 50.0, 0.0))

@@ -75,9 +75,8 @@ def test_with_one_record_all_and_one_are_the_same_and_given_once():
     columns = screen(single, single.start, effects(["force_offset", "grip_slip"]))
     assert [c.cause.records for c in columns if c.cause.effect.name == "force_offset"] == [None]
     slips = {c.cause.form.name: c.cause.records for c in columns if c.cause.effect.name == "grip_slip"}
-    assert slips == {
-        "recorded_section": ("at-0.001",), "measured_section": ("at-0.001",), "progressive": None
-    }  # fmt: skip
+    here = ("at-0.001",)
+    assert slips == {"recorded_section": here, "measured_section": here, "creeping": here, "progressive": None}
 
 
 def test_residuals_tell_where_shapes_begin():

@@ -26,8 +26,10 @@ _PULL = EffectParameter(
     log=True,
     reason="friction holds up to about the stress for which grips are tightened",
 )
+_FADING = (0.03, 0.1, 0.3)
+_SLIP = EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm")
 _PARAMETERS = (
-    EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm"),
+    _SLIP,
     EffectParameter(
         name="instant_of_record",
         unit="",
@@ -56,6 +58,12 @@ def _slip(view: RecordView, values: Values) -> FloatArray:
     width = view.stride * float(np.median(np.diff(view.time))) + values[2] * view.duration
     passed = np.clip((view.elapsed - values[1] * view.duration) / width + 0.5, 0.0, 1.0)
     return view.true_strain - values[0] * passed**2 * (3.0 - 2.0 * passed)
+
+
+def _creeping(view: RecordView, values: Values) -> FloatArray:
+    """From an instant on the specimen creeps out of its grips, ever slower, and has lost a in the end."""
+    since = np.maximum(view.elapsed - values[1] * view.duration, 0.0)
+    return view.true_strain + values[0] * np.expm1(-since / (values[2] * view.duration))
 
 
 def _progressive(view: RecordView, values: Values) -> FloatArray:
@@ -90,11 +98,15 @@ EFFECT = Effect(
     title="slip in the grips",
     physics=(
         "The specimen slips in its grips at some instant, and its strain jumps back beside the recorded one; or it "
-        "gives way little by little beyond the pull that friction holds.\n"
+        "creeps out of them from some instant on; or it gives way little by little beyond the pull that friction "
+        "holds.\n"
         "Amplitude: recorded strain that is lost (per stress beyond what holds). The true stress was made of it, or "
         "measured apart."
     ),
-    source="ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull)",
+    source=(
+        "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
+        "Rev. E 49, 4973 (dry contacts creep)"
+    ),
     shows_in="one record, from one instant on: the stress drops and recovers; or all records at high stress",
     kind="rig",
     forms=(
@@ -107,6 +119,36 @@ EFFECT = Effect(
             converts=False,
             placements=("one",),
             sharp="step",
+        ),
+        Form(
+            "creeping",
+            (
+                _SLIP,
+                EffectParameter(
+                    name="instant_of_record",
+                    unit="",
+                    lower=0.0,
+                    upper=1.0,
+                    centre=0.5,
+                    scale=float("inf"),
+                    starts=tuple(np.linspace(0.1, 0.9, 9).tolist()),
+                    reason="at any time",
+                ),
+                EffectParameter(
+                    name="time_constant_of_record",
+                    unit="",
+                    lower=0.005,
+                    upper=1.0,
+                    centre=0.1,
+                    scale=1.0,
+                    log=True,
+                    starts=_FADING,
+                    reason="dry contacts under load creep at a rate that falls, for seconds to minutes",
+                ),
+            ),
+            driving_strain=_creeping,
+            placements=("one",),
+            variant=True,
         ),
         Form(
             "progressive",
