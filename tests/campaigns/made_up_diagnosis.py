@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import probation
-from probation.detection.gap_test import gap_test
+from probation.detection.gap_test import GapTester
 from probation.detection.where import locate
 from probation.diagnosis.attribution import EffectShare
 from probation.diagnosis.closure import Closure
@@ -195,7 +195,7 @@ def self_heating(heating: float = 0.1, copies: int = 1) -> Diagnosis:
             BaseParameter("tau_max_s", 4.81, 0.02, "identifiable"),
             BaseParameter("hardening_modulus_MPa", 1.72, 0.01, "weakly_identifiable"),
         ),
-        gap=gap_test(whitened, size=1000),
+        gap=GapTester(whitened, size=1000)(),
         rms_MPa=rms(every),
         noise_MPa=NOISE,
         located=where.located,

@@ -8,7 +8,7 @@ from scipy.optimize import least_squares
 
 import probation
 from campaigns import gap_noise
-from probation.detection.gap_test import GapTester, gap_test
+from probation.detection.gap_test import GapTester
 from probation.detection.sharp_gap import with_sharp
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
 from probation.noise.arma import Arma
@@ -89,7 +89,7 @@ def test_few_false_alarms_on_noise_of_every_kind(kind):
     p_values = []
     for _ in range(14):
         whitened = Whitened.of(gap_noise.records(kind, rng, 500))
-        p_values.append(gap_test(whitened, directions(whitened, 500), size=1000).p_value)
+        p_values.append(GapTester(whitened, directions(whitened, 500), size=1000)().p_value)
     assert np.sum(np.array(p_values) < 0.005) < 3
     assert np.median(p_values) > (0.05 if kind == "drift" else 0.15)
 
@@ -117,14 +117,14 @@ def test_a_gap_that_no_effect_looks_like_is_seen_too():
     bias = [0.0 * t.time for t in gap_noise.campaign(COUNT)]
     bias[4] = 0.04 * np.sin(4 * np.pi * np.arange(COUNT) / COUNT)
     whitened = Whitened.of(gap_noise.records("white", np.random.default_rng(5), COUNT, bias))
-    found = gap_test(whitened, directions(whitened))
+    found = GapTester(whitened, directions(whitened))()
     assert found.rejected
     assert max(found.record_share, key=found.record_share.get) == "unloading"
 
 
 def test_the_verdict_is_also_given_for_less_and_for_more_noise():
     whitened = Whitened.of(gap_noise.records("white", np.random.default_rng(6), COUNT))
-    found = gap_test(whitened)
+    found = GapTester(whitened)()
     assert found.p_value_low_noise <= found.p_value <= found.p_value_high_noise
     assert sum(found.record_share.values()) == pytest.approx(1.0)
 
@@ -134,7 +134,7 @@ def test_a_sharp_gap_is_also_judged_with_less_and_with_more_noise():
     bias = [0.0 * t.time for t in gap_noise.campaign(COUNT)]
     bias[4] = 0.7 * gap_noise.SIGMA * np.sin(80 * np.pi * np.arange(COUNT) / COUNT)
     whitened = Whitened.of(gap_noise.records("white", np.random.default_rng(5), COUNT, bias))
-    found = with_sharp(gap_test(whitened), whitened)
+    found = with_sharp(GapTester(whitened)(), whitened)
     assert found.p_value == pytest.approx(found.p_values["lines"] / DETECTION.sharp_share)
     assert found.p_value < 1e-3
     assert found.p_value_low_noise < 0.1 * found.p_value
@@ -145,12 +145,12 @@ def test_an_effect_that_the_base_parameters_absorb_is_left_out():
     records = gap_noise.records("white", np.random.default_rng(7), COUNT)
     whitened = Whitened.of(records)
     hidden = whitened.whiten([record.tangent[:, :1] for record in records])
-    assert gap_test(whitened, {"gain": hidden}).scores == {}
+    assert GapTester(whitened, {"gain": hidden})().scores == {}
 
 
 def test_one_record_of_few_samples_is_tested():
     record = gap_noise.records("white", np.random.default_rng(8), 24)[1]
-    found = gap_test(Whitened.of([record]))
+    found = GapTester(Whitened.of([record]))()
     assert 0.0 < found.p_value <= 1.0
 
 
@@ -173,8 +173,8 @@ def test_estimated_noise_costs_little_of_what_known_noise_sees():
     amplitude = 8.0 / np.linalg.norm(known.project(known.whiten([s[:, None] for s in shapes])))
     changed = gap_noise.with_effect(records, "rate-hardening", amplitude)
     estimated = Whitened.of(changed, estimate_noise(changed))
-    ours = gap_test(estimated, directions(estimated)).scores["rate-hardening"]
+    ours = GapTester(estimated, directions(estimated))().scores["rate-hardening"]
     exact = Whitened.of(changed, known_noise(changed))
-    truth = gap_test(exact, directions(exact)).scores["rate-hardening"]
+    truth = GapTester(exact, directions(exact))().scores["rate-hardening"]
     assert ours == pytest.approx(truth, rel=0.15)
     assert ours < 0.0  # model minus data: adding the effect to the model closes the gap

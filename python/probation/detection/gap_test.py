@@ -220,18 +220,6 @@ class GapTester:
         )
 
 
-def gap_test(
-    whitened: Whitened,
-    directions: Mapping[str, FloatArray] | None = None,
-    *,
-    level: float = DETECTION.gap_level,
-    size: int = 4000,
-    seed: int = 0,
-) -> GapTest:
-    """Whether the campaign's residual is more than noise (docs/diagnosis-method.md, section 2); see `GapTester`."""
-    return GapTester(whitened, directions, size=size, seed=seed)(level=level)
-
-
 def _smooth_columns(whitened: Whitened) -> tuple[FloatArray, NDArray[np.intp], NDArray[np.intp]]:
     """Whitened smooth waves of all records, the smoothest first; their orders, and the record each lives in."""
     bases = [smooth_basis(record.time, record.jumps) for record in whitened.records]
