@@ -58,7 +58,7 @@ class CalibratedRanges:
         "Power of the evidence of a campaign outside these ranges.",
         unit="-",
         origin="calibrated",
-        source="docs/laboratories.md: university, seed 8801; industry, seed 8802",
+        source="docs/diagnosis-method.md, section 4: university, seed 8801; industry, seed 8802",
         used_in="diagnosis/calibration.py",
     )
     credible_set_outside: float = setting(

@@ -65,7 +65,7 @@ class EvidenceSettings:
         unit="-",
         origin="calibrated",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/causes.py",
+        used_in="diagnosis/calibration.py",
     )
     undeclared_gap_power: float = setting(
         0.2,
