@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.interpolate import make_smoothing_spline
 
+import probation
 from probation import Noise, Record
 from probation.histories.necking import NECKING_SETS
 from probation.smoothing.excitation import excite
@@ -55,6 +56,53 @@ def test_a_jump_in_much_noise_is_found_in_wider_windows():
     for seed in range(20):
         (jump,) = find_jumps(time, strain + 2e-3 * np.random.default_rng(seed).normal(size=1501), 2e-3)
         assert abs(time[jump] - 40.02) <= 4.0 * time[1]
+
+
+LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=30.0, hardening_modulus=1.0)
+
+
+def late_start(seed, noise, wait=20.3, rate=5e-4, samples=401):
+    """200 s: at rest first, then strained; with the force that goes with it, its noise 0.02 MPa."""
+    rng = np.random.default_rng(seed)
+    fine = np.linspace(0.0, 200.0, 20 * (samples - 1) + 1)
+    strain = rate * np.maximum(fine - wait, 0.0)
+    stress = LAW.stress(fine, strain, scheme="sa2")[::20] + 0.02 * rng.standard_normal(samples)
+    return fine[::20], strain[::20] + noise * rng.standard_normal(samples), stress
+
+
+@pytest.mark.parametrize(("wait", "often"), [(5.3, 10), (20.3, 20)])
+def test_the_force_shows_the_end_of_a_wait_that_noise_hides_in_the_strain(wait, often):
+    """Strain noise of 1e-3 is four steps between samples; the force rises by 0.5 MPa from one sample to the next.
+
+    Ten samples of the shorter wait know their slope to 1.1e-4 a sample, of a change of 2.5e-4.
+    """
+
+    def within_a_sample(jumps):
+        return len(jumps) == 1 and abs(0.5 * jumps[0] - wait) <= 1.0
+
+    drawn = [late_start(seed, 1e-3, wait) for seed in range(20)]
+    assert sum(within_a_sample(find_jumps(time, strain, 1e-3, stress)) for time, strain, stress in drawn) >= often
+    assert sum(within_a_sample(find_jumps(time, strain, 1e-3)) for time, strain, _ in drawn) < often / 2
+
+
+def test_a_force_that_comes_late_does_not_move_a_jump_that_the_strain_shows():
+    """A lag of 3 s, six samples; the strain's noise of 2e-5 places its jump to a tenth of a sample."""
+    time, strain, stress = late_start(0, 2e-5)
+    (jump,) = find_jumps(time, strain, 2e-5, np.interp(time - 3.0, time, stress))
+    assert abs(time[jump] - 20.3) <= time[1]
+
+
+@pytest.mark.parametrize("noise", [1e-4, 1e-3])
+def test_a_force_that_yields_makes_no_jump_in_a_smooth_strain(noise):
+    """A necking history: the stress bends at the yield point, the strain rate does not jump there."""
+    history = NECKING_SETS["P2"]
+    time = np.linspace(0.0, history.duration, 601)
+    smooth = history.true_strain(time)
+    stress = LAW.stress(time, smooth, scheme="sa3")
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        strain = smooth + noise * rng.standard_normal(601)
+        assert find_jumps(time, strain, noise, stress + 0.02 * rng.standard_normal(601)) == []
 
 
 def test_smoothing_recovers_the_rate_on_both_sides_of_a_jump():

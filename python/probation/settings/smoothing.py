@@ -186,6 +186,14 @@ class SmoothingSettings:
         origin="chosen",
         used_in="smoothing/segments.py",
     )
+    stress_corner: float = setting(
+        3.0,
+        "Standard errors that a change of the strain's slope needs where the stress has a corner, and up to which a "
+        "jump may be moved there.",
+        unit="standard errors",
+        origin="chosen",
+        used_in="smoothing/segments.py",
+    )
     placed_scatter: float = setting(
         1.2,
         "Scatter around two lines that meet up to which a larger window places a rate discontinuity.",

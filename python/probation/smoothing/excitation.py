@@ -195,7 +195,7 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     one_of(method, "excitation", METHODS)
     given = record.noise.strain
     noise = given if given is not None else scatter(record.time, record.true_strain)
-    jumps = find_jumps(record.time, record.true_strain, noise)
+    jumps = find_jumps(record.time, record.true_strain, noise, record.true_stress)
     automatic = method == "auto"
     if automatic:
         method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"

@@ -9,9 +9,12 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from probation import _core
+from probation.records.noise import scatter
 from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
 
 SMALLEST_WINDOW, LARGEST_WINDOW = 8, 60
@@ -28,14 +31,16 @@ class _Slopes:
     standard_error: FloatArray
 
 
-def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[int]:
+def find_jumps(
+    time: FloatArray, true_strain: FloatArray, noise: float, true_stress: FloatArray | None = None
+) -> list[int]:
     """Indices at which the strain rate is discontinuous.
 
     Clean samples are searched step by step (`History.find_rate_jumps`). Noisy ones are searched with straight lines
     through a window on each side: their slopes must differ by `least_jump` of the steeper one and by
     `jump_significance` standard errors (of the samples around, where they scatter more), most so within a window, and
     the corner between them must describe the samples better than a cubic by `jump_evidence`. It is put where it
-    leaves least.
+    leaves least. Where the stress has a corner, the strain needs to confirm no more than that (`_with_stress`).
 
     Parameters
     ----------
@@ -43,6 +48,7 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     true_strain : ndarray, shape (n_times,) [-]
     noise : float
         Standard deviation of the strain's noise [-].
+    true_stress : ndarray, shape (n_times,) [MPa], optional
 
     Returns
     -------
@@ -51,16 +57,86 @@ def find_jumps(time: FloatArray, true_strain: FloatArray, noise: float) -> list[
     """
     if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
+    jumps = _jumps_in_noise(time, true_strain, noise)
+    stress_noise = 0.0 if true_stress is None else scatter(time, true_stress)
+    if true_stress is None or stress_noise == 0.0:
+        return jumps
+    return _with_stress(time, true_strain, noise, jumps, _jumps_in_noise(time, true_stress, stress_noise))
+
+
+def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[int]:
+    """Indices at which the slope of noisy samples is discontinuous, increasing."""
     jumps: list[int] = []
-    smallest = int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
+    smallest = _smallest_window(time)
     for window in (factor * smallest for factor in WIDER):
         if len(time) >= 4 * window:
-            jumps += _jumps_in_windows(time, true_strain, noise, window, jumps)
+            jumps += _jumps_in_windows(time, values, noise, window, jumps)
     borders = [0, *sorted(jumps), len(time) - 1]
     return [
-        _placed(time, true_strain, jump, smallest, (before, after), noise)
+        _placed(time, values, jump, smallest, (before, after), noise)
         for before, jump, after in zip(borders, borders[1:], borders[2:], strict=False)
     ]
+
+
+def _smallest_window(time: FloatArray) -> int:
+    return int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
+
+
+def _with_stress(
+    time: FloatArray, true_strain: FloatArray, noise: float, jumps: Sequence[int], corners: Sequence[int]
+) -> list[int]:
+    """Jumps of the strain rate, with what corners of the stress say of them.
+
+    A law that is stiff at once makes a corner in the stress of every jump of the rate: at the end of a wait the force
+    rises from that very sample on. The force often shows it a hundred times as sharply as a noisy strain does. So a
+    jump moves to a corner of the stress unless the strain's own samples refute that (by `stress_corner`); and a corner
+    where the strain alone shows no jump is one if the slopes of the strain differ there by `least_jump` and
+    `stress_corner` standard errors, and no cubic describes the samples better by as much: the place is known, and
+    needs no search.
+    """
+    found = sorted(jumps)
+    reach = WIDER[-1] * _smallest_window(time)
+    for corner in corners:
+        near = min(found, key=lambda jump: abs(jump - corner), default=None)
+        others = [jump for jump in found if jump != near]
+        if near is not None and abs(near - corner) <= reach:
+            if near != corner and _agrees(time, true_strain, noise, near, corner, others):
+                found = sorted({*others, corner})
+        elif _is_jump(time, true_strain, noise, corner, found):
+            found = sorted([*found, corner])
+    return found
+
+
+def _around(time: FloatArray, first: int, last: int, others: Sequence[int]) -> slice:
+    """The samples before `first` and after `last` up to the next jump or end, no more than the widest window."""
+    most = WIDER[-1] * _smallest_window(time)
+    before = max((other for other in others if other < first), default=0)
+    after = min((other for other in others if other > last), default=len(time) - 1)
+    return slice(max(before, first - most), min(after, last + most) + 1)
+
+
+def _agrees(time: FloatArray, values: FloatArray, noise: float, jump: int, corner: int, others: Sequence[int]) -> bool:
+    """Whether the strain may as well jump at a corner of the stress as where it seemed to."""
+    part = _around(time, min(jump, corner), max(jump, corner), others)
+    t, y = time[part] - time[jump], values[part]
+    there, here = (min(_left(t, y, time[at] - time[jump], degree) for degree in (1, 2)) for at in (corner, jump))
+    return there - here < (SMOOTHING.stress_corner * noise) ** 2
+
+
+def _is_jump(time: FloatArray, values: FloatArray, noise: float, corner: int, others: Sequence[int]) -> bool:
+    """Whether the slopes of the strain differ at a corner of the stress, more than a smooth bend explains."""
+    part = _around(time, corner, corner, others)
+    t, y = time[part] - time[corner], values[part]
+    hinge = np.column_stack([np.ones_like(t), t, np.maximum(t, 0.0)])
+    (_, before, change), left = np.linalg.lstsq(hinge, y, rcond=None)[:2]
+    scale = max(float(np.sqrt(left[0] / (len(t) - 3))), noise)
+    error = scale * float(np.sqrt(np.linalg.inv(hinge.T @ hinge)[2, 2]))
+    smooth = np.polynomial.Polynomial.fit(t, y, 3)
+    return bool(
+        abs(change) > SMOOTHING.stress_corner * error
+        and abs(change) > SMOOTHING.least_jump * max(abs(before), abs(before + change))
+        and left[0] < np.sum((y - smooth(t)) ** 2) + (SMOOTHING.stress_corner * scale) ** 2
+    )
 
 
 def _placed(
