@@ -10,7 +10,7 @@ from probation.records.preview import preview
 from probation.records.reading import read_record
 from probation.records.record import Record
 from probation.records.saving import csv_text
-from probation.records.start import with_loading
+from probation.records.start import as_started, with_loading
 
 MODULUS, RATE = 2800.0, 0.005
 LAW = probation.Law(unrelaxed_modulus=MODULUS, tau_max=5.2, hardening_modulus=2.5)
@@ -143,3 +143,38 @@ def test_an_unknown_start_is_refused(campaign, tmp_path):
         campaign('start = "laoded"')
     with pytest.raises(InputError, match="start: found 'laoded'; did you mean 'loaded'"):
         read_record(tmp_path / "cut.csv", start="laoded")
+
+
+def triggered(late, *, strain_noise=0.0, prestress=0.0, held=0.0):
+    """A ramp at 0.005 1/s, sampled every 0.1 s, whose record begins so long after the first load."""
+    random = np.random.default_rng(2)
+    fine = np.linspace(0.0, 40.0 + late, 4001)
+    time = np.arange(0.0, 40.0, 0.1)
+    stress = np.interp(time + late, fine, LAW.stress(fine, RATE * fine + held, "sa3")) + prestress
+    strain = RATE * (time + late) + held + random.normal(0.0, strain_noise, len(time))
+    return Record("a", time, strain, stress + random.normal(0.0, 0.04, len(time)), control="strain-rate")
+
+
+@pytest.mark.parametrize(("strain_noise", "error"), [(0.0, 1e-6), (3e-4, 0.05)])
+def test_what_a_trigger_lost_between_two_samples_is_restored_unasked(strain_noise, error):
+    """0.07 s at 0.005 1/s: a strain of 3.5e-4 and 1 MPa, 25 times the noise, which no relaxed start explains.
+
+    Where the strain is too noisy to tell, the stress tells to half an interval: it bends from the start.
+    """
+    record = as_started(triggered(0.07, strain_noise=strain_noise))
+    assert record.time[0] == pytest.approx(-0.07, abs=error)
+    assert (record.true_strain[0], record.true_stress[0]) == (0.0, 0.0)
+    assert any("is put before the first sample" in warning for warning in record.warnings)
+
+
+@pytest.mark.parametrize(
+    "record",
+    [triggered(0.0), triggered(0.0, prestress=1.0), triggered(0.0, held=0.1), triggered(0.25)],
+    ids=["at zero", "prestressed", "held at a strain", "more than one sample missing"],
+)
+def test_other_starts_stay_as_they_are(record):
+    assert as_started(record).time[0] == 0.0
+
+
+def test_a_start_that_is_said_to_be_relaxed_stays_so():
+    assert as_started(triggered(0.07), "relaxed").time[0] == 0.0

@@ -1,7 +1,5 @@
 """A specimen's table to a record."""
 
-from dataclasses import replace
-
 from probation.records.conversions import true_stress_from
 from probation.records.extraction import dimension, dimension_warning, extract
 from probation.records.joining import Film
@@ -10,7 +8,7 @@ from probation.records.profiles import Reading
 from probation.records.record import Noise, Record
 from probation.records.roles import OPTIONAL_ROLES, STRESS_ROLES
 from probation.records.source import Source
-from probation.records.start import start_doubts, with_loading
+from probation.records.start import as_started
 from probation.records.table import Table
 
 
@@ -25,7 +23,7 @@ def assemble(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
-    start: str = "relaxed",
+    start: str = "auto",
     specimen_id: str | None = None,
     film: Film | None = None,
 ) -> Record:
@@ -59,9 +57,7 @@ def assemble(
         profile=profile,
         clock=found.clock,
     )
-    if start == "loaded":
-        return with_loading(record)
-    return replace(record, warnings=(*record.warnings, *start_doubts(record)))
+    return as_started(record, start)
 
 
 def _volume_warning(measure: str) -> tuple[str, ...]:

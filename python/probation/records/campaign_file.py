@@ -210,7 +210,7 @@ def _record(folder: Path, entry: TomlTable) -> Record:
         control=entry.text("control", default="other", known=CONTROLS),
         role=entry.text("role", default="identify", known=RECORD_ROLES),
         noise=Noise(stress_MPa=levels.get("stress_MPa"), strain=levels.get("strain")),
-        start=entry.text("start", default="relaxed", known=STARTS),
+        start=entry.text("start", default="auto", known=STARTS),
     )
     if "specimen_id" in entry.values:
         record = replace(record, specimen_id=entry.text("specimen_id"))

@@ -25,7 +25,7 @@ def read_records(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
-    start: str = "relaxed",
+    start: str = "auto",
     **how: Unpack[ReadingKeys],
 ) -> tuple[Record, ...]:
     """Read every specimen of a file.
@@ -38,7 +38,7 @@ def read_records(
         By default the file's name without ending, and the specimen's number where there are several.
     control, role, noise
         As in `Record`.
-    start : {"relaxed", "loaded"}
+    start : {"auto", "relaxed", "loaded"}
         "loaded": the record is cut at its start, and the ramp from zero strain that is missing is put before it.
     **how
         How the file is read: `options.ReadingKeys` says each.
@@ -81,7 +81,7 @@ def read_record(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
-    start: str = "relaxed",
+    start: str = "auto",
     **how: Unpack[ReadingKeys],
 ) -> Record:
     """Read one specimen of a file; parameters as in `read_records`. Of a workbook, one sheet is read.
@@ -117,7 +117,7 @@ def assemble_all(
     control: str = "other",
     role: str = "identify",
     noise: Noise | None = None,
-    start: str = "relaxed",
+    start: str = "auto",
 ) -> tuple[Record, ...]:
     """Turn the specimens asked for into records, named after the file unless named."""
     stem = record_id or _stem(source.path)

@@ -3,6 +3,10 @@
 A record that is cut starts at a strain and a stress that the law does not know the history of. Where the strain still
 counts from the unloaded specimen, the missing part is known well enough: a straight line from zero at the strain rate
 of the first samples. One sample at zero strain and zero stress before the others gives the law that line.
+
+A record that a trigger started lacks what happened before its first sample: no more than one interval. The force tells,
+where the strain is too noisy to: its line meets zero within an interval before the first sample, and the strain's line
+meets zero there, too. Such a start is restored without being asked for.
 """
 
 from dataclasses import replace
@@ -19,10 +23,28 @@ from probation.settings.reading import READING
 
 FloatArray = NDArray[np.float64]
 
-STARTS = ("relaxed", "loaded")
+STARTS = ("auto", "relaxed", "loaded")
+"""`auto` is loaded where no more than one interval between samples is missing, and else relaxed."""
 
 _AHEAD = 4.0  # times the first strain: how far the strain rate at the start is looked for
 _FEWEST = 10  # samples behind the strain rate at the start
+_FEWEST_OF_FORCE = 4  # ... behind the rate of the stress, which bends soon
+
+
+def as_started(record: Record, start: str = "auto") -> Record:
+    """Copy a record as its start is to be taken: one of `STARTS`.
+
+    Raises
+    ------
+    InputError
+        Where it starts loaded and no ramp leads to its first sample.
+    """
+    if start == "loaded":
+        return with_loading(record)
+    line = _lost_before_the_first_sample(record) if start == "auto" else None
+    if line is not None:
+        return _with_line(record, *line)
+    return replace(record, warnings=(*record.warnings, *start_doubts(record)))
 
 
 def start_doubts(record: Record) -> tuple[str, ...]:
@@ -60,7 +82,11 @@ def with_loading(record: Record) -> Record:
             "that no ramp from zero leads to, expected one that grows away from zero; leave start out, or add the "
             "loading to the file"
         )
-    duration, rate = line
+    return _with_line(record, *line)
+
+
+def _with_line(record: Record, duration: float, rate: float) -> Record:
+    """Put one sample of the unloaded specimen so long before the first one."""
     first = {"time": record.time[0] - duration, "true_strain": 0.0, "true_stress": 0.0}
     for name, value in (("strain_rate", rate), ("transverse_strain", 0.0)):
         if getattr(record, name) is not None:
@@ -75,6 +101,33 @@ def with_loading(record: Record) -> Record:
 def _is_far(time: FloatArray, values: FloatArray) -> bool:
     first, largest = abs(float(values[0])), float(np.abs(values).max())
     return first > max(READING.far_start * largest, READING.start_noise * scatter(time, values))
+
+
+def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
+    """Duration [s] and true strain rate [1/s] of a ramp from zero that is shorter than an interval between samples.
+
+    None where the stress starts at zero within its noise, where more is missing, or where the strain does not come from
+    zero with the stress: a prestress, a force that is off, or a start at a strain that was held.
+    """
+    time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
+    beyond = np.flatnonzero(np.abs(stress) > _AHEAD * abs(stress[0]))
+    count = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
+    force_noise, strain_noise = scatter(time, stress), scatter(time, strain)
+    loading, first = np.polyfit(time[:count], stress[:count], 1)
+    if min(abs(first), abs(stress[0])) <= READING.start_noise * force_noise or not loading:
+        return None
+    by_force = float(first / loading)
+    if not 0.0 < by_force < np.max(np.diff(time[:_FEWEST_OF_FORCE])):
+        return None
+    rate, reached = np.polyfit(time[:count], strain[:count], 1)
+    by_strain = float(reached / rate) if rate else np.inf
+    error = strain_noise * np.sqrt((1.0 + np.mean(time[:count]) ** 2 / np.var(time[:count])) / count) / abs(rate)
+    # The stress bends from the start: its line comes from too far back.
+    bend = READING.start_bend * by_force
+    if abs(by_strain - by_force) > READING.start_noise * error + bend:
+        return None
+    share = bend**2 / (bend**2 + error**2)
+    return share * by_strain + (1.0 - share) * by_force, float(rate)
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:

@@ -53,6 +53,13 @@ class ReadingSettings:
         origin="chosen",
         used_in="records/start.py",
     )
+    start_bend: float = setting(
+        0.5,
+        "Part of the time missing before the first sample by which the bend of the stress may falsify it.",
+        unit="-",
+        origin="chosen",
+        used_in="records/start.py",
+    )
     steady_rate: float = setting(
         0.1,
         "Relative scatter of a rate below which it is constant.",
