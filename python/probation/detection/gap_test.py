@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.noise.uncertain_scatter import UncertainScatter
     from probation.noise.whitening import Whitened
 
 ABSORBED = 1e-8
@@ -84,6 +85,8 @@ class GapTester:
     directions : dict of str to ndarray, shape (N,) or (N, m), optional
         Whitened, unprojected sensitivities of the model along effects' amplitudes; several columns are tried one by
         one (the shapes that an effect may have).
+    scatter : UncertainScatter, optional
+        Of specimens that differ by no one knows exactly how much.
     size : int
         Draws.
     seed : int
@@ -94,6 +97,7 @@ class GapTester:
         whitened: Whitened,
         directions: Mapping[str, FloatArray] | None = None,
         *,
+        scatter: UncertainScatter | None = None,
         size: int = 4000,
         seed: int = 0,
     ) -> None:
@@ -136,7 +140,7 @@ class GapTester:
         self._features = np.hstack(parts)
         self._directions = whitened.project(np.hstack(signals)) if signals else np.zeros((len(whitened), 0))
         rng = np.random.default_rng(seed)
-        products = self._reduced.draws(self._features, rng, size)
+        products = self._reduced.draws(self._features, rng, size, scatter)
         if self._effects:
             within = samples_within(self._directions)
             local_variance = rng.chisquare(within, (size, len(within))) / within

@@ -43,5 +43,11 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
     done = forms.variance * discrepancy.energy(found.residual - base.refit.residual)
     rest = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
     allowed = np.hstack([rest, error * forms.columns])
+    scatter = base.uncertain_scatter
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
-    return GapTester(base.whitened.with_residual(both[:, 0], both[:, 1:]), size=2000, seed=seed)()
+    return GapTester(
+        base.whitened.with_residual(both[:, 0], both[:, 1:]),
+        scatter=scatter and scatter.seen_by(lambda columns: jointly_whitened(allowed, columns)),
+        size=2000,
+        seed=seed,
+    )()

@@ -25,6 +25,7 @@ from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimen_columns
+from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
@@ -218,6 +219,25 @@ class BaseFit:
             only=lambda form: form.variant or form.starts is not None,
         )
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
+
+    @property
+    def uncertain_scatter(self) -> UncertainScatter | None:
+        """The specimens' scatter as replicates leave it open, of the identify records; None where nothing is open."""
+        ratios = self._scatter_ratios
+        return None if ratios is None else UncertainScatter(tuple(self.of_specimens()), ratios)
+
+    def uncertain_scatter_of(self, index: int, noise: NoiseModel) -> UncertainScatter | None:
+        """The same of the specimen of a predicted record, whose deviations its noise holds."""
+        ratios, columns = self._scatter_ratios, self.held_out[index].specimen
+        return None if ratios is None or columns is None else UncertainScatter((noise.whiten(columns),), ratios)
+
+    @property
+    def _scatter_ratios(self) -> FloatArray | None:
+        """Draws of the deviations over what was estimated, shape (n_draws, n_seen)."""
+        if self.scatter.draws is None:
+            return None
+        size = np.array(self.scatter.deviations)
+        return np.asarray(self.scatter.draws[:, size > 0.0] / size[size > 0.0])
 
     def of_specimens(self) -> list[FloatArray]:
         """What each specimen's deviations do to all identify records, of one standard deviation, white; (N, k)."""

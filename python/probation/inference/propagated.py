@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
 
+ROUNDING = 1e-14
+"""Variance of a direction over the largest one's that is nothing but rounding."""
+
 STRAIN_STEP = 1e-6
 """Largest strain by which a law without tangents is probed [-]."""
 
@@ -46,10 +49,10 @@ def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> F
         columns = noise.leading(law.law_at(parameters))
     else:
         columns = _by_differences(law, view, parameters)
-    left, size, _ = np.linalg.svd(columns, full_matrices=False)
+    variance, turn = np.linalg.eigh(columns.T @ columns)
     level = scatter(view.sampled(view.time), view.data)
-    kept = size > NOISE.negligible_propagated * level
-    return np.asarray(left[:, kept] * size[kept])
+    kept = (variance > (NOISE.negligible_propagated * level) ** 2) & (variance > ROUNDING * variance[-1:])
+    return np.asarray(columns @ turn[:, kept])
 
 
 def _by_differences(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ variances are had from that alone, by restricted likelihood, so that no missing 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -17,6 +17,7 @@ from probation.inference.deviations import AREA, START, deviation_names, kind_of
 from probation.inference.parameter import SYMBOLS, outside_name
 from probation.noise.outliers import without_outliers
 from probation.records.specimens import DEVIATIONS
+from probation.results.data import LEFT_OUT
 from probation.settings.noise import NOISE
 from probation.wording import listed, percentage
 
@@ -54,6 +55,8 @@ class Scatter:
     specimens : int
         How many there are among the identify records.
     source : {"replicates", "assumed", "stated", "none"}
+    draws : ndarray, shape (n_draws, n_deviations), or None
+        Of the deviations' posterior; None where nothing was estimated.
     """
 
     names: tuple[str, ...]
@@ -61,6 +64,7 @@ class Scatter:
     intervals: tuple[tuple[float, float], ...] | None
     specimens: int
     source: Source
+    draws: FloatArray | None = field(default=None, metadata=LEFT_OUT)
 
     def to_dict(self) -> dict[str, Any]:
         """As in `scatter` of docs/formats.md; without what specimens are alike in."""
@@ -138,7 +142,7 @@ def scatter_of(
     deviations = np.sqrt(np.mean(draws**2, axis=0))
     ends = np.quantile(draws, (0.025, 0.975), axis=0)
     intervals = tuple((float(low), float(high)) for low, high in ends.T)
-    return Scatter(names, tuple(deviations.tolist()), intervals, count, "replicates")
+    return Scatter(names, tuple(deviations.tolist()), intervals, count, "replicates", draws)
 
 
 def replicates(records: Sequence[RecordResidual]) -> list[list[int]]:

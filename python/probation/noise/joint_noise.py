@@ -10,12 +10,19 @@ from scipy.linalg import cholesky, solve_triangular
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
+LEAST_SEEN = 3e-5
+"""Size of a direction of noise over the largest one's below which it is left out."""
+
 
 def joint_directions(more: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Q (n, k) and shrink (k,) with (I + U U^T)^(-1/2) = I - Q diag(shrink) Q^T for noise U of shape (n, m)."""
-    directions, size, _ = np.linalg.svd(more, full_matrices=False)
-    seen = size > 3e-5 * max(float(size.max(initial=0.0)), 1e-300)
-    return directions[:, seen], 1.0 - 1.0 / np.sqrt(1.0 + size[seen] ** 2)
+    wide = more.shape[0] < more.shape[1]
+    variance, vectors = np.linalg.eigh(more @ more.T if wide else more.T @ more)
+    # A tenth of the time of singular values; their squares keep seven digits of what is kept here.
+    seen = variance > LEAST_SEEN**2 * max(float(variance.max(initial=0.0)), 1e-300)
+    variance, vectors = variance[seen], vectors[:, seen]
+    directions = vectors if wide else more @ (vectors / np.sqrt(variance))
+    return directions, 1.0 - 1.0 / np.sqrt(1.0 + variance)
 
 
 def jointly_whitened(more: FloatArray, values: FloatArray) -> FloatArray:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
+    from probation.noise.uncertain_scatter import UncertainScatter
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,11 +152,15 @@ class Reduced:
         parts = zip(self.frames, self.whitened.slices, strict=True)
         return np.concatenate([frame.T @ columns[part] for frame, part in parts])
 
-    def draws(self, features: FloatArray, rng: np.random.Generator, size: int) -> FloatArray:
+    def draws(
+        self, features: FloatArray, rng: np.random.Generator, size: int, scatter: UncertainScatter | None = None
+    ) -> FloatArray:
         """Draws of features^T z under "no gap", shape (size, m), for reduced *and projected* features."""
         scales = self.whitened.scales(rng, size)
         widths = [frame.shape[1] for frame in self.frames]
         noise = rng.standard_normal((size, sum(widths))) * np.repeat(scales, widths, axis=1)
+        if scatter is not None:
+            noise = scatter.spread(noise, rng, self.of)
         return np.asarray(noise @ features, dtype=np.float64)
 
 
