@@ -127,7 +127,8 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     if abs(by_strain - by_force) > READING.start_noise * error + bend:
         return None
     share = bend**2 / (bend**2 + error**2)
-    return share * by_strain + (1.0 - share) * by_force, float(rate)
+    duration = share * by_strain + (1.0 - share) * by_force
+    return (duration, float(rate)) if duration > 0.0 else None
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:

@@ -30,20 +30,10 @@ class DetectionSettings:
     )
     high_noise: float = setting(
         1.25,
-        "The same for more than estimated; a gap below `fraction_of_noise` must be significant there, too.",
+        "The same for more than estimated; a gap must be significant there, too.",
         unit="-",
         origin="chosen",
         used_in="detection/gap_test.py",
-    )
-    fraction_of_noise: float = setting(
-        0.5,
-        (
-            "Gap, over the noise, below which it is declared only if it is significant with other models of the noise, "
-            "too."
-        ),
-        unit="noise",
-        origin="chosen",
-        used_in="inference/gap.py",
     )
     tolerance: float = setting(
         0.001,
