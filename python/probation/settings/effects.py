@@ -46,6 +46,20 @@ class EffectsSettings:
         origin="chosen",
         used_in="effects/large_faults.py",
     )
+    large_locking: float = setting(
+        0.5,
+        "Standard deviation of the amplitude of a network that locks within the records.",
+        unit="amplitude that locks",
+        origin="chosen",
+        used_in="effects/large_faults.py",
+    )
+    locking_starts: tuple[float, ...] = setting(
+        (0.2, 0.5, 0.8),
+        "Such parts from which searches begin.",
+        unit="amplitude that locks",
+        origin="chosen",
+        used_in="effects/large_faults.py",
+    )
     rate_decades: float = setting(
         2.0,
         "Decades around the reference rate beyond which the rate, as a coordinate, is constant.",
