@@ -85,7 +85,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.exporting.formats import FORMATS  # noqa: PLC0415 - see the package
-    from probation.exporting.result import exports_json  # noqa: PLC0415
+    from probation.exporting.result import Exports  # noqa: PLC0415
 
     if options.list_formats:
         width = max(map(len, FORMATS))
@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
         outputs = [_file_output(each, options.folder, into=True) for each in exports]
     deliver(
         "\n".join(each.summary() for each in exports),
-        [*outputs, text_output("JSON", options.json, lambda: exports_json(exports))],
+        [*outputs, text_output("JSON", options.json, Exports(tuple(exports)).to_json)],
     )
     return 0
 

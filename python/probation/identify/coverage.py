@@ -17,23 +17,20 @@ from scipy.special import betaincinv
 
 from probation._arrays import FloatArray, as_whole_number
 from probation._files import kind_of, read_whole, write_whole, written_to
-from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
 from probation.pool import run_all
 from probation.records.campaign import Campaign
 from probation.records.record import Record
-from probation.results.reading import answer_in
+from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
     from os import PathLike
 
     from probation.identify.weighting import Weighting
     from probation.smoothing.methods import Method as ExcitationMethod
-
-SCHEMA = "probation.coverage/1"
 
 TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
 """Table 1's reference [MPa], [s], [MPa]."""
@@ -125,9 +122,26 @@ class Counted:
         """Whether the intervals of all parameters hold."""
         return all(self.holds(name) for name in self.hits)
 
+    def to_dict(self) -> dict[str, Any]:
+        """A row of the answer."""
+        return {
+            "case": self.case,
+            "weighting": self.method,
+            "draws": self.draws,
+            "parameters": {
+                name: {
+                    "coverage": self.coverage(name),
+                    "interval99": self.interval(name),
+                    "holds": None if self.holds(name) and not self.tells else self.holds(name),
+                    "bias": self.bias[name],
+                }
+                for name in self.hits
+            },
+        }
+
 
 @dataclass(frozen=True)
-class Coverage(Summarised, Plotted):
+class Coverage(Summarised, Plotted, Stored):
     """The study.
 
     `plot` draws the coverage of every case, method and parameter with its interval.
@@ -137,6 +151,8 @@ class Coverage(Summarised, Plotted):
     counted : tuple of Counted
     seed : int
     """
+
+    SCHEMA = "probation.coverage/1"
 
     counted: tuple[Counted, ...]
     seed: int
@@ -167,54 +183,14 @@ class Coverage(Summarised, Plotted):
             "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
         )
 
-    def to_json(self) -> str:
-        """The answer, schema "probation.coverage/1"."""
-        rows = [
-            {
-                "case": each.case,
-                "weighting": each.method,
-                "draws": each.draws,
-                "parameters": {
-                    name: {
-                        "coverage": each.coverage(name),
-                        "interval99": list(each.interval(name)),
-                        "holds": None if each.holds(name) and not each.tells else each.holds(name),
-                        "bias": each.bias[name],
-                    }
-                    for name in each.hits
-                },
-            }
-            for each in self.counted
-        ]
-        return json_answer(SCHEMA, {"verdict": self.verdict, "seed": self.seed, "rows": rows})
-
-    @classmethod
-    def from_json(cls, text: str) -> Coverage:
-        """The study that `to_json` wrote.
-
-        Parameters
-        ----------
-        text : str
-
-        Raises
-        ------
-        InputError
-            If the text is not what `to_json` writes.
-        """
-        with answer_in(text, SCHEMA) as answer:
-            return cls(tuple(_counted(row) for row in answer["rows"]), answer["seed"])
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects."""
+        return {"verdict": self.verdict, "seed": self.seed, "rows": [counted.to_dict() for counted in self.counted]}
 
 
-def _counted(row: Mapping[str, Any]) -> Counted:
-    draws, parameters = row["draws"], row["parameters"]
-    hits = {name: round(each["coverage"] * draws) for name, each in parameters.items()}
-    bias = {name: each["bias"] for name, each in parameters.items()}
-    return Counted(row["case"], row["weighting"], draws, hits, bias)
-
-
-def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Clopper and Pearson's interval of a proportion."""
-    tail = 0.5 * (1.0 - confidence)
+def exact_interval(hits: int, draws: int) -> tuple[float, float]:
+    """Clopper and Pearson's interval of a proportion, at `CONFIDENCE`."""
+    tail = 0.5 * (1.0 - CONFIDENCE)
     low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
     high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
     return low, high

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from probation.report.table import Table
 from probation.settings.smoothing import SMOOTHING
-from probation.smoothing.answer import spread
 from probation.smoothing.comparison import Closeness
 from probation.wording import percentage, plus_minus
 
@@ -30,42 +27,38 @@ def excitation_summary(answer: ExcitationAnswer) -> str:
 
 def facts_table(answer: RecordExcitation) -> Table:
     """The facts as a table."""
-    return Table(("quantity", "value"), facts(answer), left=2)
+    return Table(("quantity", "value"), facts_of(answer), left=2)
 
 
-def facts(answer: RecordExcitation) -> tuple[tuple[str, str], ...]:
+def facts_of(answer: RecordExcitation) -> tuple[tuple[str, str], ...]:
     """Quantity and value, as text."""
-    excitation = answer.excitation
-    known = "given with the record" if answer.record.noise.strain is not None else "estimated"
-    rate, strain = excitation.rate, excitation.true_strain
-    parts = [percentage(each) for each in spread(answer.relative_error)]
+    facts = answer.facts
+    known = "given with the record" if facts["strain_noise_given"] else "estimated"
+    rate, strain = facts["strain_rate_per_s"], facts["true_strain"]
+    errors = [percentage(error) for error in facts["relative_se_of_rate"].values()]
     rows = [
-        ("method", f"{excitation.method}: {excitation.differentiator}"),
-        ("samples", f"{len(answer.time)}, described with {excitation.freedom:.3g} degrees of freedom"),
-        ("strain noise", f"{excitation.strain_noise:.2g}, {known}{_correlation(answer)}"),
-        ("strain", f"{strain[0]:.4g} … {strain[-1]:.4g}, standard error {np.median(excitation.strain_se):.2g}"),
-        ("rate at the start", f"{plus_minus(rate[0], excitation.rate_se[0])} 1/s"),
-        ("rate at the end", f"{plus_minus(rate[-1], excitation.rate_se[-1])} 1/s"),
-        ("its standard error", "median {}, 95 % below {}, largest {} %".format(*parts)),
-        ("integrated rate − measured strain", f"{np.abs(answer.integrated - answer.measured).max():.2g} at most"),
+        ("method", f"{facts['method']}: {facts['differentiator']}"),
+        ("samples", f"{facts['samples']}, described with {facts['degrees_of_freedom']:.3g} degrees of freedom"),
+        ("strain noise", f"{facts['strain_noise']:.2g}, {known}{_correlation(facts['noise_inflation'])}"),
+        ("strain", f"{strain['first']:.4g} … {strain['last']:.4g}, standard error {facts['median_se_of_strain']:.2g}"),
+        ("rate at the start", f"{plus_minus(rate['first'], rate['se_of_first'])} 1/s"),
+        ("rate at the end", f"{plus_minus(rate['last'], rate['se_of_last'])} 1/s"),
+        ("its standard error", "median {}, 95 % below {}, largest {} %".format(*errors)),
     ]
-    if excitation.strain_rate is None:
-        rows[-1:] = []
-    if answer.necking is not None:
-        fit = answer.necking
+    if not facts["rate_is_that_of_the_scheme"]:
+        off = facts["integrated_rate_minus_measured_strain"]
+        rows.append(("integrated rate − measured strain", f"{off:.2g} at most"))
+    if steps := facts.get("two_steps"):
+        own, off = steps["rate"], steps["rate"]["integrated_minus_measured_strain"]
         rows += [
-            ("(A-1) leaves", f"{np.std(fit.strain.first_residual):.2g} (rms of the strain)"),
-            ("sines", f"{len(fit.strain.sines.frequencies)} leave {np.std(fit.strain.final_residual):.2g}"),
-            (
-                "the rate's own fit",
-                f"{len(fit.rate.sines.frequencies)} sines; integrated {fit.largest_drift:.2g} off",
-            ),
+            ("(A-1) leaves", f"{steps['strain']['rms_after_step_1']:.2g} (rms of the strain)"),
+            ("sines", f"{len(steps['strain']['sines_Hz'])} leave {steps['strain']['rms_after_step_2']:.2g}"),
+            ("the rate's own fit", f"{len(own['sines_Hz'])} sines; integrated {off:.2g} off"),
         ]
     return tuple(rows)
 
 
-def _correlation(answer: RecordExcitation) -> str:
-    grown = answer.excitation.noise_inflation
+def _correlation(grown: float) -> str:
     return "" if grown <= SMOOTHING.correlated else f", correlated from sample to sample (×{grown:.2g})"
 
 

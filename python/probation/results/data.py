@@ -17,6 +17,7 @@ from collections.abc import Mapping, Set
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cached_property
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 import numpy as np
@@ -166,6 +167,7 @@ _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
     (list, lambda value, inner: {"is": "list", "values": [inner(each) for each in value]}),
     (Set, lambda value, inner: {"is": "set", "values": [inner(each) for each in sorted(value)]}),
     (slice, lambda value, inner: {"is": "slice", "values": [inner(value.start), inner(value.stop), inner(value.step)]}),
+    (Path, lambda value, _: {"is": "path", "value": str(value)}),
     (np.ndarray, _written_array),
     (Mapping, _written_mapping),
 )
@@ -176,6 +178,7 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "list": lambda content: [decoded(each) for each in content["values"]],
     "set": lambda content: frozenset(decoded(each) for each in content["values"]),
     "slice": lambda content: slice(*(decoded(each) for each in content["values"])),
+    "path": lambda content: Path(content["value"]),
     "array": _read_array,
     "mapping": lambda content: {decoded(key): decoded(each) for key, each in content["values"]},
 }
