@@ -37,7 +37,6 @@ def read_whole(path: str | os.PathLike[str], limit: int = FILE_BYTES) -> bytes:
 
     Parameters
     ----------
-    path : path-like
     limit : int [byte]
         Largest size.
 
@@ -79,7 +78,6 @@ def read_json(path: str | os.PathLike[str], expected: str) -> Any:
 
     Parameters
     ----------
-    path : path-like
     expected : str
         What it should hold, for the error: "what fit --json writes".
 

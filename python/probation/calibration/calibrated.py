@@ -243,7 +243,6 @@ def seen_rates(history: _core.History, scheme: str, floor: float, direction: Arr
 
     Parameters
     ----------
-    history : History
     scheme : str
         Its differentiator is used.
     floor : float [1/s]

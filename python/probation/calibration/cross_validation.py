@@ -29,7 +29,6 @@ class Score:
 
     Attributes
     ----------
-    form : str
     log_error : ndarray, shape (n,)
         Predicted minus identified ln tau_max, each row by the relation of the other rates; NaN where there is none.
     weights : ndarray, shape (n,)

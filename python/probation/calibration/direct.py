@@ -56,7 +56,6 @@ class DirectFit:
 
     Attributes
     ----------
-    companion : CalibratedCompanion
     hardening_modulus : ndarray, shape (n_records,) [MPa]
         All alike where it is shared.
     unrelaxed_modulus : float [MPa]

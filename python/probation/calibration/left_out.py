@@ -52,8 +52,6 @@ class Predicted:
 
     Attributes
     ----------
-    record : str
-    form : str
     rms : float
         Of the prediction with nothing adjusted: E_u, relation and G are those of the other records [MPa].
     hardening_rms : float
@@ -96,7 +94,6 @@ def leave_one_rate_out(
 
     Parameters
     ----------
-    problem : DirectProblem
     groups : sequence of arrays
         Indices of the records of each rate.
     forms : mapping of name to Form

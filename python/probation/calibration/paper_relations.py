@@ -35,7 +35,6 @@ class AlphaRatio:
 
     Attributes
     ----------
-    experiment : int
     printed : float
         From Tables 3 and 4 [-].
     as_printed, as_regressed : float

@@ -34,7 +34,6 @@ class RecordRate:
 
     Attributes
     ----------
-    id : str
     rate : float
         Median of its modulus [1/s].
     slow, fast : float

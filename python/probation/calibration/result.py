@@ -35,8 +35,6 @@ class Candidate:
 
     Attributes
     ----------
-    form : Form
-    companion : CalibratedCompanion
     labels : tuple of str
         Of the rows or records below.
     percent_residual : ndarray, shape (n,) [%]

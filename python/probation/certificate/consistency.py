@@ -20,7 +20,6 @@ class Estimate:
 
     Attributes
     ----------
-    value : float
     se : float or None
         Standard error with noise and model bias; None where the record does not determine the parameter.
     se_noise : float or None

@@ -56,10 +56,6 @@ def regress_hardening(
     from_strain : float [-]
         Samples of larger strain are taken.
 
-    Returns
-    -------
-    HardeningRegression
-
     Raises
     ------
     InputError

@@ -99,10 +99,8 @@ def predict(
 
     Parameters
     ----------
-    base : Fit
     covariance : ndarray, shape (free, free)
         Of its parameters, `trial.joint_covariance`.
-    record : Record
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
     method : str

@@ -46,7 +46,6 @@ class Trial:
     ----------
     campaign : Campaign
         Whose law is on trial.
-    scheme : Scheme
     excitation : str
         As in `probation.fit`.
     """
@@ -122,8 +121,6 @@ def estimates(
 
     Parameters
     ----------
-    found : Fit
-    record_id : str
     modulus_error : float
         Standard error of E_u [MPa] where the fit holds it.
     relation : CalibratedCompanion, optional

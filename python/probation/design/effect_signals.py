@@ -33,7 +33,6 @@ class EffectSignal:
 
     Attributes
     ----------
-    cause : Cause
     values : tuple of float
         Of the cause's parameters, amplitude first.
     stress : ndarray, shape (n_samples,) [MPa]
@@ -78,9 +77,7 @@ def effect_signals(
 
     Parameters
     ----------
-    model : CampaignModel
     parameters : ndarray, shape (n_parameters,)
-    effects : iterable of Effect
     threads : int
         Signals are worked out in parallel.
     progress : callable, optional
@@ -160,7 +157,6 @@ def signal(
     ----------
     model, parameters
         Without the cause.
-    cause : Cause
     values : tuple of float
         Amplitude first.
     still : dict, optional

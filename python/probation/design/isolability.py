@@ -49,8 +49,6 @@ def isolability(
         Of the model.
     noises : sequence of NoiseModel
         One per record; `white_noise` makes them of standard deviations.
-    effects : iterable of Effect
-    threads : int
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 

@@ -29,7 +29,6 @@ class EffectIsolability:
 
     Attributes
     ----------
-    name, title : str
     form : str
         Whose signal was taken: the effect's first.
     records : tuple of str, or None

@@ -29,7 +29,6 @@ class RankedTest:
 
     Attributes
     ----------
-    test : PlannedTest
     probability_after : float
         Of a right answer.
     probability_in_rough_hands : float
@@ -79,7 +78,6 @@ class NextTest:
         discriminates best.
     probability_before, probability_after : float
         Of the most probable explanation being the right one, given that one of them is.
-    test : PlannedTest
     ranking : tuple of RankedTest
         All tests, the one of most worth first.
     """
@@ -130,7 +128,6 @@ def next_test(
         One per record.
     threads : int
         Tests are worked out in parallel.
-    seed : int
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -192,7 +189,6 @@ def judged(
 
     Parameters
     ----------
-    test : PlannedTest
     ways : sequence of Prediction
         How it may come out.
     prior, group
@@ -201,7 +197,6 @@ def judged(
         What each group stands for, as it leaves the program and for people.
     before : float
         Probability of a right answer without the test.
-    seed : int
     """
     found = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
     rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DESIGN.draws, seed=seed)

@@ -52,7 +52,6 @@ class PlannedTest:
     ----------
     id, history : str
         Its name, and what is imposed, for people.
-    samples : int
     duration : float [s]
     largest_strain : float [-]
         True strain of the largest modulus.

@@ -46,7 +46,6 @@ class Explanation:
         With its causes.
     parameters : ndarray, shape (n_parameters,)
         At their optimum.
-    probability : float
     effects : tuple of str
     root : ndarray, shape (n_parameters, n_parameters)
         R with R R^T = C, the covariance that the records and the priors leave.
@@ -124,7 +123,6 @@ def predictions(
 
     Parameters
     ----------
-    test : PlannedTest
     model : CampaignModel
         The law without causes, on the records there are.
     base : ndarray
@@ -213,7 +211,6 @@ def outcome(ways: Sequence[Prediction], prior: FloatArray, group: Sequence[int],
         Which answer each explanation is; several may be the same.
     draws : int
         Of each way.
-    seed : int
     """
     owners = np.array([way.owner for way in ways])
     before = prior[owners] * np.array([way.weight for way in ways])

@@ -28,7 +28,6 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 
     Parameters
     ----------
-    effects : iterable of Effect
     views : sequence of RecordView
         Of the records: a fault is large relative to their forces and elongations.
     """

@@ -29,7 +29,6 @@ def draw_neck(necking: Necking, path: str | PathLike[str]) -> None:
 
     Parameters
     ----------
-    necking : Necking
     path : path-like
         PNG, SVG or PDF, by the ending.
     """

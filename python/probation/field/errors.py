@@ -75,7 +75,6 @@ def drawn_errors(
 
     Parameters
     ----------
-    first : Pixels
     draws : sequence of (ndarray of int, Pixels)
         Of each round, which pixels, and their estimates with more noise.
     level : ndarray, shape (pixels,) [MPa]

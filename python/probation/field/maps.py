@@ -39,7 +39,6 @@ class FieldMaps(Result, Stored, WithCurves):
 
     Attributes
     ----------
-    path : str
     run : dict
         What they were made from and by.
     maps : dict of str to ndarray, shape (rows, columns)
@@ -53,7 +52,6 @@ class FieldMaps(Result, Stored, WithCurves):
         Of all blocks.
     substeps : (int, int)
         Fewest and most steps of the scheme from sample to sample that a block took.
-    blocks, blocks_done : int
     closeness : tuple of Closeness
         To the truth, where that is known; see `FieldMaps.beside`.
     """

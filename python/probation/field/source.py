@@ -52,7 +52,6 @@ class FieldSource:
 
     Attributes
     ----------
-    path : str
     names : dict of str to str
         The variable of each role: a strain, a stress (or force and initial area), time.
     factors : dict of str to float

@@ -48,10 +48,8 @@ class MapKind:
 
     Attributes
     ----------
-    dtype : str
     fill : float
         Before it is written.
-    unit, meaning : str
     """
 
     dtype: str

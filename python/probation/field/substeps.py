@@ -35,7 +35,6 @@ def needed_substeps(
 
     Parameters
     ----------
-    way : Way
     time : ndarray, shape (n_times,) [s]
     strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
     chance : Generator

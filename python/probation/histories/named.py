@@ -23,12 +23,10 @@ class Parameter:
 
     Attributes
     ----------
-    name : str
     unit : str
         For people; "-" for a pure number.
     default : float, int or str
         Its type is the parameter's.
-    meaning : str
     choices : tuple of str
         For a parameter that is a choice.
     least : float
@@ -73,7 +71,6 @@ class NamedHistory:
 
     Attributes
     ----------
-    name : str
     title : str
         What happens, in one line.
     parameters : tuple of Parameter

@@ -45,7 +45,6 @@ def piecewise_linear(name: str, legs: Sequence[Leg], samples: int, start: float 
 
     Parameters
     ----------
-    name : str
     legs : sequence of Leg
         Legs without duration are left out.
     samples : int

@@ -34,7 +34,6 @@ def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
 
     Parameters
     ----------
-    campaign : Campaign
     found : Fit
         Where the search begins, from `identify.fit.plain_fit`; its scheme is used, and what it holds stays held.
     """

@@ -54,7 +54,6 @@ class Case:
 
     Attributes
     ----------
-    name : str
     strain_noise : float [-]
     stress_noise : float [MPa]
     correlation : float
@@ -85,8 +84,6 @@ class Counted:
 
     Attributes
     ----------
-    case, method : str
-    draws : int
     hits : dict of str to int
         By parameter.
     bias : dict of str to float
@@ -149,7 +146,6 @@ class Coverage(Summarised, Plotted, Stored):
     Attributes
     ----------
     counted : tuple of Counted
-    seed : int
     """
 
     SCHEMA = "probation.coverage/1"
@@ -215,12 +211,9 @@ def study(
 
     Parameters
     ----------
-    draws : int
-    seed : int
     cases : sequence of Case
     methods : sequence of str
         Weightings of `probation.fit`.
-    processes : int
     state : path-like, optional
         A file that keeps what was counted, a line per draw; what it has is not done again.
     progress : callable, optional

@@ -53,10 +53,8 @@ def describe(
 
     Parameters
     ----------
-    campaign : Campaign
     weighted : Weighted
         The law, and the noise that it was found with.
-    scheme : Scheme
     method, weighting, intervals : str
         As the fit was asked for.
     limits : mapping of str to (float, float)

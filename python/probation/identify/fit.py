@@ -147,7 +147,6 @@ def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Map
 
     Parameters
     ----------
-    campaign : Campaign
     scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
     hold : dict of str to float, optional
         As in `fit`.
@@ -162,7 +161,6 @@ def gap_of(campaign: Campaign, hold: Mapping[str, float] | None = None, *, predi
 
     Parameters
     ----------
-    campaign : Campaign
     hold : dict of str to float, optional
         As in `fit`.
     predicted : bool

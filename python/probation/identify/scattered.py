@@ -28,7 +28,6 @@ def with_scatter(found: Fit, base: BaseFit) -> Fit:
 
     Parameters
     ----------
-    found : Fit
     base : BaseFit
         Of the same campaign.
     """

@@ -51,7 +51,6 @@ def needed_substeps(weighted: Weighted, views: Sequence[RecordView], at_least: i
         The fit.
     views : sequence of RecordView
         By the scheme.
-    at_least : int
     """
     problem, parameters = weighted.problem, weighted.parameters
     known, jacobian = known_of(weighted)

@@ -31,7 +31,6 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
 
     Parameters
     ----------
-    campaign : Campaign
     found : Fit
         Of the base law.
     excitations : dict of str to Excitation

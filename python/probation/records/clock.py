@@ -88,10 +88,6 @@ def estimate_shift(
     strain_time : ndarray, shape (m,) [s]
         Of the strain file.
     strain : ndarray, shape (m,) [-]
-
-    Returns
-    -------
-    Shift
     """
     if displacement is None:
         return _by_onset(time, force, strain_time, strain)

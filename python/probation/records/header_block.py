@@ -106,7 +106,6 @@ def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
 
     Parameters
     ----------
-    path : Path
     cells : sequence of sequence of str
         The rows.
     """

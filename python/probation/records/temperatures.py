@@ -20,7 +20,6 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
 
     Parameters
     ----------
-    record : Record
     path : Path
         A file whose profile finds time [s] and temperature [°C]; both clocks start together.
     specimen_index : int

@@ -27,10 +27,6 @@ MOST_SIGNS = 4
 def summary(found: Diagnosis) -> str:
     """What was found.
 
-    Parameters
-    ----------
-    found : Diagnosis
-
     Returns
     -------
     str

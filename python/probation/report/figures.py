@@ -154,7 +154,6 @@ def figure_to_svg(figure: Figure, label: str) -> str:
 
     Parameters
     ----------
-    figure : Figure
     label : str
         What it shows, for those who cannot see it; unique within a page.
     """
@@ -251,7 +250,6 @@ def legend_outside(
 
     Parameters
     ----------
-    figure : Figure
     handles : sequence of Artist
     labels : sequence of str
         A label that is wider than the figure is broken.
@@ -375,7 +373,6 @@ def thinned(x: FloatArray, y: FloatArray, limit: int = _DRAWN) -> tuple[FloatArr
     Parameters
     ----------
     x, y : ndarray, shape (n,)
-    limit : int
     """
     if len(x) <= limit:
         return x, y

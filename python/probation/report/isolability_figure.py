@@ -46,7 +46,6 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
 
     Parameters
     ----------
-    titles : list of str, length n
     probability : ndarray, shape (n, n)
         Of naming the row's effect, which is there, rather than the column's.
     detectability : list of float, length n

@@ -31,7 +31,6 @@ class Curve:
 
     Attributes
     ----------
-    name : str
     true_strain : ndarray, shape (n_times,) [-]
     measured : ndarray, shape (n_times,) [MPa]
     model : ndarray, shape (n_times,) [MPa]

@@ -128,7 +128,6 @@ def renderer(result: type, what: str) -> Callable[..., Any]:
 
     Parameters
     ----------
-    result : type
     what : {"summary", "plot", "report", "verdict", "card", "line"}
     """
     for each in result.__mro__:

@@ -69,7 +69,6 @@ def levels_of(error: FloatArray, noise: FloatArray, cells: int = CELLS) -> list[
     error : ndarray, shape (n,) [MPa]
         Model minus measured.
     noise : ndarray, shape (n,) [MPa]
-    cells : int
     """
     ratio = error / np.maximum(noise, 1e-300)
     parts = np.array_split(ratio, min(cells, len(ratio)))

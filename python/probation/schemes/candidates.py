@@ -29,7 +29,6 @@ class Candidate:
 
     Attributes
     ----------
-    name : str
     scheme : Scheme or None
         None for the closed form (7), which only a ramp has.
     """
@@ -111,9 +110,6 @@ def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1
 
     Parameters
     ----------
-    candidate : Candidate
-    law : Law
-    path : StrainPath
     tolerance : float
         Of CVODE, relative, and absolute in MPa.
     """

@@ -23,7 +23,6 @@ class SchemeCheck:
 
     Attributes
     ----------
-    name : str
     scheme : str or None
         None for eq. (7).
     start : str or None
@@ -57,13 +56,10 @@ class RecordCheck:
 
     Attributes
     ----------
-    record : str
-    samples : int
     reference : str
         What errors are against, for people.
     schemes : tuple of SchemeCheck
     steps : StepStudy or None
-    data_sha256 : str
     """
 
     record: str

@@ -56,9 +56,6 @@ def study_steps(
 
     Parameters
     ----------
-    law : Law
-    history : SmoothHistory
-    name : str
     advance : callable
         Called with what is done next.
     """

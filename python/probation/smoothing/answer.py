@@ -37,8 +37,6 @@ class RecordExcitation(Plotted, WithCurves):
 
     Attributes
     ----------
-    record : Record
-    excitation : Excitation
     necking : NeckingFit or None
         The two steps of the paper's procedure, for the methods that take them.
     """

@@ -134,7 +134,6 @@ class NeckingFit:
 
     Attributes
     ----------
-    strain : TwoSteps
     rate : TwoSteps
         Through the measured strain's differences.
     differentiator : str

@@ -38,7 +38,6 @@ def smooth_segments(
 
     Parameters
     ----------
-    smoother : Smoother
     time : ndarray, shape (n_times,) [s]
     true_strain : ndarray, shape (n_times,) [-]
     jumps : sequence of int

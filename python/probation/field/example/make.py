@@ -64,10 +64,6 @@ def make_example(
         Of the noise, and of which pixels are lost.
     processes, executor, progress
         As in `identify_field`.
-
-    Returns
-    -------
-    field, truth : Path
     """
     if size < 4 or times < 20 or seed < 0:
         raise InputError(f"found size {size}, times {times}, seed {seed}; expected at least 4, 20 and 0")

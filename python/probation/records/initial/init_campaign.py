@@ -37,7 +37,6 @@ class InitialCampaign(Result):
     ----------
     campaign : Campaign
         As `Campaign.load` reads it from its folder.
-    folder : Path
     reads : dict of str to str
         By record: file, profile, and which column is which.
     """
