@@ -9,7 +9,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray
-from probation.calibration.forms import FORMS, NAMEABLE, Form
+from probation.calibration.companion_forms import FORMS, NAMEABLE, Form
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
 from probation.law.companion import Companion, from_settings
@@ -58,7 +58,7 @@ class CalibratedCompanion:
     log_scatter: float = 0.0
     unrelaxed_modulus: float | None = None
 
-    form: Form = field(default=None, metadata=named_in("calibration.forms.FORMS"))  # type: ignore[assignment]  # below
+    form: Form = field(default=None, metadata=named_in("calibration.companion_forms.FORMS"))  # type: ignore[assignment]  # below
 
     def __post_init__(self) -> None:
         if self.form is None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import fdtri
 
-from probation.calibration.forms import CHOOSABLE, FORMS
+from probation.calibration.companion_forms import CHOOSABLE, FORMS
 from probation.calibration.regression import regress
 from probation.errors import InputError
 

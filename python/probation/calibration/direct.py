@@ -32,7 +32,7 @@ from probation.smoothing.excitation import excite
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.effects.record_view import RecordView
     from probation.law.companion import Companion
     from probation.law.schemes import Scheme, SchemeName

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.calibration.direct import DirectFit, DirectProblem
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.law.companion import Companion
 
 _ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation predicts nothing

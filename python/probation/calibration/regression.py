@@ -14,7 +14,7 @@ from probation.inference.least_squares import minimise
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.law.companion import Companion
 
 _MOST_ROUNDS = 100

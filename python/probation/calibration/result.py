@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.calibration.left_out import Predicted
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
@@ -49,7 +49,7 @@ class Candidate:
         Of Student's t for its intervals; None for the normal distribution.
     """
 
-    form: Form = field(metadata=named_in("calibration.forms.FORMS"))
+    form: Form = field(metadata=named_in("calibration.companion_forms.FORMS"))
     companion: CalibratedCompanion
     labels: tuple[str, ...]
     percent_residual: FloatArray

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.calibration.forms import FORMS
+from probation.calibration.companion_forms import FORMS
 from probation.calibration.regression import regress
 from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.identify.fit import fit
