@@ -9,10 +9,10 @@ import numpy as np
 
 from probation._arrays import FloatArray, one_of
 from probation.calibration.calibrated import CalibratedCompanion
+from probation.calibration.companion_forms import CHOOSABLE, FORMS, NAMEABLE, Form
 from probation.calibration.constant_time import why_constant
 from probation.calibration.cross_validation import apart, best, leave_one_rate_out
 from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
-from probation.calibration.companion_forms import CHOOSABLE, FORMS, NAMEABLE, Form
 from probation.calibration.left_out import leave_one_rate_out as predict
 from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable, rate_groups

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
-    from probation.calibration.direct import DirectFit, DirectProblem
     from probation.calibration.companion_forms import Form
+    from probation.calibration.direct import DirectFit, DirectProblem
     from probation.law.companion import Companion
 
 _ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation predicts nothing

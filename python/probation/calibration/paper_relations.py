@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation.calibration.direct import DirectProblem
 from probation.calibration.companion_forms import FORMS
+from probation.calibration.direct import DirectProblem
 from probation.calibration.left_out import record_alpha
 from probation.calibration.regression import Regression, regress
 from probation.calibration.table_2 import PRINTED_WEISSENBERG, TABLE_2

@@ -19,9 +19,9 @@ from probation.wording import percentage, plus_minus
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
+    from probation.calibration.companion_forms import Form
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
-    from probation.calibration.companion_forms import Form
     from probation.calibration.left_out import Predicted
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable

@@ -40,7 +40,7 @@ def leg(start: float, to: float, rate: float) -> Leg:
     return Leg(to, abs(to - start) / rate)
 
 
-def piecewise_linear(name: str, legs: Sequence[Leg], samples: int, start: float = 0.0) -> ImposedHistory:
+def piecewise_linear(name: str, legs: Sequence[Leg], samples: int) -> ImposedHistory:
     """Join legs to a history.
 
     Parameters
@@ -49,14 +49,12 @@ def piecewise_linear(name: str, legs: Sequence[Leg], samples: int, start: float 
         Legs without duration are left out.
     samples : int
         In all; at least two steps for each leg.
-    start : float [-]
-        True strain at time zero.
     """
     legs = [each for each in legs if each.duration > 0.0]
     if not legs:
         raise InputError(f"{name}: the strain does not move; expected a history that lasts")
-    times, strains, corners = [np.zeros(1)], [np.full(1, start)], []
-    at, strain = 0.0, start
+    times, strains, corners = [np.zeros(1)], [np.zeros(1)], []
+    at, strain = 0.0, 0.0
     for each, steps in zip(legs, _shared_out(legs, samples - 1), strict=True):
         fraction = _graded(steps) if each.graded else np.linspace(0.0, 1.0, steps + 1)[1:]
         times.append(at + each.duration * fraction)

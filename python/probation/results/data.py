@@ -45,7 +45,7 @@ Value = TypeVar("Value")
 
 
 def named_in(table: str) -> Mapping[str, Any]:
-    """Metadata of a field that holds an entry of a table, such as "calibration.companion_forms.FORMS", which knows its name."""
+    """Metadata of a field that holds a named entry of a table, such as "calibration.companion_forms.FORMS"."""
     return {"named_in": table}
 
 
