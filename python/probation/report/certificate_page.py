@@ -16,7 +16,7 @@ from probation.report.certificate_summary import (
     parameter_table,
     prediction_table,
 )
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import styled_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
 from probation.report.style import colour, series_colour
@@ -42,8 +42,7 @@ def certificate_figure(found: Certificate) -> Figure:
     The paper's Figures 4 to 6.
     """
     records = list(found.alone)
-    with house_style():
-        figure = new_figure(7.6, 0.5 + 2.3 * len(records))
+    with styled_figure(7.6, 0.5 + 2.3 * len(records)) as figure:
         panels = figure.subplots(len(records), 2, squeeze=False, width_ratios=(1.25, 1), sharex=True)
         for (left, right), record in zip(panels, records, strict=True):
             _record(left, right, found, record)
@@ -83,8 +82,7 @@ def parameter_figure(found: Certificate) -> Figure:
         for name, each in found.parameters.items()
     }
     shown = {name: entries for name, entries in shown.items() if entries}
-    with house_style():
-        figure = new_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown))
+    with styled_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown)) as figure:
         panels = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
         for axes, (name, entries) in zip(panels, shown.items(), strict=True):
             each = found.parameters[name]
@@ -109,8 +107,7 @@ def parameter_figure(found: Certificate) -> Figure:
 
 def without_companion_figure(found: Certificate) -> Figure:
     """Every record with a constant tau_max: the paper's Figure 3."""
-    with house_style():
-        figure = new_figure(7.6, 3.6)
+    with styled_figure(7.6, 3.6) as figure:
         axes = figure.subplots()
         for at, (record, fit) in enumerate(found.without_companion.items()):
             entry = fit.records[record]
@@ -125,8 +122,7 @@ def without_companion_figure(found: Certificate) -> Figure:
 
 def hardening_figure(found: Certificate) -> Figure:
     """Stress over Haward-Thackray strain and its regression: the paper's Figure S1."""
-    with house_style():
-        figure = new_figure(7.6, 3.6)
+    with styled_figure(7.6, 3.6) as figure:
         axes = figure.subplots()
         for at, (record, line) in enumerate(found.regressions.items()):
             entry = found.alone[record].records[record]

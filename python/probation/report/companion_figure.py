@@ -11,7 +11,7 @@ from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.errors import InputError
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.normal import TWO_SIDED_95
-from probation.report.figures import house_style, legend_outside, new_figure
+from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -39,8 +39,7 @@ def companion_figure(found: Calibration) -> Figure:
     companion = found.companion
     low, high = companion.relation.calibrated or (1e-4, 1e-2)
     rates = np.geomspace(low / _BEYOND, high * _BEYOND, _POINTS)
-    with house_style():
-        figure = new_figure(9.2, 4.4)
+    with styled_figure(9.2, 4.4) as figure:
         left, right = figure.subplots(1, 2)
         for axes, power in ((left, 0.0), (right, 1.0)):
             _band(axes, companion, rates, power, (low, high))

@@ -10,7 +10,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from probation.report.diagnosis_tables import WORTH_A_ROW
 from probation.report.diagnosis_words import closed, explanation_name, short_ids
-from probation.report.figures import house_style, legend_outside, new_figure, thinned
+from probation.report.figures import legend_outside, styled_figure, thinned
 from probation.report.style import colour
 from probation.wording import chance, percent
 
@@ -31,8 +31,7 @@ _PROBES = 40
 def diagnosis_figure(found: Diagnosis) -> Figure:
     """Every record: stress with and without the best explanation; beside it what both miss, in units of the noise."""
     names = short_ids(found.curves, 44)
-    with house_style():
-        figure = new_figure(7.6, 0.4 + 2.1 * len(found.curves))
+    with styled_figure(7.6, 0.4 + 2.1 * len(found.curves)) as figure:
         panels = figure.subplots(len(found.curves), 2, squeeze=False, width_ratios=(1, 1))
         for at, ((left, right), each) in enumerate(zip(panels, found.curves.values(), strict=True)):
             label = _draw(left, right, each, found)
@@ -47,8 +46,7 @@ def diagnosis_figure(found: Diagnosis) -> Figure:
 def record_figure(found: Diagnosis, record_id: str) -> Figure:
     """One record: stress with and without the best explanation, below it what both miss, in units of the noise."""
     each = found.curves[record_id]
-    with house_style():
-        figure = new_figure(3.9, 3.7)
+    with styled_figure(3.9, 3.7) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.35, 1))
         below.set_xlabel(_draw(above, below, each, found))
         above.set_title(fill(_title(each, short_ids(found.curves, 44)), 46), fontsize=9)
@@ -101,8 +99,7 @@ def probability_figure(found: Diagnosis) -> Figure:
     if others:
         names.append(f"{others} other{'s' if others > 1 else ''}")
     places, rows = _rows(names)
-    with house_style():
-        figure = new_figure(5.3, 0.8 + 0.36 * rows)
+    with styled_figure(5.3, 0.8 + 0.36 * rows) as figure:
         axes = figure.subplots()
         for at, each in zip(places, shown, strict=False):
             inside = each.effects in found.answer_set
@@ -148,8 +145,7 @@ def closure_figure(found: Diagnosis) -> Figure:
         rows.append(("all held-out records", shrink.held_out))
     together = len(rows)
     rows += [(names.get(record, record), each) for record, each in shrink.records.items()]
-    with house_style():
-        figure = new_figure(5.3, 1.1 + 0.34 * len(rows))
+    with styled_figure(5.3, 1.1 + 0.34 * len(rows)) as figure:
         axes = figure.subplots()
         for at, (_, each) in enumerate(rows):
             axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)

@@ -78,6 +78,13 @@ def new_figure(width: float = 7.2, height: float = 4.2) -> SafeFigure:
     return SafeFigure(figsize=(width, height), layout="constrained")
 
 
+@contextmanager
+def styled_figure(width: float = 7.2, height: float = 4.2) -> Iterator[SafeFigure]:
+    """A figure of that size [inch] that is drawn in the house style within the block."""
+    with house_style():
+        yield new_figure(width, height)
+
+
 class SafeFigure(Figure):
     """A figure in which text is data: nothing in it is taken for mathematics, and what does not print is escaped."""
 

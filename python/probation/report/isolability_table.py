@@ -1,4 +1,4 @@
-"""What a campaign's tests could say of each effect, as a table."""
+"""What tests could say of each effect, as a table; and of all, as text."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from probation.design.isolability_result import EffectIsolability, Isolability
+    from probation.diagnosis.isolability import CampaignIsolability
 
 HOW_TO_READ = (
     "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "
@@ -44,6 +45,12 @@ def isolability_table(found: Isolability) -> Table:
         for each in sorted(found.effects, key=lambda each: (order.index(each.status), -each.detectability))
     )
     return Table(("effect", "these tests", "seen", "hidden"), rows, "What these tests could say of each effect", left=2)
+
+
+def isolability_summary(answer: CampaignIsolability) -> str:
+    """The headline, then every effect."""
+    headline = f"{answer.campaign}: {in_words(answer.found.headline, answer.found)}"
+    return "\n\n".join([headline, isolability_table(answer.found).text(), HOW_TO_READ])
 
 
 def _answer(each: EffectIsolability, found: Isolability) -> str:

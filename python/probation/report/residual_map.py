@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle
 
 from probation.report.diagnosis_tables import floor_name
 from probation.report.diagnosis_words import short_ids
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour
 from probation.wording import percent
 
@@ -38,8 +38,7 @@ def residual_map(found: Diagnosis) -> Figure:
     """Every record as a strip from its start to its end; regions that stand out are framed, with their share."""
     curves = list(found.curves.values())
     names = short_ids(found.curves)
-    with house_style():
-        figure = new_figure(7.2, 1.15 + 0.52 * len(curves))
+    with styled_figure(7.2, 1.15 + 0.52 * len(curves)) as figure:
         axes, scale = figure.subplots(2, 1, height_ratios=(0.52 * len(curves), 0.22))
         for at, each in enumerate(curves):
             _strip(axes, at, each, each.base, _BEFORE)
@@ -61,7 +60,7 @@ def residual_map(found: Diagnosis) -> Figure:
     return figure
 
 
-def levels_of(error: FloatArray, noise: FloatArray, cells: int = CELLS) -> list[int]:
+def levels_of(error: FloatArray, noise: FloatArray) -> list[int]:
     """Signed level of each part of a record: 0 within the noise, +4 or -4 beyond 30 times as much.
 
     Parameters
@@ -71,7 +70,7 @@ def levels_of(error: FloatArray, noise: FloatArray, cells: int = CELLS) -> list[
     noise : ndarray, shape (n,) [MPa]
     """
     ratio = error / np.maximum(noise, 1e-300)
-    parts = np.array_split(ratio, min(cells, len(ratio)))
+    parts = np.array_split(ratio, min(CELLS, len(ratio)))
     means = np.array([float(part.mean()) for part in parts])
     return [int(each) for each in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
 

@@ -14,7 +14,7 @@ from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINT
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.published.numbers import EXPONENTIAL_R_SQUARED, WEISSENBERG_R_SQUARED
 from probation.records.campaign import Campaign
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour, series_colour
 from probation.report.table import Table
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
@@ -102,8 +102,7 @@ def _alpha(number: Grip, settings: Settings, slope: float, intercept: float) -> 
 
 
 def _figure(drawn: dict[str, Companion]) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 3.6)
+    with styled_figure(7.2, 3.6) as figure:
         times, numbers = figure.subplots(1, 2)
         rates = np.geomspace(3e-5, 2e-2, 200)
         points = {"color": colour("data"), "fmt": "o", "ms": 4.5, "capsize": 2.5, "lw": 1.0, "zorder": 3}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from probation.published.experiments import experiment_1, experiment_2, experiment_3
-from probation.report.figures import house_style, new_figure, save_figure, thinned
+from probation.report.figures import save_figure, styled_figure, thinned
 from probation.report.style import series_colour
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ def draw(necking: NeckingRun, file: Path) -> None:
     InputError
         For another ending, or where the file cannot be written.
     """
-    with house_style():
-        figure = new_figure(10.0, 7.4)
+    with styled_figure(10.0, 7.4) as figure:
         upper, lower = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 1.0)))
         left, right = upper.subplots(1, 2)
         _force(left, necking)
