@@ -118,9 +118,9 @@ def calibrate_companion(
         advance(at, len(source.identify), f"strain rate of {record.id}")
         driven.append(excite(record))
     rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
-    steady = all(each.spread <= COMPANION.nearly_constant for each in rates)
+    steady = all(rate.spread <= COMPANION.nearly_constant for rate in rates)
     if route == "by-rate" and not steady:
-        worst = max(rates, key=lambda each: each.spread)
+        worst = max(rates, key=lambda rate: rate.spread)
         raise InputError(
             f"campaign {source.name!r}, record {worst.id!r}: found strain rates from {worst.slow:.2g} to "
             f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
@@ -134,7 +134,7 @@ def calibrate_companion(
         )
     _need_two_rates(source, rates)
     fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=advance)
-    rms = [each.rms_MPa for each in fits.fits]
+    rms = [fitted.rms_MPa for fitted in fits.fits]
     problem = DirectProblem(source.identify, source.law, chosen, hardening, driven, rms)
     return _by_rate(source, fits, problem, form, advance)
 
@@ -148,7 +148,7 @@ def _on_table(table: RateTable, form: str) -> Calibration:
         source=table.source,
         route="table",
         table=table,
-        candidates={name: _candidate(each, scores.get(name), None) for name, each in regressions.items()},
+        candidates={name: _candidate(regression, scores.get(name), None) for name, regression in regressions.items()},
         chosen=chosen,
         chosen_by=how,
         discriminated=clear,
@@ -182,7 +182,7 @@ def _by_rate(
         source=campaign.name,
         route="by-rate",
         table=table,
-        candidates={name: _candidate(each, scores.get(name), fits) for name, each in regressions.items()},
+        candidates={name: _candidate(regression, scores.get(name), fits) for name, regression in regressions.items()},
         chosen=chosen,
         chosen_by=how,
         discriminated=clear,
@@ -203,8 +203,8 @@ def _direct(
             "form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential"
         )
     whole = _range(rates)
-    labels = tuple(each.id for each in rates)
-    medians = np.array([each.rate for each in rates])
+    labels = tuple(rate.id for rate in rates)
+    medians = np.array([rate.rate for rate in rates])
     groups = rate_groups(medians)
     forms = {name: each for name, each in FORMS.items() if name != "table" and (not each.same_as or name == form)}
     leaving = len(groups) >= COMPANION.fewest_rates
@@ -233,7 +233,7 @@ def _direct(
             lambda kept: _range([rates[at] for at in kept]),
             advance,
         )
-    left = {name: float(np.sqrt(np.mean(np.square(each.rms)))) for name, each in fits.items()}
+    left = {name: float(np.sqrt(np.mean(np.square(fitted.rms)))) for name, fitted in fits.items()}
     chosen, how, clear = _choice(form, scores, left)
     warnings = list(campaign.warnings)
     if len(groups) == 1:
@@ -247,7 +247,8 @@ def _direct(
         route="direct",
         table=None,
         candidates={
-            name: _direct_candidate(coarse, FORMS[name], each, scores.get(name), labels) for name, each in fits.items()
+            name: _direct_candidate(coarse, FORMS[name], fitted, scores.get(name), labels)
+            for name, fitted in fits.items()
         },
         chosen=chosen,
         chosen_by=how,
@@ -358,9 +359,9 @@ def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
 def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
     """Refuse records at one rate, before anything is fitted."""
     RateTable(
-        np.array([each.rate for each in rates]),
+        np.array([rate.rate for rate in rates]),
         np.ones(len(rates)),
-        labels=tuple(f"record {each.id!r}" for each in rates),
+        labels=tuple(f"record {rate.id!r}" for rate in rates),
         source=f"campaign {campaign.name!r}",
     )
 
@@ -373,7 +374,7 @@ def _need_spread(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
 
 
 def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
-    return min(each.slow for each in rates), max(each.fast for each in rates)
+    return min(rate.slow for rate in rates), max(rate.fast for rate in rates)
 
 
 def _anchor(problem: DirectProblem, whole: tuple[float, float]) -> float:

@@ -137,7 +137,7 @@ def fit_records(
                 'give it role = "held-out"'
             )
     table = RateTable(
-        rates=np.array([each.rate for each in rates]),
+        rates=np.array([rate.rate for rate in rates]),
         tau_max=np.array([time.value for time in times]),
         se=np.array([time.se for time in times]),
         hardening_modulus=np.array([each.law.hardening_modulus for each in fits]),
@@ -150,10 +150,10 @@ def fit_records(
 def spread_warnings(rates: tuple[RecordRate, ...]) -> list[str]:
     """Of records whose rate is not constant."""
     return [
-        f"record {each.id!r}: its strain rate runs from {each.slow:.2g} to {each.fast:.2g} 1/s (5 to 95 % of the "
-        f"record, a factor of {each.spread:.2g}): a constant tau_max there is an average over rates"
-        for each in rates
-        if each.spread > COMPANION.warned_spread
+        f"record {rate.id!r}: its strain rate runs from {rate.slow:.2g} to {rate.fast:.2g} 1/s (5 to 95 % of the "
+        f"record, a factor of {rate.spread:.2g}): a constant tau_max there is an average over rates"
+        for rate in rates
+        if rate.spread > COMPANION.warned_spread
     ]
 
 

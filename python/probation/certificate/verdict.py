@@ -55,9 +55,11 @@ def decide(
         prediction errs by more than `CERTIFICATE.far` of the largest stress.
     reason : str
     """
-    failing = [name for name, each in parameters.items() if not each.passes]
+    failing = [name for name, parameter in parameters.items() if not parameter.passes]
     kept = [name for name in parameters if name not in failing]
-    worst = max(predictions.values(), key=lambda each: each.bias_MPa / max(each.tolerance_MPa, 1e-300))
+    worst = max(
+        predictions.values(), key=lambda prediction: prediction.bias_MPa / max(prediction.tolerance_MPa, 1e-300)
+    )
     predicted = (
         f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
@@ -140,8 +142,8 @@ def _listed(names: list[str]) -> str:
     return symbols[0] if len(symbols) == 1 else ", ".join(symbols[:-1]) + " and " + symbols[-1]
 
 
-def _change(name: str, found: Consistency) -> str:
-    known = {record: each for record, each in found.by_record.items() if each.se is not None}
+def _change(name: str, consistency: Consistency) -> str:
+    known = {record: estimate for record, estimate in consistency.by_record.items() if estimate.se is not None}
     low = min(known, key=lambda record: known[record].value)
     high = max(known, key=lambda record: known[record].value)
     unit = f" {UNITS[name]}" if UNITS[name] else ""

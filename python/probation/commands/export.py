@@ -89,7 +89,7 @@ def run(options: argparse.Namespace) -> int:
 
     if options.list_formats:
         width = max(map(len, FORMATS))
-        put("".join(f"{name:<{width}}  {each.what}\n" for name, each in FORMATS.items()))
+        put("".join(f"{name:<{width}}  {form.what}\n" for name, form in FORMATS.items()))
         return 0
     names = _formats(options, list(FORMATS))
     exports = _exports(options, names)
@@ -99,9 +99,9 @@ def run(options: argparse.Namespace) -> int:
     elif options.folder is None:
         outputs = [_file_output(exports[0], options.output)]
     else:
-        outputs = [_file_output(each, options.folder, into=True) for each in exports]
+        outputs = [_file_output(exported, options.folder, into=True) for exported in exports]
     deliver(
-        "\n".join(each.summary() for each in exports),
+        "\n".join(exported.summary() for exported in exports),
         [*outputs, text_output("JSON", options.json, Exports(tuple(exports)).to_json)],
     )
     return 0

@@ -66,7 +66,7 @@ def isolability(
     )
     if not signals:
         raise InputError("effects: found none that the law can follow, expected at least one")
-    raw = design.whitened(np.array([each.stress for each in signals]).T)
+    raw = design.whitened(np.array([signal.stress for signal in signals]).T)
     left, sizes = design.left_of(raw)
     rivalry = Rivalry.of(signals, left, sizes)
     cosine, probability = (

@@ -151,7 +151,7 @@ def next_test(
         raise InputError(f"explanations: found the probabilities {prior.tolist()}, expected positive numbers")
     prior = prior / prior.sum()
     group = [answers.index(tuple(sorted(effects))) for _, _, _, effects in explanations]
-    known = [Explanation.of(*each, noises) for each in explanations]
+    known = [Explanation.of(*explanation, noises) for explanation in explanations]
     base = known[int(np.argmax(prior))].parameters[: model.base_count]
 
     titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}

@@ -160,7 +160,7 @@ class Laboratory:
         gauge_length: float = 1.0,
     ) -> PlannedTest:
         """A test of straight legs (strain at the end, duration [s]) that starts without strain."""
-        history = piecewise_linear(name, [Leg(*each) for each in legs], self.samples)
+        history = piecewise_linear(name, [Leg(*leg) for leg in legs], self.samples)
         time, strain = history.time, history.true_strain
         assert strain is not None
         assert history.jumps is not None

@@ -52,10 +52,10 @@ class Rivalry:
     @classmethod
     def of(cls, signals: Sequence[EffectSignal], left: FloatArray, sizes: FloatArray) -> Rivalry:
         """Of signals, whitened and projected: `left` (n_samples, m), with their lengths (m,)."""
-        names = tuple(dict.fromkeys(each.cause.effect.name for each in signals))
-        owner = np.array([names.index(each.cause.effect.name) for each in signals])
+        names = tuple(dict.fromkeys(signal.cause.effect.name for signal in signals))
+        owner = np.array([names.index(signal.cause.effect.name) for signal in signals])
         chosen = tuple(_representative(signals, sizes, np.flatnonzero(owner == row)) for row in range(len(names)))
-        reach = np.array([each.reach for each in signals])
+        reach = np.array([signal.reach for signal in signals])
         return cls(names, owner, chosen, left, sizes, reach[:, 0], reach[:, 1])
 
     def against(self, row: int, truth: FloatArray | None = None, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:

@@ -392,8 +392,8 @@ def reference_rate_of(excitations: Sequence[Excitation]) -> float:
     if not excitations:
         raise InputError("found no records, expected at least one")
     medians = []
-    for each in excitations:
-        rate = np.abs(each.rate)
+    for excitation in excitations:
+        rate = np.abs(excitation.rate)
         if np.any(rate > _MOVING):
             medians.append(np.median(np.log(rate[rate > _MOVING])))
     return float(f"{np.exp(np.mean(medians)):.0e}") if medians else 1e-3

@@ -63,12 +63,12 @@ def needed_substeps(
     return steps
 
 
-def _shift(found: Pixels, reference: Pixels, errors: Errors) -> float:
+def _shift(pixels: Pixels, reference: Pixels, errors: Errors) -> float:
     """How far the estimates are from the reference [standard errors]: the worst of the parameters and the product."""
-    good = found.identified & reference.identified
+    good = pixels.identified & reference.identified
     if not good.any():
         return 0.0
-    values, expected = found.parameters[good], reference.parameters[good]
+    values, expected = pixels.parameters[good], reference.parameters[good]
     moved = np.column_stack([values - expected, values[:, 0] * values[:, 1] - expected[:, 0] * expected[:, 1]])
     error = np.column_stack([errors.parameters[good], errors.product[good]])
     shift = np.abs(np.divide(moved, error, out=np.zeros_like(moved), where=error > 0.0))

@@ -29,19 +29,19 @@ FIRST, STIFFER, FAR = 20, 1.3, 3.0
 """Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
 
-def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
+def base_fit(campaign: Campaign, fit: Fit) -> BaseFit:
     """Fit the engine's law to the identify records of a campaign by generalised least squares.
 
     Parameters
     ----------
-    found : Fit
+    fit : Fit
         Where the search begins, from `identify.fit.plain_fit`; its scheme is used, and what it holds stays held.
     """
-    samples = _excitations(campaign, found)
-    steps = enough_substeps(campaign, found, samples)
-    views = views_of(campaign, excitations=samples, scheme=scheme_of(found.scheme, found.start), substeps=steps)
-    held = [name for name in found.law.parameter_names if name not in found.names]
-    law = DnlrLaw(found.law, held=held, times=time_range(campaign.identify, found.law))
+    samples = _excitations(campaign, fit)
+    steps = enough_substeps(campaign, fit, samples)
+    views = views_of(campaign, excitations=samples, scheme=scheme_of(fit.scheme, fit.start), substeps=steps)
+    held = [name for name in fit.law.parameter_names if name not in fit.names]
+    law = DnlrLaw(fit.law, held=held, times=time_range(campaign.identify, fit.law))
     base = fit_views(law, views, campaign.specimens)
     return replace(base, other_starts=_other_starts(base))
 
@@ -72,7 +72,7 @@ def _first_slope(view: RecordView) -> float:
     return float(np.max(np.abs(stress[moving] / strain[moving]), initial=0.0)) if moving.any() else 0.0
 
 
-def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
+def _excitations(campaign: Campaign, fit: Fit) -> dict[str, Excitation]:
     """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
@@ -86,7 +86,7 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
     for record in campaign.identify:
         if record.id in raw:
             smooth, recorded = (
-                predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
+                predicted(fit, way[record.id], fit.substeps) - record.true_stress for way in (chosen, raw)
             )
             rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
             variance = _local_noise_variance(smooth)

@@ -155,14 +155,16 @@ class Coverage(Summarised, Plotted, Stored):
 
     def of(self, case: str, method: str) -> Counted:
         """What was counted for one case and method."""
-        return next(each for each in self.counted if (each.case, each.method) == (case, method))
+        return next(
+            counted_case for counted_case in self.counted if (counted_case.case, counted_case.method) == (case, method)
+        )
 
     @property
     def verdict(self) -> str:
         """One sentence."""
-        recommended = [each for each in self.counted if each.method == RECOMMENDED]
+        recommended = [counted_case for counted_case in self.counted if counted_case.method == RECOMMENDED]
         failing = [each.case for each in recommended if not each.all_hold]
-        draws = min(each.draws for each in self.counted)
+        draws = min(counted_case.draws for counted_case in self.counted)
         if failing:
             kinds = ", ".join(failing)
             return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."

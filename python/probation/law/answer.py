@@ -105,7 +105,7 @@ def _companion_from(answer: object) -> Companion | None:
         if key in table or each.default is MISSING
     }
     made: Companion = relation(
-        **{name: tuple(each) if isinstance(each, list) else each for name, each in values.items()}
+        **{name: tuple(value) if isinstance(value, list) else value for name, value in values.items()}
     )
     return made
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 def coverage_figure(coverage: Coverage) -> Figure:
     """Coverage of the 95 % intervals with its exact 99 % interval: a panel per parameter, a row per kind of noise."""
-    cases = list(dict.fromkeys(each.case for each in coverage.counted))
-    methods = list(dict.fromkeys(each.method for each in coverage.counted))
+    cases = list(dict.fromkeys(counted_case.case for counted_case in coverage.counted))
+    methods = list(dict.fromkeys(counted_case.method for counted_case in coverage.counted))
     with styled_figure(9.0, 0.9 + 0.55 * len(cases)) as figure:
         panels = figure.subplots(1, len(TRUTH), sharey=True)
         for axes, name in zip(panels, TRUTH, strict=True):

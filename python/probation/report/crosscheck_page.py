@@ -27,9 +27,9 @@ _MARKERS = "osD^vPX"
 _BOTTOM = 1e-13  # MPa: errors below are drawn there
 
 
-def crosscheck_figure(found: CrossCheck) -> Figure:
+def crosscheck_figure(crosscheck: CrossCheck) -> Figure:
     """Error against step and against time, with the slopes of the orders."""
-    return steps_figure([record.steps for record in found.records if record.steps is not None])
+    return steps_figure([record.steps for record in crosscheck.records if record.steps is not None])
 
 
 def steps_figure(studies: Sequence[StepStudy]) -> Figure:
@@ -77,15 +77,17 @@ def _slopes(axes: Axes, study: StepStudy) -> None:
         )
 
 
-def write_crosscheck_page(found: CrossCheck, path: Path) -> None:
+def write_crosscheck_page(crosscheck: CrossCheck, path: Path) -> None:
     """Write the page."""
-    Page("Cross-check of the schemes", found.verdict, sections(found), lead=f"Law: {found.law}.").write(path)
+    Page("Cross-check of the schemes", crosscheck.verdict, sections(crosscheck), lead=f"Law: {crosscheck.law}.").write(
+        path
+    )
 
 
-def sections(found: CrossCheck) -> tuple[Section, ...]:
+def sections(crosscheck: CrossCheck) -> tuple[Section, ...]:
     """The parts of the page."""
-    tables = [Section(each.record, (record_table(each), *notes(each))) for each in found.records]
-    if not any(record.steps for record in found.records):
+    tables = [Section(each.record, (record_table(each), *notes(each))) for each in crosscheck.records]
+    if not any(record.steps for record in crosscheck.records):
         return tuple(tables)
     caption = "Largest error away from the start, against the step and against the time of one solve"
-    return (Section("Error, step and time", (picture(crosscheck_figure(found), caption),)), *tables)
+    return (Section("Error, step and time", (picture(crosscheck_figure(crosscheck), caption),)), *tables)

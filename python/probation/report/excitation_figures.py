@@ -265,7 +265,7 @@ def _note(axes: Axes, text: str) -> None:
 
 def _around(scattered: FloatArray, curves: tuple[FloatArray, ...]) -> tuple[float, float]:
     """Limits that show the curves, and of the scattered samples what is not far away from them."""
-    low, high = min(float(each.min()) for each in curves), max(float(each.max()) for each in curves)
+    low, high = min(float(curve.min()) for curve in curves), max(float(curve.max()) for curve in curves)
     room = 0.5 * (high - low)
     if room <= _SAME * max(abs(low), abs(high)):  # constant but for rounding
         room = 0.5 * abs(high) or 1.0

@@ -18,10 +18,12 @@ if TYPE_CHECKING:
 
 def excitation_summary(answer: ExcitationAnswer) -> str:
     """A verdict per record, then a table and warnings for each."""
-    parts = ["\n".join(each.verdict for each in answer.records)]
-    for each in answer.records:
-        title = [each.id] if len(answer.records) > 1 else []
-        parts.append("\n".join([*title, facts_table(each).text(), *(f"  warning: {text}" for text in each.warnings)]))
+    parts = ["\n".join(record.verdict for record in answer.records)]
+    for record in answer.records:
+        title = [record.id] if len(answer.records) > 1 else []
+        parts.append(
+            "\n".join([*title, facts_table(record).text(), *(f"  warning: {text}" for text in record.warnings)])
+        )
     return "\n\n".join(parts)
 
 
@@ -62,37 +64,39 @@ def _correlation(grown: float) -> str:
     return "" if grown <= SMOOTHING.correlated else f", correlated from sample to sample (×{grown:.2g})"
 
 
-def comparison_summary(found: Comparison) -> str:
+def comparison_summary(comparison: Comparison) -> str:
     """Verdict, then a table of errors, then one of coverage."""
-    return "\n\n".join([found.verdict, errors_table(found).text(), coverage_table(found).text()])
+    return "\n\n".join([comparison.verdict, errors_table(comparison).text(), coverage_table(comparison).text()])
 
 
-def errors_table(found: Comparison) -> Table:
+def errors_table(comparison: Comparison) -> Table:
     """p95 and, in brackets, median of the relative error in percent."""
     return _table(
-        found,
-        f"p95 (median) of the relative error of the rate [%], mean of {found.draws} draws, seed {found.seed}",
+        comparison,
+        f"p95 (median) of the relative error of the rate [%], mean of {comparison.draws} draws, seed {comparison.seed}",
         lambda each: f"{_digits(100 * each.p95)} ({_digits(100 * each.median)})",
     )
 
 
-def coverage_table(found: Comparison) -> Table:
+def coverage_table(comparison: Comparison) -> Table:
     """How often the 95 % band holds the truth."""
     return _table(
-        found, "samples whose true rate lies within 1.96 standard errors [%]", lambda each: f"{100 * each.coverage:.0f}"
+        comparison,
+        "samples whose true rate lies within 1.96 standard errors [%]",
+        lambda each: f"{100 * each.coverage:.0f}",
     )
 
 
-def _table(found: Comparison, caption: str, cell: Callable[[Closeness], str]) -> Table:
+def _table(comparison: Comparison, caption: str, cell: Callable[[Closeness], str]) -> Table:
     rows = []
-    for history in dict.fromkeys(key[0] for key in found.results):
-        for noise in found.noises:
+    for history in dict.fromkeys(key[0] for key in comparison.results):
+        for noise in comparison.noises:
             row = [history, f"{noise:g}"]
-            for method in found.methods:
-                each = found.results[history, noise, method]
+            for method in comparison.methods:
+                each = comparison.results[history, noise, method]
                 row.append("–" if isinstance(each, str) else cell(each))
             rows.append(tuple(row))
-    return Table(("history", "noise", *found.methods), tuple(rows), caption)
+    return Table(("history", "noise", *comparison.methods), tuple(rows), caption)
 
 
 def _digits(percent: float) -> str:

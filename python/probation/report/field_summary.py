@@ -83,8 +83,14 @@ def residual_text(maps: FieldMaps) -> str:
 def closeness_table(maps: FieldMaps) -> Table:
     """How near the maps are to the truth, where that is known."""
     rows = tuple(
-        (SYMBOLS[each.name], f"{each.bias:.3%}", f"{each.scatter:.3%}", f"{each.spread:.2f}", f"{each.coverage:.1%}")
-        for each in maps.closeness
+        (
+            SYMBOLS[map_closeness.name],
+            f"{map_closeness.bias:.3%}",
+            f"{map_closeness.scatter:.3%}",
+            f"{map_closeness.spread:.2f}",
+            f"{map_closeness.coverage:.1%}",
+        )
+        for map_closeness in maps.closeness
     )
     return Table(("beside the truth", "bias", "scatter", "error over standard error", "in the 95 % interval"), rows)
 

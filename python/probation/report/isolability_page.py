@@ -38,14 +38,14 @@ def write_isolability_page(answer: CampaignIsolability, path: Path) -> None:
     ).write(path)
 
 
-def effect_sections(found: Isolability) -> tuple[Section, ...]:
+def effect_sections(isolability: Isolability) -> tuple[Section, ...]:
     """The map of effects, unless there is but one; then every effect in a table and in words."""
-    several = [isolability_figure(found)] if len(found.effects) > 1 else []
+    several = [isolability_figure(isolability)] if len(isolability.effects) > 1 else []
     maps = [picture(figure, "Chance of naming the right one of two [%].") for figure in several]
     return (
         *(Section("Which effect could be taken for which", (HOW_TO_READ_THE_MAP, each)) for each in maps),
-        Section("Effect by effect", (isolability_table(found), HOW_TO_READ)),
-        Section("In words", tuple(in_words(each.sentence, found) for each in found.effects)),
+        Section("Effect by effect", (isolability_table(isolability), HOW_TO_READ)),
+        Section("In words", tuple(in_words(effect.sentence, isolability) for effect in isolability.effects)),
     )
 
 

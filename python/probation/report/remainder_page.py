@@ -27,12 +27,12 @@ def remainder_table(left: Remainder) -> Table:
     """What the remainder is a function of, the most that explains first."""
     rows = tuple(
         (
-            function_name(each),
-            "a factor of the stress" if each.acts == "factor" else "a stress",
-            percent(each.explained),
-            each.judged_on,
+            function_name(dependence),
+            "a factor of the stress" if dependence.acts == "factor" else "a stress",
+            percent(dependence.explained),
+            dependence.judged_on,
         )
-        for each in left.depends_on
+        for dependence in left.depends_on
     )
     headings = ("a function of", "which is", "closes of what is left", "judged on … left out")
     return Table(headings, rows, "What is left depends on", left=2)

@@ -34,29 +34,29 @@ _WIDE_ENOUGH = 5.0  # percent of a record whose region has room for a number ...
 _APART = 12.0  # ... and percent between two numbers, so that they do not touch on a telephone
 
 
-def residual_map(found: Diagnosis) -> Figure:
+def residual_map(diagnosis: Diagnosis) -> Figure:
     """Every record as a strip from its start to its end; regions that stand out are framed, with their share."""
-    curves = list(found.curves.values())
-    names = short_ids(found.curves)
+    curves = list(diagnosis.curves.values())
+    names = short_ids(diagnosis.curves)
     with styled_figure(7.2, 1.15 + 0.52 * len(curves)) as figure:
         axes, scale = figure.subplots(2, 1, height_ratios=(0.52 * len(curves), 0.22))
-        for at, each in enumerate(curves):
-            _strip(axes, at, each, each.base, _BEFORE)
-            if each.explained is not None:
-                _strip(axes, at, each, each.explained, _AFTER)
-            end = "  held out" if each.role != "identify" else ""
-            axes.text(101.0, at, f"{each.time[-1] - each.time[0]:.4g} s{end}", va="center", fontsize=8)
-        place = {each.id: at for at, each in enumerate(curves)}
-        numbered: dict[str, list[float]] = {name: [] for name in found.curves}
-        for region in found.located:
-            _frame(axes, place[region.record], found.curves[region.record], region, numbered[region.record])
-        axes.set_yticks(range(len(curves)), [fill(names[each.id], 18) for each in curves])
+        for at, curve in enumerate(curves):
+            _strip(axes, at, curve, curve.base, _BEFORE)
+            if curve.explained is not None:
+                _strip(axes, at, curve, curve.explained, _AFTER)
+            end = "  held out" if curve.role != "identify" else ""
+            axes.text(101.0, at, f"{curve.time[-1] - curve.time[0]:.4g} s{end}", va="center", fontsize=8)
+        place = {curve.id: at for at, curve in enumerate(curves)}
+        numbered: dict[str, list[float]] = {name: [] for name in diagnosis.curves}
+        for region in diagnosis.located:
+            _frame(axes, place[region.record], diagnosis.curves[region.record], region, numbered[region.record])
+        axes.set_yticks(range(len(curves)), [fill(names[curve.id], 18) for curve in curves])
         axes.set(xlim=(0.0, 100.0), ylim=(len(curves) - 0.4, -0.6))
         axes.set(xlabel="part of the record's time [%]", ylabel="record")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        _scale(scale, floor_name(found))
+        _scale(scale, floor_name(diagnosis))
     return figure
 
 

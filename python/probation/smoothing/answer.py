@@ -156,7 +156,7 @@ class RecordExcitation(Plotted, WithCurves):
         """Columns `CSV_HEADER`, every digit kept."""
         excitation = self.excitation
         columns = (self.time, excitation.true_strain, excitation.rate, excitation.strain_se, excitation.rate_se)
-        rows = zip(*(each.tolist() for each in columns), strict=True)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
         return "\n".join([CSV_HEADER, *(",".join(repr(value) for value in row) for row in rows)]) + "\n"
 
     def _verdict(self) -> str:
@@ -251,7 +251,7 @@ class ExcitationAnswer(Result, Stored):
             If there are several.
         """
         if len(self.records) > 1:
-            names = ", ".join(each.id for each in self.records)
+            names = ", ".join(record.id for record in self.records)
             raise InputError(f"{self.source}: found the records {names}, expected one for {what}; choose by its id")
         return self.records[0]
 

@@ -75,7 +75,9 @@ class Comparison(Summarised, Plotted, Stored):
     @property
     def verdict(self) -> str:
         """How the default does on the case that has an aim, and on all."""
-        own = [(key, each) for key, each in self.results.items() if key[2] == DEFAULT and isinstance(each, Closeness)]
+        own = [
+            (key, result) for key, result in self.results.items() if key[2] == DEFAULT and isinstance(result, Closeness)
+        ]
         if not own:
             return f"The default, {DEFAULT}, was not among the methods."
         first = min(self.noises)

@@ -319,7 +319,7 @@ def _fit_formula(
 
 def _starts(duration: float) -> list[FloatArray]:
     """The paper's experiments at this duration, and around them."""
-    base = [each.slowed(duration / each.duration) for each in NECKING_SETS.values()]
+    base = [necking.slowed(duration / necking.duration) for necking in NECKING_SETS.values()]
     return [
         _unbounded(_with(each, a=each.a * sharper, d=each.d * deeper))
         for each, sharper, deeper in product(base, (0.5, 1.0, 2.0, 4.0), (0.1, 0.4, 1.0, 3.0))

@@ -35,8 +35,8 @@ _WHY_INTERCEPT = (
 def exhibit(settings: Settings) -> Exhibit:
     """Regress both relations on Table 2, and ask Tables 3 and 4 which of (11) they were made with."""
     eq_11, eq_12 = regress(FORMS["weissenberg"], TABLE_2), regress(FORMS["exponential"], TABLE_2)
-    slope, intercept = (float(each) for each in eq_11.parameters)
-    coefficient, exponent = (float(each) for each in eq_12.parameters)
+    slope, intercept = (float(parameter) for parameter in eq_11.parameters)
+    coefficient, exponent = (float(parameter) for parameter in eq_12.parameters)
     comparisons = [
         compare("(11), slope", WEISSENBERG_AS_PRINTED.slope, slope),
         compare("(11), intercept", WEISSENBERG_AS_PRINTED.intercept, intercept, because=_WHY_INTERCEPT),

@@ -41,7 +41,7 @@ def elements(kind: str, connectivity: Iterable[Sequence[int]]) -> str:
 
 def node_set(name: str, members: Iterable[int]) -> str:
     """A set of nodes; the name in capitals."""
-    return "\n".join((f"*NSET, NSET={name}", *(f"{each}," for each in members)))
+    return "\n".join((f"*NSET, NSET={name}", *(f"{member}," for member in members)))
 
 
 def material(constants: MaterialConstants, state_size: int) -> str:
@@ -58,7 +58,7 @@ def material(constants: MaterialConstants, state_size: int) -> str:
             f"constants: found {len(values)}, expected at most {MOST_CONSTANTS}, for CalculiX passes no more; "
             "compile a kernel or a table of your own in with -DPROBATION_CONSTANTS"
         )
-    rows = [",".join(number(each) for each in values[k : k + 8]) for k in range(0, len(values), 8)]
+    rows = [",".join(number(value) for value in values[k : k + 8]) for k in range(0, len(values), 8)]
     lines = [
         "*MATERIAL, NAME=@PROBATION_DNLR",
         f"*USER MATERIAL, CONSTANTS={len(values)}",

@@ -82,8 +82,8 @@ def _shapes(figure: Any, necking: NeckingRun) -> None:
     )
     for column, (title, colours, values_at) in enumerate(columns):
         values = {name: values_at(at) for name, at in instants.items()}
-        lowest = min(0.0, *(each.min() for each in values.values()))
-        limits = (lowest, max(each.max() for each in values.values()))
+        lowest = min(0.0, *(value.min() for value in values.values()))
+        limits = (lowest, max(value.max() for value in values.values()))
         for row, (name, at) in enumerate(instants.items()):
             each = axes[row, column]
             drawn = _elements(each, necking.face[at], values[name], colours, limits)

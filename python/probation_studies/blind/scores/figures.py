@@ -30,7 +30,7 @@ def power_figure(board: Mapping[str, object]) -> Figure:
     with styled_figure(7.2, 3.8) as figure:
         axes = figure.subplots()
         for at, (label, rates) in enumerate((("gap found", detection), ("cause named", named))):
-            known = {name: each for name, each in rates.items() if each["n"]}
+            known = {name: rate for name, rate in rates.items() if rate["n"]}
             place = np.array([float(name) for name in known]) * 1.03 ** (2 * at - 1)
             value = np.array([cast("float", each["rate"]) for each in known.values()])
             ends = np.array([cast("list[float]", each["interval95"]) for each in known.values()]).reshape(-1, 2)
