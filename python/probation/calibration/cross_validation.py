@@ -11,6 +11,7 @@ from scipy.special import fdtri
 from probation.calibration.companion_forms import CHOOSABLE, FORMS
 from probation.calibration.regression import regress
 from probation.errors import InputError
+from probation.settings.companion import COMPANION
 
 SMALLEST_TOLD = 1e-5
 """A smaller error in ln tau_max is told as less than that."""
@@ -84,7 +85,7 @@ def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str |
 
 
 def apart(one: Score, other: Score) -> bool:
-    """Whether the second's mean square is above the first's by more than chance: an F test at 5 %.
+    """Whether the second's mean square is above the first's by more than chance: an F test.
 
     Crude, since the errors of two forms on the same rates are no independent draws; it asks for a factor of 2.2 in the
     rms with five rates, of 3 with three.
@@ -92,7 +93,7 @@ def apart(one: Score, other: Score) -> bool:
     count = int(np.sum(np.isfinite(one.log_error)))
     if count == 0 or not np.isfinite(other.rms):
         return False
-    return bool(other.rms**2 > float(fdtri(count, count, 0.95)) * one.rms**2)
+    return bool(other.rms**2 > float(fdtri(count, count, 1.0 - COMPANION.apart_level)) * one.rms**2)
 
 
 def percent(error: float, sign: str = "") -> str:

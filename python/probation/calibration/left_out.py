@@ -13,6 +13,7 @@ from probation.identify.covariance import covariance
 from probation.identify.variable_projection import search
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
+from probation.settings.companion import COMPANION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from probation.calibration.companion_forms import Form
     from probation.calibration.direct import DirectFit, DirectProblem
     from probation.law.companion import Companion
-
-_ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation predicts nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +75,7 @@ def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: 
     law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
     held = ("unrelaxed_modulus",) if hardening is None else ("unrelaxed_modulus", "hardening_modulus")
     alone = Problem.white(DnlrLaw(law, held), [problem.views[at]])
-    best = search(alone, _ALPHAS)
+    best = search(alone, COMPANION.searched_alpha)
     residual, jacobian = alone.residual_and_jacobian(best)
     known = covariance(jacobian, residual, alone.lengths, best)
     return RecordAlpha(float(np.log(best[0])), float(known.relative_error[0]), _rms(alone.model.residual(best)))

@@ -16,6 +16,7 @@ from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of,
 from probation.field.truth import Closeness, closeness
 from probation.results.data import CURVE, Stored, WithCurves, from_curves
 from probation.results.rendering import Result
+from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
     import os
@@ -27,10 +28,6 @@ if TYPE_CHECKING:
     from probation.field.store import MapKind
 
 AGAIN = "probation field identify, called again,"
-
-CERTAIN, UNEVEN = 4.0, 2.0
-"""Standard deviations of ln(rms_residual / noise) from which on a residual is beyond the noise, and their square times
-the samples: 1/2 for even noise that is known, more where it grows along the record and is estimated."""
 
 
 @dataclass(frozen=True)
@@ -80,10 +77,10 @@ class FieldMaps(Result, Stored, WithCurves):
     def beyond_noise(self) -> NDArray[np.bool_]:
         """Where the residual is more than noise leaves."""
         samples = np.maximum(self.maps["samples"], 1)
-        doubt = np.sqrt(UNEVEN / samples)
+        doubt = np.sqrt(FIELD.uneven / samples)
         with np.errstate(invalid="ignore"):
             return np.asarray(
-                self.identified & (self.maps["rms_residual"] > np.exp(CERTAIN * doubt) * self.maps["noise"])
+                self.identified & (self.maps["rms_residual"] > np.exp(FIELD.certain * doubt) * self.maps["noise"])
             )
 
     @property

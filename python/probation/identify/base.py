@@ -15,6 +15,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.time_range import time_range
 from probation.law.schemes import scheme_of
 from probation.noise.segments import leftover
+from probation.settings.identification import IDENTIFICATION
 from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from probation.identify.result import Fit
     from probation.records.campaign import Campaign
     from probation.smoothing.excitation import Excitation
-
-FIRST, STIFFER, FAR = 20, 1.3, 3.0
-"""Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
 
 def base_fit(campaign: Campaign, fit: Fit) -> BaseFit:
@@ -53,9 +51,9 @@ def _other_starts(base: BaseFit) -> tuple[FloatArray, ...]:
         return ()
     at = names.index("unrelaxed_modulus_MPa")
     time = next((index for index, name in enumerate(names) if name in ("tau_max_s", "alpha")), None)
-    slope = STIFFER * max(_first_slope(view) for view in base.model.views)
+    slope = IDENTIFICATION.modulus_over_first_slope * max(_first_slope(view) for view in base.model.views)
     ratio = base.parameters[at] / slope if slope > 0.0 else 1.0
-    if 1.0 / FAR < ratio < FAR:
+    if 1.0 / IDENTIFICATION.far_modulus < ratio < IDENTIFICATION.far_modulus:
         return ()
     moved = base.parameters.copy()
     moved[at] = slope
@@ -66,9 +64,10 @@ def _other_starts(base: BaseFit) -> tuple[FloatArray, ...]:
 
 def _first_slope(view: RecordView) -> float:
     """Steepest secant from the first sample to one of the next few [MPa]."""
-    strain = view.sampled(view.true_strain)[1:FIRST] - view.true_strain[0]
-    stress = view.data[1:FIRST] - view.data[0]
-    moving = np.abs(strain) > 0.1 * float(np.max(np.abs(strain), initial=0.0))
+    first = slice(1, IDENTIFICATION.samples_of_first_slope)
+    strain = view.sampled(view.true_strain)[first] - view.true_strain[0]
+    stress = view.data[first] - view.data[0]
+    moving = np.abs(strain) > IDENTIFICATION.least_part_of_strain * float(np.max(np.abs(strain), initial=0.0))
     return float(np.max(np.abs(stress[moving] / strain[moving]), initial=0.0)) if moving.any() else 0.0
 
 

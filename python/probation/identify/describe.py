@@ -23,6 +23,7 @@ from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_nam
 from probation.noise.whiteness import correlation_lags
 from probation.records.noise import scatter
 from probation.results.labelled import LabelledMatrix
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -35,9 +36,6 @@ if TYPE_CHECKING:
     from probation.law.schemes import Scheme
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
-
-LIKELY_MODULI = (1e-3, 1e6)
-"""Unrelaxed modulus, from the softest gel to diamond [MPa]."""
 
 
 def describe(
@@ -185,7 +183,7 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, wit
 
 def _modulus_warnings(problem: Problem, law: Law) -> list[str]:
     """No solid is softer or stiffer: a slip of the units is likelier."""
-    low, high = LIKELY_MODULI
+    low, high = IDENTIFICATION.likely_moduli
     if 0 not in problem.engine_law().free or low <= law.unrelaxed_modulus <= high:
         return []
     return [

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation.inference.unknown import UNKNOWN
 from probation.settings.detection import DETECTION
+from probation.settings.evidence import EVIDENCE
 from probation.wording import plus_minus
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ OUTSIDE = "an effect outside the catalogue"
 
 LONGEST_ID = 30
 """Letters of a record's id that tables and figures show."""
-
-SAME = 0.01
-"""p-value below which an amplitude is said to differ from record to record."""
 
 _SMALLEST_P = 1e-4  # draws of the noise tell no less
 _UNIT_WORDS = {"°C": "degC", "%": "percent"}
@@ -160,7 +158,7 @@ def checks_text(explanation: Explanation) -> list[str]:
         return []
     found = [*_prediction(checks)]
     if checks.amplitude_p_value is not None:
-        same = checks.amplitude_p_value >= SAME
+        same = checks.amplitude_p_value >= EVIDENCE.same_amplitude
         found.append("one strength suits all records" if same else "each record wants another strength")
     if explanation.effects and checks.remaining_p_value < DETECTION.gap_level and explanation.effects != (UNKNOWN,):
         found.append("a gap is left in addition")

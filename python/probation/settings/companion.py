@@ -31,6 +31,12 @@ class CompanionSettings:
     nearly_constant: float = chosen(
         1.5, "-", "The same from which on a constant tau_max of the record is no relaxation time at one rate."
     )
+    apart_level: float = chosen(
+        0.05, "probability", "Level of the F test by which a form predicts rates that were left out worse than another."
+    )
+    searched_alpha: tuple[float, float] = chosen(
+        (1e-2, 1e2), "-", "Range of a record's own alpha: beyond a hundredfold error a relation predicts nothing."
+    )
 
 
 COMPANION = CompanionSettings()

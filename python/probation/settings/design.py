@@ -75,6 +75,7 @@ class DesignSettings:
         0.25, "largest bias", "Part of the largest bias from which on another one is named too."
     )
     listed_tests: int = chosen(5, "tests", "Tests that are listed.")
+    moving_rate: float = chosen(0.01, "largest rate", "Rate from which on a specimen of a planned test is straining.")
 
 
 DESIGN = DesignSettings()

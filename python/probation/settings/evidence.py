@@ -168,6 +168,9 @@ class EvidenceSettings:
     fewest_resampled: int = chosen(6, "records", "Records from which on that bootstrap resamples whole records.")
     closure_blocks: int = chosen(8, "parts", "Contiguous parts that are resampled instead where there is one record.")
     closure_coverage: float = chosen(0.9, "probability", "Coverage of the interval of the explained fraction.")
+    same_amplitude: float = chosen(
+        0.01, "probability", "p-value below which an amplitude is said to differ from record to record."
+    )
 
 
 EVIDENCE = EvidenceSettings()

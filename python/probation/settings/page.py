@@ -16,6 +16,8 @@ from probation.settings.design import DESIGN
 from probation.settings.detection import DETECTION
 from probation.settings.effects import EFFECTS
 from probation.settings.evidence import EVIDENCE
+from probation.settings.field import FIELD
+from probation.settings.identification import IDENTIFICATION
 from probation.settings.noise import NOISE
 from probation.settings.reading import READING
 from probation.settings.remainder import REMAINDER
@@ -36,6 +38,8 @@ GROUPS: dict[str, Any] = {
     "comparison": COMPARISON,
     "certificate": CERTIFICATE,
     "companion": COMPANION,
+    "identification": IDENTIFICATION,
+    "field": FIELD,
 }
 """By the file in ``probation/settings``."""
 

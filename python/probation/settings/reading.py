@@ -25,6 +25,18 @@ class ReadingSettings:
     clock_onset: float = chosen(
         0.3, "largest value", "Part of the largest value up to which the onset of a signal is looked for."
     )
+    clock_proposed: float = chosen(
+        3.0, "least rest", "Rest of the rates at a shift below which the strain decides on that shift."
+    )
+    clock_unstrained: float = chosen(
+        0.05, "largest strain", "Strain of a camera's first frame below which the specimen is at rest in it."
+    )
+    clock_exact: float = chosen(1e-6, "largest strain", "Least noise of a strain file.")
+    clock_between: float = chosen(0.1, "distance of samples", "Least uncertainty of a shift between clocks.")
+    log_missing: float = chosen(
+        0.1, "duration", "Time of a record that a temperature log may leave out; the temperature is held there."
+    )
+    start_reach: float = chosen(4.0, "first strain", "Strain up to which the strain rate at a record's start is taken.")
     far_start: float = chosen(
         0.02, "largest value", "Strain or stress of the first sample from which on a record does not start at zero."
     )

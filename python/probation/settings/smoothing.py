@@ -51,6 +51,12 @@ class SmoothingSettings:
     changed_spacing: float = chosen(
         2.0, "-", "Factor of the usual spacing of samples from which on a change of it is by design."
     )
+    mostly_noise: float = chosen(
+        0.05, "-", "Median relative standard error of a rate by differences beyond which it is said to be mostly noise."
+    )
+    least_part_of_speed: float = chosen(
+        0.2, "median rate", "Rate, on both sides of a jump, below which the jump is measured by the record's own rate."
+    )
     polynomial_order: int = chosen(3, "-", "Order of the local polynomials.")
     smallest_window: int = chosen(7, "samples", "Smallest window of the local polynomials.")
     without_jump: int = chosen(

@@ -187,7 +187,11 @@ class RecordExcitation(Plotted, WithCurves):
             )
         if missed := self._missed():
             warnings.append(missed)
-        if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
+        if (
+            excitation.strain_rate is None
+            and self.relative_error.size
+            and np.median(self.relative_error) > SMOOTHING.mostly_noise
+        ):
             warnings.append("the differences of the strain are mostly noise: another method smooths it")
         return warnings
 
