@@ -51,12 +51,12 @@ ROUTES: tuple[Route, ...] = ("auto", "by-rate", "direct")
 @shows_progress
 def calibrate_companion(
     source: Campaign | RateTable,
+    scheme: Scheme | SchemeName = "sa3",
     *,
     form: str = "auto",
     route: Route = "auto",
     modulus: Modulus = "shared",
     hardening: Hardening = "by-record",
-    scheme: Scheme | SchemeName = "sa3",
     progress: Progress | None = None,
 ) -> Calibration:
     """Calibrate companion relations on tests at several strain rates.
@@ -65,6 +65,8 @@ def calibrate_companion(
     ----------
     source : Campaign or RateTable
         Records at several rates (those with role "identify"), or relaxation times that were identified on some.
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        With one step from sample to sample.
     form : str
         "auto" takes the form with the lowest error on rates left out; else "weissenberg" (11), "exponential" (12),
         "power" or "table".
@@ -78,8 +80,6 @@ def calibrate_companion(
     hardening : {"by-record", "shared"}
         G in the direct route. Each record its own by default: in Table 2 it grows by 60 % with the rate, and one G for
         all would bias the relation.
-    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
-        With one step from sample to sample.
     progress : callable, optional
         Called with ``(done, total, what)``.
 
