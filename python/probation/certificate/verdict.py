@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.settings.certificate import CERTIFICATE
-from probation.wording import percentage
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -138,8 +138,7 @@ def _exceptions(
 
 
 def _listed(names: list[str]) -> str:
-    symbols = [SYMBOLS[name] for name in names]
-    return symbols[0] if len(symbols) == 1 else ", ".join(symbols[:-1]) + " and " + symbols[-1]
+    return listed([SYMBOLS[name] for name in names], "and")
 
 
 def _change(name: str, consistency: Consistency) -> str:

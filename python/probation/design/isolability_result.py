@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation.settings.design import DESIGN
-from probation.wording import percentage
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -181,11 +181,11 @@ def _headline(isolability: Isolability) -> str:
         sets = "; ".join(", ".join(group) for group in isolability.groups)
         parts.append(f"{len(ambiguous)} would be seen but could be taken for another ({sets})")
     if hidden := isolability.with_status("absorbed"):
-        parts.append(f"{_listed([each.name for each in hidden])} would hide in the base parameters")
+        parts.append(f"{listed([each.name for each in hidden], 'and')} would hide in the base parameters")
     if small := isolability.with_status("too_small"):
-        parts.append(f"{_listed([each.name for each in small])} would drown in the noise at usual size")
+        parts.append(f"{listed([each.name for each in small], 'and')} would drown in the noise at usual size")
     if silent := isolability.with_status("without_signal"):
-        parts.append(f"{_listed([each.name for each in silent])} would do nothing in them")
+        parts.append(f"{listed([each.name for each in silent], 'and')} would do nothing in them")
     return "; ".join(parts) + "."
 
 
@@ -208,7 +208,7 @@ def _sentence(effect: EffectIsolability) -> str:
         return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(effect)}."
     likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(effect.rivals.items())[:_NAMED]]
     more = len(effect.rivals) - len(likest)
-    others = _listed([*likest, f"{more} more"] if more else likest, "or")
+    others = listed([*likest, f"{more} more"] if more else likest)
     return f"{title} would be seen ({seen}) but could be taken for {others}; {_from(effect)}."
 
 
@@ -230,14 +230,10 @@ def _biased(biases: Sequence[Bias]) -> str:
     """The biases that matter: "hardening_modulus_MPa by +3.1 %"."""
     worst = max((abs(bias.percent) for bias in biases), default=0.0)
     named = [bias for bias in biases if abs(bias.percent) >= DESIGN.bias_worth_naming * worst]
-    return _listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named])
+    return listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named], "and")
 
 
 def _percent(share: float) -> str:
     """A share near 1 with the digits that tell it from 1."""
     text = f"{100.0 * share:.4g} %"
     return "all" if text == "100 %" else text
-
-
-def _listed(items: Sequence[str], word: str = "and") -> str:
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {word} {items[-1]}" if items else ""

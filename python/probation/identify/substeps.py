@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.identify.scheme_error import most_substeps
 from probation.law.schemes import scheme_of
 from probation.records.noise import scatter
 from probation.settings.certificate import CERTIFICATE
@@ -20,10 +21,6 @@ if TYPE_CHECKING:
     from probation.smoothing.excitation import Excitation
 
 
-MOST, ENOUGH_INSTANTS = 16, 4000
-"""Most substeps; on short records as many as make so many instants in all."""
-
-
 def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Excitation]) -> int:
     """Substeps for a scheme of order 2, at least those of the fit.
 
@@ -36,7 +33,7 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
     excitations : dict of str to Excitation
         By record id, at the samples.
     """
-    most = max(MOST, ENOUGH_INSTANTS // max(len(record.time) for record in campaign.identify))
+    most = most_substeps(len(record.time) for record in campaign.identify)
     steps = fit.substeps
     while steps < most:
         square = 0.0
