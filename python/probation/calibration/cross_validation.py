@@ -13,8 +13,8 @@ from probation.calibration.regression import regress
 from probation.errors import InputError
 from probation.settings.companion import COMPANION
 
-SMALLEST_TOLD = 1e-5
-"""A smaller error in ln tau_max is told as less than that."""
+SMALLEST_REPORTED = 1e-5
+"""A smaller error in ln tau_max is reported as less than that."""
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -100,7 +100,7 @@ def percent(error: float, sign: str = "") -> str:
     """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
     if not np.isfinite(error):
         return "–"
-    if 0.0 < abs(error) < SMALLEST_TOLD:
-        return f"< {100.0 * SMALLEST_TOLD:g}"
+    if 0.0 < abs(error) < SMALLEST_REPORTED:
+        return f"< {100.0 * SMALLEST_REPORTED:g}"
     digits = ".0f" if abs(error) >= 0.1 else ".1f" if abs(error) >= 0.0005 else ".1g"
     return f"{100.0 * error:{sign}{digits}}"

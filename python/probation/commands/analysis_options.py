@@ -19,7 +19,7 @@ def add_effects(parser: argparse._ActionsContainer) -> None:
         metavar="NAME,NAME",
         action="append",
         type=_names,
-        help="consider only these effects (all); names as probation diagnose --list-effects tells them",
+        help="consider only these effects (all); names as probation diagnose --list-effects lists them",
     )
 
 

@@ -42,7 +42,7 @@ CONFIDENCE = 0.99
 """Of the interval of a coverage, which must contain `NOMINAL`."""
 
 LEAST_COVERAGE = 0.85
-"""A study tells that intervals hold if its draws could tell them from intervals of this coverage."""
+"""A study says that intervals hold if its draws can exclude intervals of this coverage."""
 
 RECOMMENDED: Weighting = "auto"
 JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
@@ -110,7 +110,7 @@ class Counted:
         return low <= NOMINAL <= high
 
     @property
-    def tells(self) -> bool:
+    def decides(self) -> bool:
         """Whether there are draws enough to say that an interval holds."""
         return enough_draws(self.draws)
 
@@ -129,7 +129,7 @@ class Counted:
                 name: {
                     "coverage": self.coverage(name),
                     "interval99": self.interval(name),
-                    "holds": None if self.holds(name) and not self.tells else self.holds(name),
+                    "holds": None if self.holds(name) and not self.decides else self.holds(name),
                     "bias": self.bias[name],
                 }
                 for name in self.hits

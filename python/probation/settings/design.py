@@ -26,8 +26,8 @@ class DesignSettings:
     further_shapes: tuple[float, ...] = chosen(
         (-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5),
         "prior scales",
-        "Prior scales off the centre at which shapes are tried beside their starts; every other one of two shapes "
-        "or more.",
+        "Prior scales off the centre at which nonlinear parameters are tried in addition to their starts; of two such "
+        "parameters or more, every other one.",
     )
     absorbed: float = chosen(
         0.9,

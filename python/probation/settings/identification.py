@@ -14,7 +14,7 @@ class IdentificationSettings:
     likely_moduli: tuple[float, float] = chosen(
         (1e-3, 1e6), "MPa", "Unrelaxed moduli that are not warned of, from the softest gel to diamond."
     )
-    samples_of_first_slope: int = chosen(20, "samples", "First samples whose steepest secant tells E_u from below.")
+    samples_of_first_slope: int = chosen(20, "samples", "First samples whose steepest secant bounds E_u from below.")
     least_part_of_strain: float = chosen(
         0.1, "largest strain", "Strain of these samples below which a secant is not taken."
     )

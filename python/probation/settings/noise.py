@@ -158,7 +158,9 @@ class NoiseSettings:
         0.5, "-", "Part of the longer record's time that replicates have in common at least: chosen."
     )
     scatter_seen: float = chosen(
-        0.2, "-", "Lower end of a scatter's interval over its value from which on the scatter is told in words: chosen."
+        0.2,
+        "-",
+        "Lower end of a scatter's interval over its value from which on the scatter is reported in words: chosen.",
     )
     largest_scatter: float = chosen(
         3.0,
@@ -187,7 +189,7 @@ class NoiseSettings:
     drift_range: tuple[float, float] = chosen(
         (0.5, 100.0),
         "white noise variance",
-        "Relative variances of a drift at the first half period that are tried beside 0, least and largest.",
+        "Relative variances of a drift at the first half period that are tried in addition to 0, least and largest.",
     )
     bias_range: tuple[float, float] = chosen(
         (10.0, 1e7), "white noise variance", "The same of a bias of one record, whose power falls as 1/order³."
