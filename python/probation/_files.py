@@ -192,7 +192,7 @@ def check_folder_place(path: str | os.PathLike[str]) -> None:
         raise InputError("found an empty name, expected a folder")
     target = Path(path)
     with written_to(target):
-        there = next(each for each in (_real(target), *_real(target).parents) if each.exists())
+        there = next(folder for folder in (_real(target), *_real(target).parents) if folder.exists())
         _check_folder(there, there)
 
 

@@ -24,7 +24,7 @@ METHODS: tuple[Method, ...] = ("variable-projection", "levenberg-marquardt")
 SUBSTEPS_LIMIT = 10_000
 """Most steps of the scheme from sample to sample."""
 
-STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
+STATUS_WORDS: dict[int, str] = {status.value: status.name.replace("_", " ") for status in _core.IdentifyStatus}
 """What the entries of `BulkIdentification.status` mean, by number."""
 
 SOLVED = (0, 1)

@@ -117,7 +117,7 @@ def calibrate_companion(
     for at, record in enumerate(source.identify):
         advance(at, len(source.identify), f"strain rate of {record.id}")
         driven.append(excite(record))
-    rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
+    rates = tuple(record_rate(record, excitation) for record, excitation in zip(source.identify, driven, strict=True))
     steady = all(rate.spread <= COMPANION.nearly_constant for rate in rates)
     if route == "by-rate" and not steady:
         worst = max(rates, key=lambda rate: rate.spread)
@@ -206,7 +206,7 @@ def _direct(
     labels = tuple(rate.id for rate in rates)
     medians = np.array([rate.rate for rate in rates])
     groups = rate_groups(medians)
-    forms = {name: each for name, each in FORMS.items() if name != "table" and (not each.same_as or name == form)}
+    forms = {name: other for name, other in FORMS.items() if name != "table" and (not other.same_as or name == form)}
     leaving = len(groups) >= COMPANION.fewest_rates
     total = len(forms) * (1 + len(groups) * leaving)
     done = 0
@@ -229,7 +229,7 @@ def _direct(
             coarse,
             groups,
             forms,
-            lambda each: _starts(each, anchor, whole),
+            lambda relation_form: _starts(relation_form, anchor, whole),
             lambda kept: _range([rates[at] for at in kept]),
             advance,
         )
@@ -332,9 +332,9 @@ def _direct_candidate(
     """The fit, and the scatter around it that each record's own alpha shows."""
     relation = fitted.companion.relation
     own = [record_alpha(problem, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
-    residual = np.array([-each.log_alpha for each in own])
+    residual = np.array([-correction.log_alpha for correction in own])
     degrees = len(labels) - len(form.parameter_names)
-    errors = np.array([each.se for each in own])
+    errors = np.array([correction.se for correction in own])
     scatter = excess_scatter(residual, errors, degrees) if degrees > 0 and np.all(np.isfinite(errors)) else 0.0
     companion = replace(fitted.companion, log_scatter=scatter)
     return Candidate(form, companion, labels, 100.0 * np.expm1(residual), float("nan"), score, fitted)

@@ -230,7 +230,7 @@ class CalibratedCompanion:
 
 def _same_relation(one: Companion, other: Companion) -> bool:
     """The same relation, wherever it was calibrated."""
-    names = [each.name for each in fields(one) if each.name != "calibrated"]  # type: ignore[arg-type]
+    names = [declared.name for declared in fields(one) if declared.name != "calibrated"]  # type: ignore[arg-type]
     return type(one) is type(other) and all(getattr(one, name) == getattr(other, name) for name in names)
 
 

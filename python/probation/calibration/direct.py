@@ -105,8 +105,10 @@ class DirectProblem:
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
         self._solvers: dict[RecordView, _core.Solver] = {}
-        driven = [excite(each) for each in records] if excitations is None else excitations
-        self.views = [measured_view(record, each, scheme) for record, each in zip(records, driven, strict=True)]
+        driven = [excite(identified) for identified in records] if excitations is None else excitations
+        self.views = [
+            measured_view(record, excitation, scheme) for record, excitation in zip(records, driven, strict=True)
+        ]
         if own_rms is None:
             own_rms = [_own_rms(view, settings) for view in self.views]
         self.weights = np.array(

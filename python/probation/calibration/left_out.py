@@ -127,7 +127,7 @@ def _predict(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> t
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
     law = DnlrLaw(problem.law(relation, modulus, hardening))
-    base, unit, whole = (law.stress(view, np.array([modulus, 1.0, each])) for each in (0.0, 1.0, hardening))
+    base, unit, whole = (law.stress(view, np.array([modulus, 1.0, value])) for value in (0.0, 1.0, hardening))
     own = record_alpha(problem, at, relation, modulus)
     largest = float(np.max(np.abs(view.data)))
     slope = unit - base  # the stress is linear in G

@@ -120,15 +120,18 @@ def fit_records(
 
     fits = tuple(fitted(record, settings, at) for at, record in enumerate(records))
     held = settings.fixed.get("unrelaxed_modulus_MPa")
-    own = tuple((each.law.unrelaxed_modulus, each.parameters["unrelaxed_modulus"].se) for each in fits)
-    slope = np.array([_log_slope(each) for each in fits])
+    own = tuple(
+        (fitted_record.law.unrelaxed_modulus, fitted_record.parameters["unrelaxed_modulus"].se)
+        for fitted_record in fits
+    )
+    slope = np.array([_log_slope(fitted_record) for fitted_record in fits])
     shared, shared_se, spread = held, 0.0, 0.0
     if modulus == "shared" and held is None:
         log_mean, log_se, spread = _shared_log_modulus(campaign.name, own)
         shared, shared_se = float(np.exp(log_mean)), float(np.exp(log_mean) * log_se)
         together = replace(settings, fixed={**settings.fixed, "unrelaxed_modulus_MPa": shared})
         fits = tuple(fitted(record, together, len(records) + at) for at, record in enumerate(records))
-    times = [each.parameters["tau_max"] for each in fits]
+    times = [fitted_record.parameters["tau_max"] for fitted_record in fits]
     for record, time in zip(records, times, strict=True):
         if time.se is None:
             raise InputError(
@@ -140,7 +143,7 @@ def fit_records(
         rates=np.array([rate.rate for rate in rates]),
         tau_max=np.array([time.value for time in times]),
         se=np.array([time.se for time in times]),
-        hardening_modulus=np.array([each.law.hardening_modulus for each in fits]),
+        hardening_modulus=np.array([fitted_record.law.hardening_modulus for fitted_record in fits]),
         labels=tuple(record.id for record in records),
         source=f"campaign {campaign.name}",
     )

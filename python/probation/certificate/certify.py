@@ -141,7 +141,7 @@ def certify(
     verdict, reason = decide(
         parameters,
         predictions,
-        {name: each.bias_MPa for name, each in described.items()},
+        {name: fit.bias_MPa for name, fit in described.items()},
         tolerances,
         {
             name: campaign.law.fixed[outside_name(name)]
@@ -199,7 +199,7 @@ def _modulus(base: Fit, own: ByRecord, *, held: bool) -> tuple[float, float]:
     if held or len(base.records) == 1:
         return identified
     known = {record: own[record][name] for record in base.records}
-    errors = [each.se for each in known.values() if each.se]
+    errors = [estimate.se for estimate in known.values() if estimate.se]
     if not errors:
         return identified
     return judge({name: known})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)

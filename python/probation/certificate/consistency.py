@@ -102,10 +102,10 @@ def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
     known = [estimate for estimate in by_record.values() if estimate.se]
     if not known:
         return float(np.mean([estimate.value for estimate in by_record.values()])), 1.0, False
-    values = np.array([each.value for each in known])
-    shifts = np.array([each.shifts for each in known])
+    values = np.array([estimate.value for estimate in known])
+    shifts = np.array([estimate.shifts for estimate in known])
     precision = np.linalg.inv(
-        np.diag([each.se**2 + each.se_specimen**2 for each in known if each.se]) + shifts @ shifts.T
+        np.diag([estimate.se**2 + estimate.se_specimen**2 for estimate in known if estimate.se]) + shifts @ shifts.T
     )
     mean = float(precision.sum(axis=0) @ values / precision.sum())
     if len(values) < 2:

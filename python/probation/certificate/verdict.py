@@ -83,7 +83,7 @@ def decide(
         return "intrinsic", f"one set of parameters serves every record ({seen}); {predicted}"
     beyond = [name for name, left in described_MPa.items() if left > tolerances_MPa[name]]
     if beyond:
-        name = max(beyond, key=lambda each: described_MPa[each] / tolerances_MPa[each])
+        name = max(beyond, key=lambda record: described_MPa[record] / tolerances_MPa[record])
         freed = f"with {_listed(failing)} free on each record" if failing else "with parameters of its own"
         return "not_intrinsic", (
             f"even {freed} the law leaves {described_MPa[name]:.2g} MPa on {name} "

@@ -110,7 +110,7 @@ def _records(options: argparse.Namespace) -> tuple[Record, ...]:
             raise
         place = Path(path)
         campaign = Campaign(place.name, (_strain_alone(place, error, options),))
-    return tuple(campaign.record(each) for each in options.record) if options.record else campaign.records
+    return tuple(campaign.record(record_id) for record_id in options.record) if options.record else campaign.records
 
 
 def _strain_alone(place: Path, refused: InputError, options: argparse.Namespace) -> Record:

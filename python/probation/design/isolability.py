@@ -70,7 +70,7 @@ def isolability(
     left, sizes = design.left_of(raw)
     rivalry = Rivalry.of(signals, left, sizes)
     cosine, probability = (
-        np.array(each) for each in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
+        np.array(column) for column in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
     )
     smallest = in_parallel(
         lambda k: design.smallest_seen(signals[k], float(sizes[k])),

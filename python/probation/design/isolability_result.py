@@ -181,11 +181,11 @@ def _headline(isolability: Isolability) -> str:
         sets = "; ".join(", ".join(group) for group in isolability.groups)
         parts.append(f"{len(ambiguous)} would be seen but could be taken for another ({sets})")
     if hidden := isolability.with_status("absorbed"):
-        parts.append(f"{listed([each.name for each in hidden], 'and')} would hide in the base parameters")
+        parts.append(f"{listed([effect.name for effect in hidden], 'and')} would hide in the base parameters")
     if small := isolability.with_status("too_small"):
-        parts.append(f"{listed([each.name for each in small], 'and')} would drown in the noise at usual size")
+        parts.append(f"{listed([effect.name for effect in small], 'and')} would drown in the noise at usual size")
     if silent := isolability.with_status("without_signal"):
-        parts.append(f"{listed([each.name for each in silent], 'and')} would do nothing in them")
+        parts.append(f"{listed([effect.name for effect in silent], 'and')} would do nothing in them")
     return "; ".join(parts) + "."
 
 

@@ -97,7 +97,7 @@ class NextTest:
             "probability_before": self.probability_before,
             "probability_after": self.probability_after,
             "test": self.test.to_dict(),
-            "ranking": [each.to_dict() for each in self.ranking],
+            "ranking": [explanation.to_dict() for explanation in self.ranking],
         }
 
 
@@ -163,13 +163,13 @@ def next_test(
             ways = predictions(test, model, base, known, noises)
         except UNSOLVABLE:
             return None
-        return judged(test, ways, prior, group, [list(each) for each in answers], names, before, seed=seed)
+        return judged(test, ways, prior, group, [list(answer) for answer in answers], names, before, seed=seed)
 
     tests = planned_tests(Laboratory.of(model, base))
-    worked = [each for each in in_parallel(work, tests, threads, progress) if each is not None]
+    worked = [judged_test for judged_test in in_parallel(work, tests, threads, progress) if judged_test is not None]
     if not worked:
         return None
-    worked.sort(key=lambda each: -each.worth)
+    worked.sort(key=lambda judged_test: -judged_test.worth)
     chosen = worked[0]
     return NextTest(chosen.what, chosen.separates, before, chosen.probability_after, chosen.test, tuple(worked))
 

@@ -58,7 +58,7 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     known = form.amplitude
     wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
     shapes = form.shapes_at(())
-    grid = [(start, *each) for start in starts for each in shapes] if starts else shapes
+    grid = [(start, *shape) for start in starts for shape in shapes] if starts else shapes
     return replace(
         form,
         name=f"large_{form.name}",

@@ -50,7 +50,9 @@ def catalogue_table(chosen: Iterable[Effect] | None = None) -> str:
         lines.append(f"  Shows in: {effect.shows_in}.")
         lines.append(f"  Source: {effect.source}.")
         for form in effect.forms:
-            where = " or ".join({"all": "all records", "one": "one record"}[each] for each in effect.placements(form))
+            where = " or ".join(
+                {"all": "all records", "one": "one record"}[placement] for placement in effect.placements(form)
+            )
             lines.append(f"  {form.name}, in {where}:")
             for parameter in form.parameters:
                 unit = f" {parameter.unit}" if parameter.unit else ""

@@ -87,7 +87,7 @@ def export(
             source=words,
             name=name,
             rate=rate,
-            rates=None if rates is None else tuple(float(each) for each in rates),
+            rates=None if rates is None else tuple(float(value) for value in rates),
             strain=strain,
             bulk_modulus=_usual_bulk_modulus(law) if bulk_modulus is None else bulk_modulus,
             density=density,

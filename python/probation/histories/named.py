@@ -96,7 +96,7 @@ class NamedHistory:
         for name in values:
             if name not in known:
                 raise InputError(f"{where}: found the unknown parameter {name!r}; {nearest(name, known)}")
-        read = {name: each.read(values.get(name, each.default), where) for name, each in known.items()}
+        read = {name: parameter.read(values.get(name, parameter.default), where) for name, parameter in known.items()}
         return self.make(**read)
 
 

@@ -163,13 +163,13 @@ class Coverage(Summarised, Plotted, Stored):
     def verdict(self) -> str:
         """One sentence."""
         recommended = [counted_case for counted_case in self.counted if counted_case.method == RECOMMENDED]
-        failing = [each.case for each in recommended if not each.all_hold]
+        failing = [counted.case for counted in recommended if not counted.all_hold]
         draws = min(counted_case.draws for counted_case in self.counted)
         if failing:
             kinds = ", ".join(failing)
             return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
         if not enough_draws(draws):
-            lowest = min(each.interval(name)[0] for each in recommended for name in each.hits)
+            lowest = min(counted.interval(name)[0] for counted in recommended for name in counted.hits)
             needed = next(count for count in range(draws, 1000) if enough_draws(count))
             return (
                 f"{draws} draws are too few to tell whether the 95 % intervals of weighting {RECOMMENDED!r} hold: they "
@@ -281,7 +281,7 @@ def ramp_response(time: FloatArray) -> FloatArray:
     unrelaxed, longest, hardening = TRUTH.values()
     stress = np.zeros_like(time)
     times = [longest * 10.0 ** (-(50 - j) * 6.0 / 49.0) for j in range(1, 51)]  # eq. (4)
-    weights = [tau**0.5 / sum(each**0.5 for each in times) for tau in times]  # eq. (5)
+    weights = [tau**0.5 / sum(other**0.5 for other in times) for tau in times]  # eq. (5)
     for tau, weight in zip(times, weights, strict=True):
         decayed = np.exp(-time / tau)
         up = (np.exp(2.0 * STRAIN_RATE * time) - decayed) / (1.0 + 2.0 * STRAIN_RATE * tau)

@@ -141,7 +141,7 @@ def _used(weighted: Weighted) -> str:
 
 
 def _record_fit(view: RecordView, law: Law, noise: NoiseModel) -> RecordFit:
-    stress, sensitivity = (view.sampled(each) for each in DnlrLaw(law).sensitivity(view, law.parameters))
+    stress, sensitivity = (view.sampled(values) for values in DnlrLaw(law).sensitivity(view, law.parameters))
     record = view.record
     residual = stress - record.true_stress
     deviation = scatter(record.time, residual)

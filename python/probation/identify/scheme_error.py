@@ -33,8 +33,8 @@ def scheme_error(
 ) -> tuple[float, FloatArray]:
     """How far the scheme of `views` is from SA3 [MPa], and what that does to the parameters, in standard errors."""
     own, reference = (
-        problem.with_views(each).model.residual(parameters)
-        for each in (views, [view.with_scheme("sa3") for view in views])
+        problem.with_views(chosen).model.residual(parameters)
+        for chosen in (views, [view.with_scheme("sa3") for view in views])
     )
     weighted = problem.whitener_at(parameters).residual(own - reference)
     size = np.where(parameters != 0.0, np.abs(parameters), 1.0)

@@ -89,7 +89,7 @@ def weigh(
     parameters = plain
     smooth, there = (problem, parameters) if frozen else _smoothly_driven(problem, parameters, limits)
     strain, added = _strain_noises(problem, smooth, there, weighting, excitation)
-    if any(each is not None for each in strain):
+    if any(noise is not None for noise in strain):
         # First with the noise as it is known: the least-squares residual may be far from what is left in the end.
         known = problem.with_noises(problem.whitener.noises, strain)
         if frozen:

@@ -76,7 +76,7 @@ def residuals_table(calibration: Calibration) -> Table | None:
                     f"{table.tau_max[at]:.5g}{known}",
                     f"{weissenberg:.4f}",
                     hardening,
-                    *(percentage(0.01 * each.percent_residual[at], "+") for each in shown.values()),
+                    *(percentage(0.01 * candidate.percent_residual[at], "+") for candidate in shown.values()),
                 )
             )
         headings = ("", "rate [1/s]", "τ_max [s]", "We", "G [MPa]", *(f"{name} [%]" for name in shown))
@@ -120,7 +120,7 @@ def prediction_table(calibration: Calibration) -> Table | None:
         cells = [
             f"{own[f].rms:.3g} ({percentage(own[f].rms / own[f].largest_stress)} %)" if f in own else "–" for f in forms
         ]
-        best = min(own.values(), key=lambda each: each.rms)
+        best = min(own.values(), key=lambda prediction: prediction.rms)
         rows.append(
             (record, *cells, f"{best.hardening_rms:.3g}", f"{best.refit_rms:.3g}", f"{best.largest_stress:.3g}")
         )

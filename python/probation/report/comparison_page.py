@@ -62,7 +62,7 @@ def _draw(axes: Axes, curves: ChangeCurves) -> None:
 def _name_curves(figure: Figure) -> None:
     """One legend for all panels."""
     named = (axes.get_legend_handles_labels() for axes in figure.axes)
-    handles = {label: handle for each in named for handle, label in zip(*each, strict=True)}
+    handles = {label: handle for legend in named for handle, label in zip(*legend, strict=True)}
     legend_outside(figure, list(handles.values()), list(handles), columns=3)
 
 
@@ -80,7 +80,7 @@ def write_comparison_page(comparison: Comparison, path: Path) -> None:
         *([sentence(comparison.scatter.text)] if comparison.scatter.any else []),
         *map(sentence, comparison.warnings),
     ]
-    left_out = Table(("left out",), tuple((each,) for each in skipped_lines(comparison.skipped)), left=1)
+    left_out = Table(("left out",), tuple((line,) for line in skipped_lines(comparison.skipped)), left=1)
     sections = [
         Section("What changed", (_explanations(comparison),)),
         Section("Record by record", (_records(comparison), Gallery(pictures))),

@@ -34,6 +34,6 @@ def comparison_summary(comparison: Comparison) -> str:
         lines.append(f"  {text}")
     if comparison.scatter.any:
         lines.append(f"  {comparison.scatter.text}.")
-    lines += [f"  left out: {each}" for each in skipped_lines(comparison.skipped, MOST_SKIPPED)]
+    lines += [f"  left out: {line}" for line in skipped_lines(comparison.skipped, MOST_SKIPPED)]
     lines += [f"  warning: {warning}" for warning in comparison.warnings]
     return "\n".join(lines)

@@ -86,7 +86,7 @@ def write_crosscheck_page(crosscheck: CrossCheck, path: Path) -> None:
 
 def sections(crosscheck: CrossCheck) -> tuple[Section, ...]:
     """The parts of the page."""
-    tables = [Section(each.record, (record_table(each), *notes(each))) for each in crosscheck.records]
+    tables = [Section(record.record, (record_table(record), *notes(record))) for record in crosscheck.records]
     if not any(record.steps for record in crosscheck.records):
         return tuple(tables)
     caption = "Largest error away from the start, against the step and against the time of one solve"

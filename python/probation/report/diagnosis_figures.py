@@ -95,7 +95,7 @@ def probability_figure(diagnosis: Diagnosis) -> Figure:
     """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
     shown = _shown(diagnosis)
     others = len(diagnosis.explanations) - len(shown)
-    names = [fill(explanation_name(each, diagnosis), _LINE) for each in shown]
+    names = [fill(explanation_name(explanation, diagnosis), _LINE) for explanation in shown]
     if others:
         names.append(f"{others} other{'s' if others > 1 else ''}")
     places, rows = _rows(names)
@@ -107,7 +107,7 @@ def probability_figure(diagnosis: Diagnosis) -> Figure:
             axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
             axes.text(size + 1.0, at, f"{chance(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5)
         if others:
-            rest = max(1.0 - sum(each.probability for each in shown), 0.0)
+            rest = max(1.0 - sum(explanation.probability for explanation in shown), 0.0)
             axes.barh(places[-1], 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
             axes.text(100.0 * rest + 1.0, places[-1], percent(rest), va="center", fontsize=8.5)
         axes.set_yticks(places, names)
@@ -150,15 +150,15 @@ def closure_figure(diagnosis: Diagnosis) -> Figure:
     if shrink.held_out is not None:
         rows.append(("all held-out records", shrink.held_out))
     together = len(rows)
-    rows += [(names.get(record, record), each) for record, each in shrink.records.items()]
+    rows += [(names.get(record, record), closure) for record, closure in shrink.records.items()]
     with styled_figure(5.3, 1.1 + 0.34 * len(rows)) as figure:
         axes = figure.subplots()
         for at, (_, each) in enumerate(rows):
             axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
         for label, shade, marker, values in (
-            ("noise", "ink", "|", [each.noise_MPa for _, each in rows]),
-            ("before", "second", "o", [each.before_MPa for _, each in rows]),
-            ("after", "model", "o", [each.after_MPa for _, each in rows]),
+            ("noise", "ink", "|", [closure.noise_MPa for _, closure in rows]),
+            ("before", "second", "o", [closure.before_MPa for _, closure in rows]),
+            ("after", "model", "o", [closure.after_MPa for _, closure in rows]),
         ):
             size = 13 if marker == "|" else 5.5
             axes.plot(values, range(len(rows)), marker, color=colour(shade), ms=size, mew=1.2, label=label)

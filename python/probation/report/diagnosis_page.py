@@ -72,7 +72,9 @@ def _short(diagnosis: Diagnosis) -> Section:
             f"strains of {span_text(worst.true_strain)}"
         )
     best = leading(diagnosis)
-    which = listed([f"{explanation_name(each, diagnosis)} ({chance(each.probability)})" for each in best])
+    which = listed(
+        [f"{explanation_name(explanation, diagnosis)} ({chance(explanation.probability)})" for explanation in best]
+    )
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     rows.append(("How far", _capital(_how_far(diagnosis))))
@@ -133,7 +135,7 @@ def _where(diagnosis: Diagnosis) -> Section:
             "a frame shows where the error is, not always where its cause acts."
         )
     if diagnosis.acts:
-        places = [f"{each.record} at {span_text(each.time_s)} s" for each in diagnosis.acts[:_PLACES]]
+        places = [f"{region.record} at {span_text(region.time_s)} s" for region in diagnosis.acts[:_PLACES]]
         more = [f"{len(diagnosis.acts) - _PLACES} more places"] if len(diagnosis.acts) > _PLACES else []
         parts.append(f"What {mended_by(diagnosis)} itself contributes is certain in {listed([*places, *more], 'and')}.")
     if diagnosis.signatures:
@@ -251,7 +253,9 @@ def _looked_for(diagnosis: Diagnosis) -> Section:
     if diagnosis.isolability is not None:
         sought |= set(diagnosis.isolability.names)
     rows = tuple(
-        (each.title, each.kind, each.physics.splitlines()[0]) for each in known_effects() if each.name in sought
+        (effect.title, effect.kind, effect.physics.splitlines()[0])
+        for effect in known_effects()
+        if effect.name in sought
     )
     text = (
         "These effects were tried, alone and combined, each with several sets of starting values. Something that no "
@@ -264,7 +268,7 @@ def _looked_for(diagnosis: Diagnosis) -> Section:
             "Left out, because the law cannot be solved with it or for want of time; a cause that stands here can be "
             "neither named nor excluded:"
         )
-        parts.append(Table(("left out",), tuple((each,) for each in skipped_lines(diagnosis.skipped)), left=1))
+        parts.append(Table(("left out",), tuple((line,) for line in skipped_lines(diagnosis.skipped)), left=1))
     return Section("What was looked for", tuple(parts))
 
 

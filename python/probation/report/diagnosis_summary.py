@@ -48,7 +48,7 @@ def summary(diagnosis: Diagnosis) -> str:
         parts.append(diagnosis.remainder.description)
     if diagnosis.next_test is not None:
         parts.append(next_test_text(diagnosis))
-    parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(diagnosis.skipped, MOST_SKIPPED)))
+    parts.append("\n".join(_sentence(f"left out: {line}") for line in skipped_lines(diagnosis.skipped, MOST_SKIPPED)))
     parts.append("\n".join(_sentence(f"warning: {warning}") for warning in diagnosis.warnings))
     return "\n\n".join(part for part in parts if part)
 
@@ -123,7 +123,7 @@ def signs(diagnosis: Diagnosis) -> list[str]:
 def _signs(diagnosis: Diagnosis) -> list[str]:
     every = signs(diagnosis)
     more = [f"… and {len(every) - MOST_SIGNS} more"] if len(every) > MOST_SIGNS else []
-    return [f"sign: {each}" for each in every[:MOST_SIGNS]] + more
+    return [f"sign: {sign}" for sign in every[:MOST_SIGNS]] + more
 
 
 def _gap(diagnosis: Diagnosis) -> str:

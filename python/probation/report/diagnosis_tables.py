@@ -96,7 +96,7 @@ def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     caption = "Which effect explains the gap (★: the data cannot tell these apart)"
     lines = tuple(_without(row, empty) for row in rows[:kept])
     table = Table(_without(headings, empty), lines, caption, left=4 - len(empty))
-    return table, _rest([each.probability for each in shown[kept:]], "explanation")
+    return table, _rest([explanation.probability for explanation in shown[kept:]], "explanation")
 
 
 def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
@@ -134,7 +134,7 @@ def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, 
     if shrink.ceiling is not None:
         lines.append(("(any smooth correction)", shrink.ceiling))
     if len(shrink.records) > 1:
-        lines += [(names.get(record, record), each) for record, each in shrink.records.items()]
+        lines += [(names.get(record, record), closure) for record, closure in shrink.records.items()]
     rows = [
         (
             label,

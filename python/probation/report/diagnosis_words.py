@@ -30,7 +30,7 @@ _UNIT_WORDS = {"°C": "degC", "%": "percent"}
 def name_of(effects: Sequence[str], titles: Sequence[str] = ()) -> str:
     """An explanation's name: "self-heating + damage"; `titles` where they are known."""
     known = [effect for effect in effects if effect != UNKNOWN]
-    words = " + ".join(titles if len(titles) == len(known) else [each.replace("_", " ") for each in known])
+    words = " + ".join(titles if len(titles) == len(known) else [effect.replace("_", " ") for effect in known])
     if UNKNOWN not in effects:
         return words or NOTHING
     return f"{words} + {OUTSIDE}" if words else OUTSIDE
@@ -55,7 +55,7 @@ def explanation_name(explanation: Explanation, diagnosis: Diagnosis) -> str:
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)
-    short = [each if len(each) <= longest else _shortened(each, longest) for each in every]
+    short = [record_id if len(record_id) <= longest else _shortened(record_id, longest) for record_id in every]
     return {name: brief if short.count(brief) == 1 else name for name, brief in zip(every, short, strict=True)}
 
 

@@ -74,7 +74,7 @@ def errors_table(comparison: Comparison) -> Table:
     return _table(
         comparison,
         f"p95 (median) of the relative error of the rate [%], mean of {comparison.draws} draws, seed {comparison.seed}",
-        lambda each: f"{_digits(100 * each.p95)} ({_digits(100 * each.median)})",
+        lambda closeness: f"{_digits(100 * closeness.p95)} ({_digits(100 * closeness.median)})",
     )
 
 
@@ -83,7 +83,7 @@ def coverage_table(comparison: Comparison) -> Table:
     return _table(
         comparison,
         "samples whose true rate lies within 1.96 standard errors [%]",
-        lambda each: f"{100 * each.coverage:.0f}",
+        lambda closeness: f"{100 * closeness.coverage:.0f}",
     )
 
 

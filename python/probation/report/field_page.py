@@ -78,9 +78,9 @@ def _panels(maps: FieldMaps) -> list[_Panel]:
         ]
         ratio = maps.maps["rms_residual"] / maps.maps["noise"]
     return [
-        *(_Panel(symbol, each, maps.units[name], "viridis") for symbol, name, each in values),
+        *(_Panel(symbol, values_of, maps.units[name], "viridis") for symbol, name, values_of in values),
         _Panel("residual, rms", maps.maps["rms_residual"], "MPa", "magma"),
-        *(_Panel(title, each, "%", "cividis") for title, each in errors),
+        *(_Panel(title, error, "%", "cividis") for title, error in errors),
         _Panel("residual over noise", ratio, "", "magma"),
     ]
 

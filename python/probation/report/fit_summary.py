@@ -64,7 +64,7 @@ def noise_text(fit: Fit) -> str:
     }[fit.weighting]
     correlated = [record for record in fit.records.values() if record.noise_correlation != 0.0]
     if correlated:
-        sizes = ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
+        sizes = ", ".join(f"{record.noise_correlation:.2f} ({record.id})" for record in correlated)
         what += f", correlation of neighbours {sizes}"
     if fit.newey_west:
         what += "; autocorrelated fit residuals (Newey-West)"

@@ -43,7 +43,7 @@ def effect_sections(isolability: Isolability) -> tuple[Section, ...]:
     several = [isolability_figure(isolability)] if len(isolability.effects) > 1 else []
     maps = [picture(figure, "Chance of naming the right one of two [%].") for figure in several]
     return (
-        *(Section("Which effect could be taken for which", (HOW_TO_READ_THE_MAP, each)) for each in maps),
+        *(Section("Which effect could be taken for which", (HOW_TO_READ_THE_MAP, drawn)) for drawn in maps),
         Section("Effect by effect", (isolability_table(isolability), HOW_TO_READ)),
         Section("In words", tuple(in_words(effect.sentence, isolability) for effect in isolability.effects)),
     )

@@ -72,7 +72,7 @@ def levels_of(error: FloatArray, noise: FloatArray) -> list[int]:
     ratio = error / np.maximum(noise, 1e-300)
     parts = np.array_split(ratio, min(CELLS, len(ratio)))
     means = np.array([float(part.mean()) for part in parts])
-    return [int(each) for each in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
+    return [int(level) for level in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
 
 
 def _strip(axes: Axes, row: int, curves: RecordCurves, model: FloatArray, place: tuple[float, float]) -> None:
@@ -110,7 +110,7 @@ def _scale(axes: Axes, floor: str) -> None:
         shade, alpha = _shade(level) if level else (colour("data"), 0.12)
         axes.add_patch(Rectangle((level - 0.5, 0.0), 1.0, 1.0, facecolor=shade, alpha=alpha, lw=0))
     places = [at + 0.5 for at in range(-count, count)]
-    axes.set_xticks(places, [f"{each:g}" for each in (*reversed(LEVELS), *LEVELS)])
+    axes.set_xticks(places, [f"{level:g}" for level in (*reversed(LEVELS), *LEVELS)])
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
@@ -125,4 +125,4 @@ def _shade(level: int) -> tuple[str, float]:
 
 def _percent_of_time(curves: RecordCurves, at: list[int]) -> list[float]:
     time = curves.time
-    return [float(each) for each in 100.0 * (time[at] - time[0]) / max(float(time[-1] - time[0]), 1e-300)]
+    return [float(percent) for percent in 100.0 * (time[at] - time[0]) / max(float(time[-1] - time[0]), 1e-300)]

@@ -91,12 +91,12 @@ class CrossCheck(Result, Stored):
     @property
     def agreement_MPa(self) -> float:
         """Largest error of any scheme that did not fail [MPa]."""
-        return _largest(each for record in self.records for each in record.schemes)
+        return _largest(scheme for record in self.records for scheme in record.schemes)
 
     @property
     def verdict(self) -> str:
         """One sentence."""
-        checks = [each for record in self.records for each in record.schemes]
+        checks = [scheme for record in self.records for scheme in record.schemes]
         failed = sorted({check.name for check in checks if check.failure})
         who = "All schemes agree" if not failed else f"All schemes but {' and '.join(failed)}, which failed, agree"
         sentence = f"{who} within {short(self.agreement_MPa)} MPa"

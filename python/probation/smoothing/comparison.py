@@ -95,7 +95,7 @@ class Comparison(Summarised, Plotted, Stored):
     def errors_over_noise(self, history: str, method: str) -> tuple[list[float], list[float]]:
         """Noises [-] and p95 [%] where the method applies."""
         found = [(noise, self.results[history, noise, method]) for noise in self.noises]
-        known = [(noise, 100.0 * each.p95) for noise, each in found if isinstance(each, Closeness)]
+        known = [(noise, 100.0 * closeness.p95) for noise, closeness in found if isinstance(closeness, Closeness)]
         return [noise for noise, _ in known], [error for _, error in known]
 
     def to_dict(self) -> dict[str, Any]:

@@ -300,7 +300,7 @@ def _fit_formula(
     size = float(np.ptp(weights * measured))
     best = sorted(starts, key=lambda x: float(np.sum(residual(x) ** 2)))[:REFINED]
     limits = ([-np.inf, -8.0, -12.0], [np.inf, 8.0, 30.0])
-    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda each: each.cost)
+    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda fitted: fitted.cost)
     size *= max(float(np.median(np.abs(found.fun))), 1e-12)  # a second time, outliers held at bay
     loss: Literal["soft_l1", "linear"] = "soft_l1" if signal == "strain" else "linear"
     found = least_squares(

@@ -64,7 +64,7 @@ def read_printed(file: Path) -> dict[tuple[str, str], Printed]:
             rows.setdefault(key, [])
             continue
         try:
-            row = [float(each) for each in line.split()]
+            row = [float(number) for number in line.split()]
         except ValueError:
             row = []
         if key is None or len(row) != (3 if key[0] == "total force" else 4):

@@ -161,7 +161,7 @@ class _Target:
             return Path(within).as_posix()
         stem, ending = path.name.partition(".")[0] or "record", "".join(path.suffixes)
         name, number = path.name, 2
-        taken = {FILE_NAME, PAGE_NAME, *(each.casefold() for each in self._sources)}
+        taken = {FILE_NAME, PAGE_NAME, *(name.casefold() for name in self._sources)}
         while name.casefold() in taken or not self._is_free(name, path):
             name, number = f"{stem}-{number}{ending}", number + 1
         self._sources[name] = path
