@@ -17,7 +17,7 @@ SMALLEST_REPORTED = 1e-5
 """A smaller error in ln tau_max is reported as less than that."""
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from probation._arrays import FloatArray
     from probation.calibration.rate_table import RateTable
@@ -75,9 +75,9 @@ def leave_one_rate_out(table: RateTable, regressions: Mapping[str, Regression]) 
     return scores
 
 
-def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str | None:
+def best(scores: Mapping[str, Score]) -> str | None:
     """The form with the lowest score, the first of equals; None where no score could be had."""
-    known = [name for name in among if name in scores and np.isfinite(scores[name].rms)]
+    known = [name for name in CHOOSABLE if name in scores and np.isfinite(scores[name].rms)]
     if not known:
         return None
     lowest = min(scores[name].rms for name in known)

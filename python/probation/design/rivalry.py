@@ -58,25 +58,21 @@ class Rivalry:
         reach = np.array([signal.reach for signal in signals])
         return cls(names, owner, chosen, left, sizes, reach[:, 0], reach[:, 1])
 
-    def against(self, row: int, truth: FloatArray | None = None, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:
+    def against(self, row: int) -> tuple[FloatArray, FloatArray]:
         """An effect that is there, in both signs if it may have both, against every effect.
 
         Parameters
         ----------
         row : int
             Which effect.
-        truth : ndarray, shape (n_samples,), optional
-            Its signal, whitened and projected; the one chosen if left out.
-        factor : float
-            By which that is multiplied.
 
         Returns
         -------
         cosine, probability : ndarray, each of shape (n_names,)
             Of the likest match; of finding the right one more likely than the worst rival signal, the signs' mean.
         """
-        truth = self.left[:, self.chosen[row]] if truth is None else truth
-        return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), factor)
+        truth = self.left[:, self.chosen[row]]
+        return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), 1.0)
 
     def length_to_name(self, row: int, truth: FloatArray, most: float) -> float | None:
         """sqrt(lambda) from which on an effect that looks like `truth` is discriminated from every other.
