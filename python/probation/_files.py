@@ -37,7 +37,6 @@ def read_whole(path: str | os.PathLike[str], limit: int = FILE_BYTES) -> bytes:
 
     Parameters
     ----------
-    path : path-like
     limit : int [byte]
         Largest size.
 
@@ -79,7 +78,6 @@ def read_json(path: str | os.PathLike[str], expected: str) -> Any:
 
     Parameters
     ----------
-    path : path-like
     expected : str
         What it should hold, for the error: "what fit --json writes".
 
@@ -194,7 +192,7 @@ def check_folder_place(path: str | os.PathLike[str]) -> None:
         raise InputError("found an empty name, expected a folder")
     target = Path(path)
     with written_to(target):
-        there = next(each for each in (_real(target), *_real(target).parents) if each.exists())
+        there = next(folder for folder in (_real(target), *_real(target).parents) if folder.exists())
         _check_folder(there, there)
 
 

@@ -24,7 +24,7 @@ METHODS: tuple[Method, ...] = ("variable-projection", "levenberg-marquardt")
 SUBSTEPS_LIMIT = 10_000
 """Most steps of the scheme from sample to sample."""
 
-STATUS_WORDS: dict[int, str] = {each.value: each.name.replace("_", " ") for each in _core.IdentifyStatus}
+STATUS_WORDS: dict[int, str] = {status.value: status.name.replace("_", " ") for status in _core.IdentifyStatus}
 """What the entries of `BulkIdentification.status` mean, by number."""
 
 SOLVED = (0, 1)
@@ -150,11 +150,11 @@ def identify_many(
     n_times = arrays["time"].shape[-1]
     n_samples = (n_times - 1) // substeps + 1
     lengths = {"time": n_times, "true_strain": n_times, "true_stress": n_samples}
-    shapes = {len(each) for each in arrays.values() if each.ndim == 2}
+    shapes = {len(array) for array in arrays.values() if array.ndim == 2}
     records = max(shapes) if len(shapes) == 1 else 1
     whole = (n_samples - 1) * substeps + 1 == n_times
-    if len(shapes) > 1 or not whole or any(each.shape[-1] != lengths[name] for name, each in arrays.items()):
-        found = ", ".join(f"{name} {each.shape}" for name, each in arrays.items())
+    if len(shapes) > 1 or not whole or any(array.shape[-1] != lengths[name] for name, array in arrays.items()):
+        found = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         expected = "(n_times,) or (records, n_times) each, the same for all"
         if substeps > 1:
             expected += f", n_times of time and true_strain (n_samples - 1) * {substeps} + 1, of true_stress n_samples"
@@ -164,7 +164,7 @@ def identify_many(
         weights = _as_noise(noise, records, n_samples)
     answer = BulkIdentification.empty(records) if out is None else _as_output(out, records)
     if out is not None:
-        arrays = {name: kept_apart(each, *_outputs(out)) for name, each in arrays.items()}
+        arrays = {name: kept_apart(array, *_outputs(out)) for name, array in arrays.items()}
         weights = None if weights is None else kept_apart(weights, *_outputs(out))
     _core.identify_many(
         engine,

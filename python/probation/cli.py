@@ -75,7 +75,7 @@ Puts a constitutive law on probation: the modal (DNLR) law of semi-crystalline p
   into finite elements     probation export fit.json --format abaqus-umat
 """
 _EPILOG = """\
-probation COMMAND --help tells the options of a command, with examples.
+probation COMMAND --help lists the options of a command, with examples.
 
 A campaign is a folder with a campaign.toml and its records; `probation demo` writes three to look at.
 Exit status: 0 done, whatever the verdict; 2 bad input, said in one line; 1 anything else.

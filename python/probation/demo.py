@@ -52,7 +52,6 @@ class Outcome:
     ----------
     verdict : str
         One sentence.
-    passed : bool
     parts : tuple of str, Table or Picture
         For the page; tables also go to the terminal.
     answer : mapping

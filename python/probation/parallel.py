@@ -27,8 +27,6 @@ def in_parallel(
     Parameters
     ----------
     work : callable
-    items : sequence
-    threads : int
     progress : callable, optional
         Called in the caller's thread with the part of the items that is done, 0 to 1.
     """

@@ -25,12 +25,7 @@ SHOWN_AFTER = 2.0
 
 
 class Part(float):
-    """A fraction of the work, 0 to 1, and what is being done from there on.
-
-    Attributes
-    ----------
-    doing : str
-    """
+    """A fraction of the work, 0 to 1, and what is being done from there on."""
 
     doing: str
 
@@ -100,7 +95,6 @@ class NotebookBar:
 
     Parameters
     ----------
-    title : str
     after : float [s]
     """
 
@@ -140,7 +134,6 @@ class TerminalBar:
 
     Parameters
     ----------
-    title : str
     after : float [s]
     """
 

@@ -26,7 +26,6 @@ class Provenance:
 
     Attributes
     ----------
-    version : str
     data_sha256 : str
         Empty where there is no data.
     seed : int or None

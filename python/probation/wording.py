@@ -18,11 +18,6 @@ WIDTH = 80
 def within_width(text: str, width: int = WIDTH) -> str:
     """A text with its long lines broken; an indented line goes on two letters further in.
 
-    Parameters
-    ----------
-    text : str
-    width : int
-
     Returns
     -------
     str
@@ -49,7 +44,6 @@ def percentage(part: float, sign: str = "") -> str:
 
     Parameters
     ----------
-    part : float
     sign : {"", "+"}
         "+" shows the sign of positive ones, too.
     """
@@ -62,14 +56,9 @@ def plus_minus(value: float, se: float) -> str:
 
     Parameters
     ----------
-    value : float
     se : float
         Its standard error; where it is zero or not finite the value stands alone. Below 1e-9 both are written with
         an exponent.
-
-    Returns
-    -------
-    str
     """
     if not np.isfinite(se) or se <= 0.0:
         return f"{value:.5g}"

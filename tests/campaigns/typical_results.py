@@ -12,7 +12,11 @@ from probation import Campaign, Record
 from probation.calibration.table_2 import TABLE_2
 from probation.diagnosis.isolability import campaign_isolability
 from probation.histories import named_history
+from probation.identify.coverage import CASES, study
 from probation.published.experiments import twin_campaign
+from probation.smoothing.answer import describe_excitation
+from probation.smoothing.comparison import compare as compare_methods
+from probation.smoothing.known_histories import KNOWN_HISTORIES
 
 
 def ramps():
@@ -24,6 +28,13 @@ def ramps():
         noisy = stress + NOISE * np.random.default_rng(3).standard_normal(len(time))
         records.append(Record(f"ramp-{rate:g}", time, rate * time, noisy, control="strain-rate"))
     return Campaign("ramps", tuple(records))
+
+
+def necking():
+    """A specimen that necks, strain noise 1e-3."""
+    known = KNOWN_HISTORIES["necking"][1](np.random.default_rng(1))
+    strain = known.true_strain[::3] + 1e-3 * np.random.default_rng(2).normal(size=501)
+    return Record("grips", known.time[::3], strain, np.zeros(501), control="displacement-rate")
 
 
 @cache
@@ -43,6 +54,13 @@ def result(name):
         "comparison": lambda: probation.compare(few_records(), few_records(seed=2), effects=["force_offset"]),
         "isolability": lambda: campaign_isolability(few_records(), effects=["force_offset", "damage"], threads=1),
         "plan": lambda: probation.plan(LAW, {"ramp": named_history("ramp")}, noise=0.04, effects=["damage"]),
+        "export of the whole law": lambda: probation.export(LAW, "abaqus-umat"),
+        "export of a linear part with fewer modes": lambda: probation.export(LAW, "ansys-prony", accuracy=1e-2),
+        "export of flow curves": lambda: probation.export(LAW, "abaqus-plastic", rates=(1e-3, 1e-2)),
+        "excitation": lambda: describe_excitation([*few_records().records, necking()], source="three tests"),
+        "excitation by the two steps of the paper": lambda: describe_excitation([necking()], "necking"),
+        "coverage": lambda: study(2, cases=CASES[:1], methods=("plain", "auto")),
+        "comparison of methods": lambda: compare_methods(["jump"], [2e-5, 1e-3], ["raw", "spline"], draws=1),
         "cross-check": lambda: probation.crosscheck([few_records().records[0]], LAW),
     }
     return makers[name]()
@@ -63,5 +81,12 @@ NAMES = (
     "comparison",
     "isolability",
     "plan",
+    "export of the whole law",
+    "export of a linear part with fewer modes",
+    "export of flow curves",
+    "excitation",
+    "excitation by the two steps of the paper",
+    "coverage",
+    "comparison of methods",
     "cross-check",
 )

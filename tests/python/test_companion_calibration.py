@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
+from probation.calibration.companion_forms import FORMS
 from probation.calibration.cross_validation import percent
-from probation.calibration.forms import FORMS
 from probation.calibration.paper_relations import paper_relations
 from probation.calibration.regression import excess_scatter, regress
 from probation.calibration.table_2 import TABLE_2

@@ -60,6 +60,26 @@ def test_what_may_be_left_out_is_none_by_default(left_out):
     assert set(found.values()) == {None}, found
 
 
+@pytest.mark.parametrize(
+    "argument",
+    ["hold", "bounds", "excitation", "jumps", "effects", "tolerance", "gap", "seed", "modification"],
+)
+def test_the_conventions_name_every_public_function_that_takes_an_argument(argument):
+    """`batch` stands for its functions; classes, which the table names too, are no functions."""
+    page = (ROOT / "docs/conventions.md").read_text(encoding="utf-8")
+    (where,) = re.findall(rf"^\| `{argument}` \|.*\| (.*?) \|$", page, re.MULTILINE)
+    named = {name for name in re.findall(r"`([\w.]+)`", where) if name == "batch" or name in FUNCTIONS}
+    taking = {name for name, function in FUNCTIONS.items() if argument in inspect.signature(function).parameters}
+    assert named == {"batch" if name.startswith("batch.") else name for name in taking}
+
+
+@pytest.mark.parametrize("argument", ["threads", "progress", "seed"])
+def test_how_a_function_works_is_told_by_keyword(argument):
+    kinds = {name: given.kind for name, given in _arguments() if given.name == argument}
+    assert kinds
+    assert set(kinds.values()) == {inspect.Parameter.KEYWORD_ONLY}, kinds
+
+
 def test_the_default_scheme_is_the_one_that_the_conventions_name():
     found = {name: argument.default for name, argument in _arguments() if argument.name == "scheme"}
     for scheme, names in DEFAULT_SCHEMES.items():
@@ -80,7 +100,7 @@ IDENTIFYING = {
     "fit": probation.fit,
     "certify": probation.certify,
     "diagnose": partial(probation.diagnose, effects=["force_offset"], design=False),
-    "calibrate_companion": lambda campaign, scheme: probation.calibrate_companion(campaign, scheme=scheme),
+    "calibrate_companion": probation.calibrate_companion,
     "compare": lambda campaign, scheme: probation.compare(campaign, campaign, scheme, effects=["force_offset"]),
 }
 

@@ -154,7 +154,7 @@ def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypa
         (["{file}", "--method", "necking"], "record 'jump', excitation 'necking': found a rate that jumps at 40"),
         (["{file}", "--json", "-", "--csv", "-"], "expected one of them on standard output"),
         (["missing.csv"], "missing.csv"),
-        (["--compare", "--draws", "0"], "expected a whole number of at least 1"),
+        (["--compare", "--draws", "0"], "expected a whole number from 1"),
     ],
 )
 def test_bad_input_is_said_in_one_line(arguments, complaint, jump_file, capsys):

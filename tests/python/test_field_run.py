@@ -19,6 +19,7 @@ from probation.field.between import between
 from probation.field.block import identify_block
 from probation.field.example.make import make_example
 from probation.field.identify import BlockLostError
+from probation.field.maps import FieldMaps
 from probation.field.smoothing import smoothed
 from probation.pool import WorkersLostError, run_all
 
@@ -80,6 +81,18 @@ def test_intervals_hold_the_truth_however_far_apart_the_samples_are(times, tmp_p
     assert count > 400
     for each in maps.closeness:
         assert each.coverage == pytest.approx(0.95, abs=3.3 * np.sqrt(0.95 * 0.05 / count)), each
+
+
+def test_maps_come_back_from_json_with_their_text_and_with_curves_with_their_figure(example, whole):
+    maps = whole.beside(example[1])
+    again = FieldMaps.from_json(maps.to_json())
+    assert again.to_json() == maps.to_json()
+    assert again.summary() == maps.summary()
+    with pytest.raises(probation.InputError, match=r"FieldMaps\.maps: found no curves"):
+        again.plot()
+    drawn = FieldMaps.from_json(maps.to_json(curves=True))
+    assert drawn.to_json(curves=True) == maps.to_json(curves=True)
+    assert drawn.plot().axes
 
 
 def test_the_example_s_stress_does_not_depend_on_how_far_apart_its_samples_are(tmp_path):

@@ -39,8 +39,8 @@ def test_the_names_are_listed(capsys):
     ("arguments", "said"),
     [
         (["--only", "tabel-3"], "--only: found 'tabel-3'; did you mean 'table-3'?"),
-        (["--draws", "0"], "found '0', expected a whole number of at least 1"),
-        (["--seed", "-1"], "found '-1', expected a whole number of at least 0"),
+        (["--draws", "0"], "found '0', expected a whole number from 1"),
+        (["--seed", "-1"], "found '-1', expected a whole number from 0"),
         (["--out", "taken"], "taken: found a file, expected a folder or a new name"),
     ],
 )

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from probation.settings.page import GROUPS, settings_page
+from probation.settings.page import GROUPS, modules_by_setting, settings_page
 
 ROOT = Path(__file__).parents[2]
 
@@ -20,11 +20,9 @@ def test_a_setting_says_unit_meaning_origin_and_source(name):
         assert known["source"] or known["origin"] != "calibrated", field.name
 
 
-@pytest.mark.parametrize("name", GROUPS)
-def test_a_setting_is_used_where_it_says(name):
-    for field in dataclasses.fields(GROUPS[name]):
-        used_in = ROOT / "python" / "probation" / field.metadata["used_in"]
-        assert f"{name.upper()}.{field.name}" in used_in.read_text(encoding="utf-8"), field.name
+def test_every_setting_is_used_and_every_name_that_is_used_is_a_setting():
+    settings = {f"{name.upper()}.{field.name}" for name, group in GROUPS.items() for field in dataclasses.fields(group)}
+    assert set(modules_by_setting()) == settings
 
 
 @pytest.mark.parametrize("name", GROUPS)

@@ -9,10 +9,10 @@ import numpy as np
 
 from probation._arrays import FloatArray, one_of
 from probation.calibration.calibrated import CalibratedCompanion
+from probation.calibration.companion_forms import CHOOSABLE, FORMS, NAMEABLE, Form
 from probation.calibration.constant_time import why_constant
 from probation.calibration.cross_validation import apart, best, leave_one_rate_out
 from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
-from probation.calibration.forms import CHOOSABLE, FORMS, NAMEABLE, Form
 from probation.calibration.left_out import leave_one_rate_out as predict
 from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable, rate_groups
@@ -51,12 +51,12 @@ ROUTES: tuple[Route, ...] = ("auto", "by-rate", "direct")
 @shows_progress
 def calibrate_companion(
     source: Campaign | RateTable,
+    scheme: Scheme | SchemeName = "sa3",
     *,
     form: str = "auto",
     route: Route = "auto",
     modulus: Modulus = "shared",
     hardening: Hardening = "by-record",
-    scheme: Scheme | SchemeName = "sa3",
     progress: Progress | None = None,
 ) -> Calibration:
     """Calibrate companion relations on tests at several strain rates.
@@ -65,6 +65,8 @@ def calibrate_companion(
     ----------
     source : Campaign or RateTable
         Records at several rates (those with role "identify"), or relaxation times that were identified on some.
+    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
+        With one step from sample to sample.
     form : str
         "auto" takes the form with the lowest error on rates left out; else "weissenberg" (11), "exponential" (12),
         "power" or "table".
@@ -78,8 +80,6 @@ def calibrate_companion(
     hardening : {"by-record", "shared"}
         G in the direct route. Each record its own by default: in Table 2 it grows by 60 % with the rate, and one G for
         all would bias the relation.
-    scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
-        With one step from sample to sample.
     progress : callable, optional
         Called with ``(done, total, what)``.
 
@@ -117,10 +117,10 @@ def calibrate_companion(
     for at, record in enumerate(source.identify):
         advance(at, len(source.identify), f"strain rate of {record.id}")
         driven.append(excite(record))
-    rates = tuple(record_rate(record, each) for record, each in zip(source.identify, driven, strict=True))
-    steady = all(each.spread <= COMPANION.nearly_constant for each in rates)
+    rates = tuple(record_rate(record, excitation) for record, excitation in zip(source.identify, driven, strict=True))
+    steady = all(rate.spread <= COMPANION.nearly_constant for rate in rates)
     if route == "by-rate" and not steady:
-        worst = max(rates, key=lambda each: each.spread)
+        worst = max(rates, key=lambda rate: rate.spread)
         raise InputError(
             f"campaign {source.name!r}, record {worst.id!r}: found strain rates from {worst.slow:.2g} to "
             f"{worst.fast:.2g} 1/s (5 to 95 % of the record), expected a nearly constant one (within a factor of "
@@ -134,7 +134,7 @@ def calibrate_companion(
         )
     _need_two_rates(source, rates)
     fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=advance)
-    rms = [each.rms_MPa for each in fits.fits]
+    rms = [fitted.rms_MPa for fitted in fits.fits]
     problem = DirectProblem(source.identify, source.law, chosen, hardening, driven, rms)
     return _by_rate(source, fits, problem, form, advance)
 
@@ -148,7 +148,7 @@ def _on_table(table: RateTable, form: str) -> Calibration:
         source=table.source,
         route="table",
         table=table,
-        candidates={name: _candidate(each, scores.get(name), None) for name, each in regressions.items()},
+        candidates={name: _candidate(regression, scores.get(name), None) for name, regression in regressions.items()},
         chosen=chosen,
         chosen_by=how,
         discriminated=clear,
@@ -182,7 +182,7 @@ def _by_rate(
         source=campaign.name,
         route="by-rate",
         table=table,
-        candidates={name: _candidate(each, scores.get(name), fits) for name, each in regressions.items()},
+        candidates={name: _candidate(regression, scores.get(name), fits) for name, regression in regressions.items()},
         chosen=chosen,
         chosen_by=how,
         discriminated=clear,
@@ -203,10 +203,10 @@ def _direct(
             "form is 'table'; the direct route needs a form with parameters: weissenberg, power, exponential"
         )
     whole = _range(rates)
-    labels = tuple(each.id for each in rates)
-    medians = np.array([each.rate for each in rates])
+    labels = tuple(rate.id for rate in rates)
+    medians = np.array([rate.rate for rate in rates])
     groups = rate_groups(medians)
-    forms = {name: each for name, each in FORMS.items() if name != "table" and (not each.same_as or name == form)}
+    forms = {name: other for name, other in FORMS.items() if name != "table" and (not other.same_as or name == form)}
     leaving = len(groups) >= COMPANION.fewest_rates
     total = len(forms) * (1 + len(groups) * leaving)
     done = 0
@@ -229,11 +229,11 @@ def _direct(
             coarse,
             groups,
             forms,
-            lambda each: _starts(each, anchor, whole),
+            lambda relation_form: _starts(relation_form, anchor, whole),
             lambda kept: _range([rates[at] for at in kept]),
             advance,
         )
-    left = {name: float(np.sqrt(np.mean(np.square(each.rms)))) for name, each in fits.items()}
+    left = {name: float(np.sqrt(np.mean(np.square(fitted.rms)))) for name, fitted in fits.items()}
     chosen, how, clear = _choice(form, scores, left)
     warnings = list(campaign.warnings)
     if len(groups) == 1:
@@ -247,7 +247,8 @@ def _direct(
         route="direct",
         table=None,
         candidates={
-            name: _direct_candidate(coarse, FORMS[name], each, scores.get(name), labels) for name, each in fits.items()
+            name: _direct_candidate(coarse, FORMS[name], fitted, scores.get(name), labels)
+            for name, fitted in fits.items()
         },
         chosen=chosen,
         chosen_by=how,
@@ -331,9 +332,9 @@ def _direct_candidate(
     """The fit, and the scatter around it that each record's own alpha shows."""
     relation = fitted.companion.relation
     own = [record_alpha(problem, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
-    residual = np.array([-each.log_alpha for each in own])
+    residual = np.array([-correction.log_alpha for correction in own])
     degrees = len(labels) - len(form.parameter_names)
-    errors = np.array([each.se for each in own])
+    errors = np.array([correction.se for correction in own])
     scatter = excess_scatter(residual, errors, degrees) if degrees > 0 and np.all(np.isfinite(errors)) else 0.0
     companion = replace(fitted.companion, log_scatter=scatter)
     return Candidate(form, companion, labels, 100.0 * np.expm1(residual), float("nan"), score, fitted)
@@ -358,9 +359,9 @@ def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
 def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
     """Refuse records at one rate, before anything is fitted."""
     RateTable(
-        np.array([each.rate for each in rates]),
+        np.array([rate.rate for rate in rates]),
         np.ones(len(rates)),
-        labels=tuple(f"record {each.id!r}" for each in rates),
+        labels=tuple(f"record {rate.id!r}" for rate in rates),
         source=f"campaign {campaign.name!r}",
     )
 
@@ -373,7 +374,7 @@ def _need_spread(campaign: Campaign, rates: Sequence[RecordRate]) -> None:
 
 
 def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
-    return min(each.slow for each in rates), max(each.fast for each in rates)
+    return min(rate.slow for rate in rates), max(rate.fast for rate in rates)
 
 
 def _anchor(problem: DirectProblem, whole: tuple[float, float]) -> float:

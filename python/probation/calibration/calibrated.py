@@ -9,7 +9,7 @@ import numpy as np
 
 from probation import _core
 from probation._arrays import FloatArray
-from probation.calibration.forms import FORMS, NAMEABLE, Form
+from probation.calibration.companion_forms import FORMS, NAMEABLE, Form
 from probation.errors import InputError
 from probation.law.calibration_settings import CalibrationSettings
 from probation.law.companion import Companion, from_settings
@@ -58,7 +58,7 @@ class CalibratedCompanion:
     log_scatter: float = 0.0
     unrelaxed_modulus: float | None = None
 
-    form: Form = field(default=None, metadata=named_in("calibration.forms.FORMS"))  # type: ignore[assignment]  # below
+    form: Form = field(default=None, metadata=named_in("calibration.companion_forms.FORMS"))  # type: ignore[assignment]  # below
 
     def __post_init__(self) -> None:
         if self.form is None:
@@ -230,7 +230,7 @@ class CalibratedCompanion:
 
 def _same_relation(one: Companion, other: Companion) -> bool:
     """The same relation, wherever it was calibrated."""
-    names = [each.name for each in fields(one) if each.name != "calibrated"]  # type: ignore[arg-type]
+    names = [declared.name for declared in fields(one) if declared.name != "calibrated"]  # type: ignore[arg-type]
     return type(one) is type(other) and all(getattr(one, name) == getattr(other, name) for name in names)
 
 
@@ -243,7 +243,6 @@ def seen_rates(history: _core.History, scheme: str, floor: float, direction: Arr
 
     Parameters
     ----------
-    history : History
     scheme : str
         Its differentiator is used.
     floor : float [1/s]

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import fdtri
 
-from probation.calibration.forms import CHOOSABLE, FORMS
+from probation.calibration.companion_forms import CHOOSABLE, FORMS
 from probation.calibration.regression import regress
 from probation.errors import InputError
+from probation.settings.companion import COMPANION
 
-SMALLEST_TOLD = 1e-5
-"""A smaller error in ln tau_max is told as less than that."""
+SMALLEST_REPORTED = 1e-5
+"""A smaller error in ln tau_max is reported as less than that."""
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from probation._arrays import FloatArray
     from probation.calibration.rate_table import RateTable
@@ -29,7 +30,6 @@ class Score:
 
     Attributes
     ----------
-    form : str
     log_error : ndarray, shape (n,)
         Predicted minus identified ln tau_max, each row by the relation of the other rates; NaN where there is none.
     weights : ndarray, shape (n,)
@@ -75,9 +75,9 @@ def leave_one_rate_out(table: RateTable, regressions: Mapping[str, Regression]) 
     return scores
 
 
-def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str | None:
+def best(scores: Mapping[str, Score]) -> str | None:
     """The form with the lowest score, the first of equals; None where no score could be had."""
-    known = [name for name in among if name in scores and np.isfinite(scores[name].rms)]
+    known = [name for name in CHOOSABLE if name in scores and np.isfinite(scores[name].rms)]
     if not known:
         return None
     lowest = min(scores[name].rms for name in known)
@@ -85,7 +85,7 @@ def best(scores: Mapping[str, Score], among: Sequence[str] = CHOOSABLE) -> str |
 
 
 def apart(one: Score, other: Score) -> bool:
-    """Whether the second's mean square is above the first's by more than chance: an F test at 5 %.
+    """Whether the second's mean square is above the first's by more than chance: an F test.
 
     Crude, since the errors of two forms on the same rates are no independent draws; it asks for a factor of 2.2 in the
     rms with five rates, of 3 with three.
@@ -93,14 +93,14 @@ def apart(one: Score, other: Score) -> bool:
     count = int(np.sum(np.isfinite(one.log_error)))
     if count == 0 or not np.isfinite(other.rms):
         return False
-    return bool(other.rms**2 > float(fdtri(count, count, 0.95)) * one.rms**2)
+    return bool(other.rms**2 > float(fdtri(count, count, 1.0 - COMPANION.apart_level)) * one.rms**2)
 
 
 def percent(error: float, sign: str = "") -> str:
     """An error in ln tau_max, in per cent; above 100 % it is no longer that of tau_max."""
     if not np.isfinite(error):
         return "–"
-    if 0.0 < abs(error) < SMALLEST_TOLD:
-        return f"< {100.0 * SMALLEST_TOLD:g}"
+    if 0.0 < abs(error) < SMALLEST_REPORTED:
+        return f"< {100.0 * SMALLEST_REPORTED:g}"
     digits = ".0f" if abs(error) >= 0.1 else ".1f" if abs(error) >= 0.0005 else ".1g"
     return f"{100.0 * error:{sign}{digits}}"

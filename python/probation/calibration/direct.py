@@ -32,7 +32,7 @@ from probation.smoothing.excitation import excite
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.effects.record_view import RecordView
     from probation.law.companion import Companion
     from probation.law.schemes import Scheme, SchemeName
@@ -56,7 +56,6 @@ class DirectFit:
 
     Attributes
     ----------
-    companion : CalibratedCompanion
     hardening_modulus : ndarray, shape (n_records,) [MPa]
         All alike where it is shared.
     unrelaxed_modulus : float [MPa]
@@ -106,8 +105,10 @@ class DirectProblem:
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
         self._solvers: dict[RecordView, _core.Solver] = {}
-        driven = [excite(each) for each in records] if excitations is None else excitations
-        self.views = [measured_view(record, each, scheme) for record, each in zip(records, driven, strict=True)]
+        driven = [excite(identified) for identified in records] if excitations is None else excitations
+        self.views = [
+            measured_view(record, excitation, scheme) for record, excitation in zip(records, driven, strict=True)
+        ]
         if own_rms is None:
             own_rms = [_own_rms(view, settings) for view in self.views]
         self.weights = np.array(

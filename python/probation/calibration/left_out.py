@@ -13,6 +13,7 @@ from probation.identify.covariance import covariance
 from probation.identify.variable_projection import search
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
+from probation.settings.companion import COMPANION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -20,11 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.calibration.companion_forms import Form
     from probation.calibration.direct import DirectFit, DirectProblem
-    from probation.calibration.forms import Form
     from probation.law.companion import Companion
-
-_ALPHAS = (1e-2, 1e2)  # searched: beyond a hundredfold error a relation predicts nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +51,6 @@ class Predicted:
 
     Attributes
     ----------
-    record : str
-    form : str
     rms : float
         Of the prediction with nothing adjusted: E_u, relation and G are those of the other records [MPa].
     hardening_rms : float
@@ -78,7 +75,7 @@ def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: 
     law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
     held = ("unrelaxed_modulus",) if hardening is None else ("unrelaxed_modulus", "hardening_modulus")
     alone = Problem.white(DnlrLaw(law, held), [problem.views[at]])
-    best = search(alone, _ALPHAS)
+    best = search(alone, COMPANION.searched_alpha)
     residual, jacobian = alone.residual_and_jacobian(best)
     known = covariance(jacobian, residual, alone.lengths, best)
     return RecordAlpha(float(np.log(best[0])), float(known.relative_error[0]), _rms(alone.model.residual(best)))
@@ -96,7 +93,6 @@ def leave_one_rate_out(
 
     Parameters
     ----------
-    problem : DirectProblem
     groups : sequence of arrays
         Indices of the records of each rate.
     forms : mapping of name to Form
@@ -131,7 +127,7 @@ def _predict(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> t
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
     law = DnlrLaw(problem.law(relation, modulus, hardening))
-    base, unit, whole = (law.stress(view, np.array([modulus, 1.0, each])) for each in (0.0, 1.0, hardening))
+    base, unit, whole = (law.stress(view, np.array([modulus, 1.0, value])) for value in (0.0, 1.0, hardening))
     own = record_alpha(problem, at, relation, modulus)
     largest = float(np.max(np.abs(view.data)))
     slope = unit - base  # the stress is linear in G

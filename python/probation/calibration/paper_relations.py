@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation.calibration.companion_forms import FORMS
 from probation.calibration.direct import DirectProblem
-from probation.calibration.forms import FORMS
 from probation.calibration.left_out import record_alpha
 from probation.calibration.regression import Regression, regress
 from probation.calibration.table_2 import PRINTED_WEISSENBERG, TABLE_2
@@ -35,7 +35,6 @@ class AlphaRatio:
 
     Attributes
     ----------
-    experiment : int
     printed : float
         From Tables 3 and 4 [-].
     as_printed, as_regressed : float
@@ -78,9 +77,9 @@ class PaperRelations:
         rate, tau_max = EXPERIMENT_1
         own = float(WEISSENBERG_AS_PRINTED.relaxation_time([rate])[0])
         printed, eq_12 = self.percent["(11) as printed"], self.percent["(12) as printed"]
-        ratios = " and ".join(f"{each.printed:.3f}" for each in self.ratios)
-        by_printed = " and ".join(f"{each.as_printed:.3f}" for each in self.ratios)
-        by_regressed = " and ".join(f"{each.as_regressed:.3f}" for each in self.ratios)
+        ratios = " and ".join(f"{ratio.printed:.3f}" for ratio in self.ratios)
+        by_printed = " and ".join(f"{ratio.as_printed:.3f}" for ratio in self.ratios)
+        by_regressed = " and ".join(f"{ratio.as_regressed:.3f}" for ratio in self.ratios)
         return (
             f"Eq. (11) as printed does not fit the paper's own Table 2: it is {-printed.max():.0f} to "
             f"{-printed.min():.0f} % too short at every rate. Regressing τ_max·ε̇ of Table 2 gives the printed slope "

@@ -34,7 +34,6 @@ class RecordRate:
 
     Attributes
     ----------
-    id : str
     rate : float
         Median of its modulus [1/s].
     slow, fast : float
@@ -121,15 +120,18 @@ def fit_records(
 
     fits = tuple(fitted(record, settings, at) for at, record in enumerate(records))
     held = settings.fixed.get("unrelaxed_modulus_MPa")
-    own = tuple((each.law.unrelaxed_modulus, each.parameters["unrelaxed_modulus"].se) for each in fits)
-    slope = np.array([_log_slope(each) for each in fits])
+    own = tuple(
+        (fitted_record.law.unrelaxed_modulus, fitted_record.parameters["unrelaxed_modulus"].se)
+        for fitted_record in fits
+    )
+    slope = np.array([_log_slope(fitted_record) for fitted_record in fits])
     shared, shared_se, spread = held, 0.0, 0.0
     if modulus == "shared" and held is None:
         log_mean, log_se, spread = _shared_log_modulus(campaign.name, own)
         shared, shared_se = float(np.exp(log_mean)), float(np.exp(log_mean) * log_se)
         together = replace(settings, fixed={**settings.fixed, "unrelaxed_modulus_MPa": shared})
         fits = tuple(fitted(record, together, len(records) + at) for at, record in enumerate(records))
-    times = [each.parameters["tau_max"] for each in fits]
+    times = [fitted_record.parameters["tau_max"] for fitted_record in fits]
     for record, time in zip(records, times, strict=True):
         if time.se is None:
             raise InputError(
@@ -138,10 +140,10 @@ def fit_records(
                 'give it role = "held-out"'
             )
     table = RateTable(
-        rates=np.array([each.rate for each in rates]),
+        rates=np.array([rate.rate for rate in rates]),
         tau_max=np.array([time.value for time in times]),
         se=np.array([time.se for time in times]),
-        hardening_modulus=np.array([each.law.hardening_modulus for each in fits]),
+        hardening_modulus=np.array([fitted_record.law.hardening_modulus for fitted_record in fits]),
         labels=tuple(record.id for record in records),
         source=f"campaign {campaign.name}",
     )
@@ -151,10 +153,10 @@ def fit_records(
 def spread_warnings(rates: tuple[RecordRate, ...]) -> list[str]:
     """Of records whose rate is not constant."""
     return [
-        f"record {each.id!r}: its strain rate runs from {each.slow:.2g} to {each.fast:.2g} 1/s (5 to 95 % of the "
-        f"record, a factor of {each.spread:.2g}): a constant tau_max there is an average over rates"
-        for each in rates
-        if each.spread > COMPANION.warned_spread
+        f"record {rate.id!r}: its strain rate runs from {rate.slow:.2g} to {rate.fast:.2g} 1/s (5 to 95 % of the "
+        f"record, a factor of {rate.spread:.2g}): a constant tau_max there is an average over rates"
+        for rate in rates
+        if rate.spread > COMPANION.warned_spread
     ]
 
 

@@ -14,7 +14,7 @@ from probation.inference.least_squares import minimise
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.calibration.forms import Form
+    from probation.calibration.companion_forms import Form
     from probation.law.companion import Companion
 
 _MOST_ROUNDS = 100
@@ -30,9 +30,6 @@ class Regression:
 
     Attributes
     ----------
-    form : Form
-    table : RateTable
-    relation : Companion
     parameters : ndarray, shape (p,)
     covariance : ndarray, shape (p, p), or None
         None where it is not known: no standard errors, and no more rates than parameters.
@@ -72,11 +69,6 @@ def regress(form: Form, table: RateTable) -> Regression:
     is estimated (Paule & Mandel 1982) and widens every weight and the covariance. Without them the squares are those
     of the form's own measure (We for (11), tau_max for (12), as in the paper), and the covariance takes the errors of
     tau_max as relative and alike at all rates, of the size of the residual.
-
-    Parameters
-    ----------
-    form : Form
-    table : RateTable
 
     Raises
     ------

@@ -19,9 +19,9 @@ from probation.wording import percentage, plus_minus
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
+    from probation.calibration.companion_forms import Form
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
-    from probation.calibration.forms import Form
     from probation.calibration.left_out import Predicted
     from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
@@ -35,8 +35,6 @@ class Candidate:
 
     Attributes
     ----------
-    form : Form
-    companion : CalibratedCompanion
     labels : tuple of str
         Of the rows or records below.
     percent_residual : ndarray, shape (n,) [%]
@@ -51,7 +49,7 @@ class Candidate:
         Of Student's t for its intervals; None for the normal distribution.
     """
 
-    form: Form = field(metadata=named_in("calibration.forms.FORMS"))
+    form: Form = field(metadata=named_in("calibration.companion_forms.FORMS"))
     companion: CalibratedCompanion
     labels: tuple[str, ...]
     percent_residual: FloatArray
@@ -187,9 +185,9 @@ class Calibration(Result, Stored):
     def _relation_text(self) -> str:
         chosen = self.candidates[self.chosen]
         rivals = [
-            each
-            for name, each in self.candidates.items()
-            if name != self.chosen and not each.form.reference and each.score is not None
+            candidate
+            for name, candidate in self.candidates.items()
+            if name != self.chosen and not candidate.form.reference and candidate.score is not None
         ]
         low, high = chosen.companion.relation.calibrated or (np.nan, np.nan)
         start = f"τ_max follows the form {self.chosen} between {low:.2g} and {high:.2g} 1/s"
@@ -203,7 +201,7 @@ class Calibration(Result, Stored):
                 else f"to {percentage(0.01 * largest)} %"
             )
             sentence = f"{start} {how_well} ({why})"
-            if len(rate_groups(np.array([each.rate for each in self.record_rates] or [1.0, 2.0]))) == 1:
+            if len(rate_groups(np.array([rate.rate for rate in self.record_rates] or [1.0, 2.0]))) == 1:
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
             return sentence
         sentence = f"{start}; rates left out are predicted to {percent(chosen.score.rms)} %"
@@ -252,7 +250,7 @@ class Calibration(Result, Stored):
             "told_apart": self.discriminated,
             "constant_is_enough": self.why_constant is not None,
             "companion": {"form": companion.form, **companion.parameters},
-            "relations": {name: each.to_dict() for name, each in self.candidates.items()},
+            "relations": {name: candidate.to_dict() for name, candidate in self.candidates.items()},
             "rates": self._rates(),
         }
         if self.record_fits is not None:
@@ -270,19 +268,19 @@ class Calibration(Result, Stored):
         if self.predicted:
             content["foretold"] = [
                 {
-                    "record": each.record,
-                    "form": each.form,
-                    "rms_MPa": each.rms,
-                    "hardening_free_rms_MPa": each.hardening_rms,
-                    "refit_rms_MPa": each.refit_rms,
+                    "record": prediction.record,
+                    "form": prediction.form,
+                    "rms_MPa": prediction.rms,
+                    "hardening_free_rms_MPa": prediction.hardening_rms,
+                    "refit_rms_MPa": prediction.refit_rms,
                 }
-                for each in self.predicted
+                for prediction in self.predicted
             ]
         if self.paper is not None:
             content["paper"] = {
                 "percent": self.paper.percent,
                 "anchored_intercept": self.paper.anchored_intercept,
-                "alpha_ratios": [vars(each) for each in self.paper.ratios],
+                "alpha_ratios": [vars(ratio) for ratio in self.paper.ratios],
                 "findings": self.paper.sentences(),
             }
         return {**content, "warnings": self.warnings}
@@ -290,8 +288,8 @@ class Calibration(Result, Stored):
     def _rates(self) -> list[dict[str, object]]:
         if self.table is None:
             return [
-                {"record": each.id, "rate_per_s": each.rate, "from_per_s": each.slow, "to_per_s": each.fast}
-                for each in self.record_rates
+                {"record": rate.id, "rate_per_s": rate.rate, "from_per_s": rate.slow, "to_per_s": rate.fast}
+                for rate in self.record_rates
             ]
         table = self.table
         return [

@@ -99,12 +99,12 @@ def certify(
     total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)
     done = 0
 
-    def step(found: Fit) -> Fit:
+    def step(fit: Fit) -> Fit:
         nonlocal done
         done += 1
         if progress:
             progress(Part(done / total, f"identification {min(done + 1, total)} of {total}"))
-        return found
+        return fit
 
     base = step(trial.base())
     gap = gap_of(campaign)
@@ -121,7 +121,7 @@ def certify(
     alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
     held = {record: estimates(found, record, modulus_error, relation, scatter) for record, found in alone.items()}
     parameters = _judge(own, held)
-    failing = [name for name, each in parameters.items() if not each.passes]
+    failing = [name for name, parameter in parameters.items() if not parameter.passes]
     kept = [name for name in parameters if name not in failing]
     shared = trial.holding(base, kept)
     if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
@@ -141,7 +141,7 @@ def certify(
     verdict, reason = decide(
         parameters,
         predictions,
-        {name: each.bias_MPa for name, each in described.items()},
+        {name: fit.bias_MPa for name, fit in described.items()},
         tolerances,
         {
             name: campaign.law.fixed[outside_name(name)]
@@ -199,7 +199,7 @@ def _modulus(base: Fit, own: ByRecord, *, held: bool) -> tuple[float, float]:
     if held or len(base.records) == 1:
         return identified
     known = {record: own[record][name] for record in base.records}
-    errors = [each.se for each in known.values() if each.se]
+    errors = [estimate.se for estimate in known.values() if estimate.se]
     if not errors:
         return identified
     return judge({name: known})[name].mean, float(np.sum(np.power(errors, -2.0)) ** -0.5)
@@ -228,15 +228,17 @@ def _rates(base: Fit, predictions: Mapping[str, Prediction]) -> list[str]:
     companion = base.law.companion
     if companion is None:
         return []
-    warned = ((record, companion.extrapolation(each.excitation.rate)) for record, each in predictions.items())
+    warned = (
+        (record, companion.extrapolation(prediction.excitation.rate)) for record, prediction in predictions.items()
+    )
     return [f"{record}: {text}" for record, text in warned if text]
 
 
 def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[str]:
     doubts = [
         f"{outside_name(name)} is not tested: fewer than two records determine it"
-        for name, each in parameters.items()
-        if not each.tested
+        for name, parameter in parameters.items()
+        if not parameter.tested
     ]
     if not campaign.held_out and len(campaign.law.fixed) < PARAMETERS:
         doubts.append("no record is held out: each was predicted from all others")
@@ -249,10 +251,10 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
             f"{cold} was tested at {warm[cold]:.0f} °C, {hot} at {warm[hot]:.0f} °C: what differs between them may be "
             "the temperature rather than the strain-rate history; these records cannot discriminate the two"
         )
-    for name, each in parameters.items():
+    for name, parameter in parameters.items():
         if outside_name(name) not in campaign.law.fixed:
             continue
         held = campaign.law.fixed[outside_name(name)]
-        found = "contradict it" if each.contradicts(held) else "agree" if each.tested else "say little of it"
+        found = "contradict it" if parameter.contradicts(held) else "agree" if parameter.tested else "say little of it"
         doubts.append(f"{outside_name(name)} is held at {held:g} by the campaign; the records alone {found}")
     return doubts

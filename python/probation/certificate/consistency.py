@@ -20,7 +20,6 @@ class Estimate:
 
     Attributes
     ----------
-    value : float
     se : float or None
         Standard error with noise and model bias; None where the record does not determine the parameter.
     se_noise : float or None
@@ -71,14 +70,15 @@ class Consistency:
     @property
     def spread(self) -> float:
         """Highest over lowest value, less one."""
-        values = [each.value for each in self.by_record.values() if each.se is not None]
+        values = [estimate.value for estimate in self.by_record.values() if estimate.se is not None]
         return max(values) / min(values) - 1.0 if len(values) > 1 and min(values) > 0.0 else 0.0
 
     def contradicts(self, value: float) -> bool:
         """Whether some record says clearly, by `CERTIFICATE.clearly`, that the parameter has another value."""
         return any(
-            each.total_se and abs(each.value - value) > CERTIFICATE.clearly * np.hypot(each.total_se, each.se_specimen)
-            for each in self.by_record.values()
+            estimate.total_se
+            and abs(estimate.value - value) > CERTIFICATE.clearly * np.hypot(estimate.total_se, estimate.se_specimen)
+            for estimate in self.by_record.values()
         )
 
 
@@ -99,13 +99,13 @@ def judge(estimates: Mapping[str, Mapping[str, Estimate]]) -> dict[str, Consiste
 
 def _cochran(by_record: Mapping[str, Estimate]) -> tuple[float, float, bool]:
     """Weighted mean, p-value of Cochran's Q, whether there was anything to compare."""
-    known = [each for each in by_record.values() if each.se]
+    known = [estimate for estimate in by_record.values() if estimate.se]
     if not known:
-        return float(np.mean([each.value for each in by_record.values()])), 1.0, False
-    values = np.array([each.value for each in known])
-    shifts = np.array([each.shifts for each in known])
+        return float(np.mean([estimate.value for estimate in by_record.values()])), 1.0, False
+    values = np.array([estimate.value for estimate in known])
+    shifts = np.array([estimate.shifts for estimate in known])
     precision = np.linalg.inv(
-        np.diag([each.se**2 + each.se_specimen**2 for each in known if each.se]) + shifts @ shifts.T
+        np.diag([estimate.se**2 + estimate.se_specimen**2 for estimate in known if estimate.se]) + shifts @ shifts.T
     )
     mean = float(precision.sum(axis=0) @ values / precision.sum())
     if len(values) < 2:

@@ -39,34 +39,27 @@ class HardeningRegression:
     from_strain: float
 
 
-def reaches_hardening(true_strain: FloatArray, from_strain: float = CERTIFICATE.hardening_from) -> bool:
-    """Whether enough samples exceed that strain for a regression."""
-    return int(np.count_nonzero(true_strain > from_strain)) >= CERTIFICATE.fewest_for_hardening
+def reaches_hardening(true_strain: FloatArray) -> bool:
+    """Whether enough samples exceed the strain from which on the regression is taken."""
+    return int(np.count_nonzero(true_strain > CERTIFICATE.hardening_from)) >= CERTIFICATE.fewest_for_hardening
 
 
-def regress_hardening(
-    true_strain: FloatArray, true_stress: FloatArray, from_strain: float = CERTIFICATE.hardening_from
-) -> HardeningRegression:
+def regress_hardening(true_strain: FloatArray, true_stress: FloatArray) -> HardeningRegression:
     """G from the slope of the stress over e_HT, eq. (3), Figure S1.
 
     Parameters
     ----------
     true_strain : ndarray, shape (n_times,) [-]
     true_stress : ndarray, shape (n_times,) [MPa]
-    from_strain : float [-]
-        Samples of larger strain are taken.
-
-    Returns
-    -------
-    HardeningRegression
 
     Raises
     ------
     InputError
         If fewer than three samples are left.
     """
+    from_strain = CERTIFICATE.hardening_from
     taken = true_strain > from_strain
-    if not reaches_hardening(true_strain, from_strain):
+    if not reaches_hardening(true_strain):
         raise InputError(
             f"true_strain: found {np.count_nonzero(taken)} samples above {from_strain}, expected at least "
             f"{CERTIFICATE.fewest_for_hardening}"

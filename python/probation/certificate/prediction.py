@@ -99,10 +99,8 @@ def predict(
 
     Parameters
     ----------
-    base : Fit
     covariance : ndarray, shape (free, free)
         Of its parameters, `trial.joint_covariance`.
-    record : Record
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
     method : str
@@ -111,7 +109,7 @@ def predict(
         What is known of the law's companion relation.
     """
     view = measured_view(record, excite(record, method), scheme_of(base.scheme, base.start), base.substeps)
-    stress, sensitivity = (view.sampled(each) for each in DnlrLaw(base.law).sensitivity(view, base.law.parameters))
+    stress, sensitivity = (view.sampled(values) for values in DnlrLaw(base.law).sensitivity(view, base.law.parameters))
     slopes = sensitivity[:, free_parameters(base)]
     variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)
     variance += np.sum(companion_factor(base, view.excitation, relation) ** 2, axis=1)

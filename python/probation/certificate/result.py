@@ -97,10 +97,10 @@ class Certificate(Result, Stored):
             "scheme": self.base.scheme,
             "parameters": {
                 outside_name(name): {
-                    "passes": each.passes,
-                    "tested": each.tested,
-                    "p_value": each.p_value,
-                    "mean": each.mean if each.passes else None,
+                    "passes": parameter.passes,
+                    "tested": parameter.tested,
+                    "p_value": parameter.p_value,
+                    "mean": parameter.mean if parameter.passes else None,
                     "by_record": {
                         record: {
                             "value": found.value,
@@ -108,12 +108,12 @@ class Certificate(Result, Stored):
                             "se_noise": found.se_noise,
                             "se_specimen": found.se_specimen,
                         }
-                        for record, found in each.by_record.items()
+                        for record, found in parameter.by_record.items()
                     },
                 }
-                for name, each in self.parameters.items()
+                for name, parameter in self.parameters.items()
             },
-            "prediction": {name: each.to_json() for name, each in self.predictions.items()},
+            "prediction": {name: prediction.to_json() for name, prediction in self.predictions.items()},
             "base": {
                 "records": list(self.base.records),
                 "parameters": {outside_name(name): p.to_json() for name, p in self.base.parameters.items()},
@@ -129,20 +129,20 @@ class Certificate(Result, Stored):
             },
             "hardening_regression": {
                 record: {
-                    "hardening_modulus_MPa": each.hardening_modulus,
-                    "r_squared": each.r_squared,
-                    "from_strain": each.from_strain,
+                    "hardening_modulus_MPa": regression.hardening_modulus,
+                    "r_squared": regression.r_squared,
+                    "from_strain": regression.from_strain,
                 }
-                for record, each in self.regressions.items()
+                for record, regression in self.regressions.items()
             },
             "warnings": list(self.warnings),
         }
 
 
-def _fit_json(found: Fit, record: str) -> dict[str, object]:
+def _fit_json(fit: Fit, record: str) -> dict[str, object]:
     return {
-        "parameters": {outside_name(name): float(getattr(found.law, name)) for name in found.law.parameter_names},
-        "rms_MPa": found.rms_MPa,
-        "max_MPa": found.records[record].max_MPa,
-        "bias_MPa": found.bias_MPa,
+        "parameters": {outside_name(name): float(getattr(fit.law, name)) for name in fit.law.parameter_names},
+        "rms_MPa": fit.rms_MPa,
+        "max_MPa": fit.records[record].max_MPa,
+        "bias_MPa": fit.bias_MPa,
     }

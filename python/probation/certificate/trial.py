@@ -46,7 +46,6 @@ class Trial:
     ----------
     campaign : Campaign
         Whose law is on trial.
-    scheme : Scheme
     excitation : str
         As in `probation.fit`.
     """
@@ -106,7 +105,7 @@ def specimen_factor(found: Fit, record: RecordFit, scatter: Scatter | None) -> F
     history = record.excitation
     scheme = scheme_of(found.scheme, found.start)
     late = replace(history, true_strain=history.true_strain - LATE * (np.arange(len(record.time)) > 0))
-    stress, shifted = (found.law.stress(each.strain_history(), scheme=scheme) for each in (history, late))
+    stress, shifted = (found.law.stress(driven.strain_history(), scheme=scheme) for driven in (history, late))
     columns = np.column_stack([record.sensitivity * found.law.parameters, stress, (shifted - stress) / LATE])
     return np.asarray(columns * np.array(scatter.deviations))
 
@@ -122,8 +121,6 @@ def estimates(
 
     Parameters
     ----------
-    found : Fit
-    record_id : str
     modulus_error : float
         Standard error of E_u [MPa] where the fit holds it.
     relation : CalibratedCompanion, optional

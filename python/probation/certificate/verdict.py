@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.settings.certificate import CERTIFICATE
-from probation.wording import percentage
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -55,9 +55,11 @@ def decide(
         prediction errs by more than `CERTIFICATE.far` of the largest stress.
     reason : str
     """
-    failing = [name for name, each in parameters.items() if not each.passes]
+    failing = [name for name, parameter in parameters.items() if not parameter.passes]
     kept = [name for name in parameters if name not in failing]
-    worst = max(predictions.values(), key=lambda each: each.bias_MPa / max(each.tolerance_MPa, 1e-300))
+    worst = max(
+        predictions.values(), key=lambda prediction: prediction.bias_MPa / max(prediction.tolerance_MPa, 1e-300)
+    )
     predicted = (
         f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
@@ -81,7 +83,7 @@ def decide(
         return "intrinsic", f"one set of parameters serves every record ({seen}); {predicted}"
     beyond = [name for name, left in described_MPa.items() if left > tolerances_MPa[name]]
     if beyond:
-        name = max(beyond, key=lambda each: described_MPa[each] / tolerances_MPa[each])
+        name = max(beyond, key=lambda record: described_MPa[record] / tolerances_MPa[record])
         freed = f"with {_listed(failing)} free on each record" if failing else "with parameters of its own"
         return "not_intrinsic", (
             f"even {freed} the law leaves {described_MPa[name]:.2g} MPa on {name} "
@@ -136,12 +138,11 @@ def _exceptions(
 
 
 def _listed(names: list[str]) -> str:
-    symbols = [SYMBOLS[name] for name in names]
-    return symbols[0] if len(symbols) == 1 else ", ".join(symbols[:-1]) + " and " + symbols[-1]
+    return listed([SYMBOLS[name] for name in names], "and")
 
 
-def _change(name: str, found: Consistency) -> str:
-    known = {record: each for record, each in found.by_record.items() if each.se is not None}
+def _change(name: str, consistency: Consistency) -> str:
+    known = {record: estimate for record, estimate in consistency.by_record.items() if estimate.se is not None}
     low = min(known, key=lambda record: known[record].value)
     high = max(known, key=lambda record: known[record].value)
     unit = f" {UNITS[name]}" if UNITS[name] else ""

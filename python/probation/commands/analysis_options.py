@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
+from typing import TYPE_CHECKING
 
 from probation.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 def add_effects(parser: argparse._ActionsContainer) -> None:
@@ -15,18 +19,18 @@ def add_effects(parser: argparse._ActionsContainer) -> None:
         metavar="NAME,NAME",
         action="append",
         type=_names,
-        help="consider only these effects (all); names as probation diagnose --list-effects tells them",
+        help="consider only these effects (all); names as probation diagnose --list-effects lists them",
     )
 
 
 def add_seed(parser: argparse._ActionsContainer) -> None:
     """Add ``--seed``."""
-    parser.add_argument("--seed", metavar="N", type=_whole, default=0, help="of the simulated noise (0)")
+    parser.add_argument("--seed", metavar="N", type=whole_number(0), default=0, help="of the simulated noise (0)")
 
 
 def add_threads(parser: argparse._ActionsContainer) -> None:
     """Add ``--threads``."""
-    parser.add_argument("--threads", metavar="N", type=_count, help="at most so many at once (1)")
+    parser.add_argument("--threads", metavar="N", type=whole_number(1), help="at most so many at once (1)")
 
 
 def effects_from_options(options: argparse.Namespace) -> list[str] | None:
@@ -62,16 +66,15 @@ def seconds(text: str) -> float:
     return value
 
 
-def _whole(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 0")
-    return int(text)
+def whole_number(least: int) -> Callable[[str], int]:
+    """Reads a whole number of at least that; for `type=`."""
 
+    def read(text: str) -> int:
+        if not text.isdecimal() or int(text) < least:
+            raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from {least}")
+        return int(text)
 
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from 1")
-    return int(text)
+    return read
 
 
 def fraction(text: str) -> float:

@@ -65,7 +65,7 @@ def with_held_out(campaign: Campaign, held_out: Sequence[str]) -> Campaign:
     if len(set(held_out)) == len(campaign.records):
         raise InputError("--held-out: found every record, expected at least one left to identify on")
     roles = {record.id: "held-out" if record.id in held_out else "identify" for record in campaign.records}
-    return replace(campaign, records=tuple(replace(each, role=roles[each.id]) for each in campaign.records))
+    return replace(campaign, records=tuple(replace(record, role=roles[record.id]) for record in campaign.records))
 
 
 def campaign_from(options: argparse.Namespace) -> Campaign:

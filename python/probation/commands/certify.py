@@ -9,6 +9,7 @@ from probation.commands.campaign_options import add_campaign, add_data_files, ad
 from probation.commands.delivery import add_delivery, deliver, named_numbers, outputs_with_report
 from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme
+from probation.settings.certificate import CERTIFICATE
 
 NAME = "certify"
 
@@ -34,8 +35,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--tolerance",
         metavar="FRACTION",
         type=fraction,
-        default=0.05,
-        help="systematic error that is let pass, as a fraction of a record's largest stress (0.05)",
+        default=CERTIFICATE.tolerance,
+        help="systematic error that is let pass, as a fraction of a record's largest stress "
+        f"({CERTIFICATE.tolerance:g})",
     )
     add_scheme(parser)
     add_hold(parser)

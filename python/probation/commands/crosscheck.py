@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
             answer = crosscheck(progress=advance)
     else:
         campaign = Campaign.load(options.campaign)
-        records = [campaign.record(each) for each in options.record] if options.record else campaign.records
+        records = [campaign.record(record_id) for record_id in options.record] if options.record else campaign.records
         with shown("cross-checking") as advance:
             answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)
         for warning in campaign.warnings:

@@ -16,7 +16,7 @@ _DESCRIPTION = """\
 See it work, without any file: the embedded synthetic data of the paper's three experiments through every step.
 
   probation demo                  writes a page, plots and the synthetic data into ./probation-demo
-  probation demo --no-files       only tells
+  probation demo --no-files       prints only
   probation fit probation-demo/experiment-1
 """
 

@@ -32,6 +32,7 @@ from probation.commands.delivery import (
 from probation.commands.progress import in_parts, shown
 from probation.commands.scheme_options import add_hold, add_scheme
 from probation.errors import InputError
+from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from probation.records.campaign import Campaign
@@ -101,8 +102,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--tolerance",
         metavar="FRACTION",
         type=fraction,
-        default=0.001,
-        help="gap, as a fraction of a record's largest stress, below which it does not matter (0.001)",
+        default=DETECTION.tolerance,
+        help="gap, as a fraction of a record's largest stress, below which it does not matter "
+        f"({DETECTION.tolerance:g})",
     )
     add_delivery(parser)
     return parser

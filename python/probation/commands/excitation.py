@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from probation.commands.analysis_options import whole_number
 from probation.commands.campaign_options import add_data_files, campaign_at, is_data_file
 from probation.commands.delivery import (
     add_delivery,
@@ -60,7 +61,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="store_true",
         help="compare the methods on histories whose rate is known; takes minutes, --draws 1 a fifth of them",
     )
-    parser.add_argument("--draws", metavar="N", type=_draws, help="draws of the noise that are compared (5)")
+    parser.add_argument("--draws", metavar="N", type=whole_number(1), help="draws of the noise that are compared (5)")
     parser.add_argument("--seed", metavar="N", type=int, help="of the noise that is compared (0)")
     add_data_files(parser)
     add_delivery(parser)
@@ -109,7 +110,7 @@ def _records(options: argparse.Namespace) -> tuple[Record, ...]:
             raise
         place = Path(path)
         campaign = Campaign(place.name, (_strain_alone(place, error, options),))
-    return tuple(campaign.record(each) for each in options.record) if options.record else campaign.records
+    return tuple(campaign.record(record_id) for record_id in options.record) if options.record else campaign.records
 
 
 def _strain_alone(place: Path, refused: InputError, options: argparse.Namespace) -> Record:
@@ -145,9 +146,3 @@ def _compare(options: argparse.Namespace) -> int:
         answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
     deliver(answer.summary(), usual_outputs(answer, options))
     return 0
-
-
-def _draws(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number of at least 1")
-    return int(text)

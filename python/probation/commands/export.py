@@ -85,11 +85,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.exporting.formats import FORMATS  # noqa: PLC0415 - see the package
-    from probation.exporting.result import exports_json  # noqa: PLC0415
+    from probation.exporting.result import Exports  # noqa: PLC0415
 
     if options.list_formats:
         width = max(map(len, FORMATS))
-        put("".join(f"{name:<{width}}  {each.what}\n" for name, each in FORMATS.items()))
+        put("".join(f"{name:<{width}}  {form.what}\n" for name, form in FORMATS.items()))
         return 0
     names = _formats(options, list(FORMATS))
     exports = _exports(options, names)
@@ -99,10 +99,10 @@ def run(options: argparse.Namespace) -> int:
     elif options.folder is None:
         outputs = [_file_output(exports[0], options.output)]
     else:
-        outputs = [_file_output(each, options.folder, into=True) for each in exports]
+        outputs = [_file_output(exported, options.folder, into=True) for exported in exports]
     deliver(
-        "\n".join(each.summary() for each in exports),
-        [*outputs, text_output("JSON", options.json, lambda: exports_json(exports))],
+        "\n".join(exported.summary() for exported in exports),
+        [*outputs, text_output("JSON", options.json, Exports(tuple(exports)).to_json)],
     )
     return 0
 

@@ -38,7 +38,6 @@ def fitted(text: str, width: int) -> str:
     text : str
         Lines that are not indented are prose, a line that ends a sentence or a clause ends its paragraph. Indented
         lines are examples, commands with or without a remark, or a word and what it means.
-    width : int
 
     Returns
     -------

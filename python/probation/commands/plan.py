@@ -116,5 +116,5 @@ def _histories(options: argparse.Namespace) -> dict[str, ImposedHistory]:
     found: dict[str, ImposedHistory] = {}
     for name, history in tests:
         numbers = (f"{name} {number}" for number in count(2))
-        found[name if name not in found else next(each for each in numbers if each not in found)] = history
+        found[name if name not in found else next(numbered for numbered in numbers if numbered not in found)] = history
     return found

@@ -24,10 +24,6 @@ def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
     The bar comes after `SHOWN_AFTER` seconds. Where standard error is no terminal, there is a line at every tenth that
     is reached after `LOGGED_AFTER` seconds.
 
-    Parameters
-    ----------
-    title : str
-
     Yields
     ------
     callable

@@ -41,7 +41,6 @@ class Bias:
 
     Attributes
     ----------
-    parameter : str
     percent : float
         Of its value; NaN where that is 0.
     standard_errors : float

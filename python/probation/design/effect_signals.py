@@ -33,7 +33,6 @@ class EffectSignal:
 
     Attributes
     ----------
-    cause : Cause
     values : tuple of float
         Of the cause's parameters, amplitude first.
     stress : ndarray, shape (n_samples,) [MPa]
@@ -78,9 +77,7 @@ def effect_signals(
 
     Parameters
     ----------
-    model : CampaignModel
     parameters : ndarray, shape (n_parameters,)
-    effects : iterable of Effect
     threads : int
         Signals are worked out in parallel.
     progress : callable, optional
@@ -95,7 +92,7 @@ def effect_signals(
         them, or they are in the model already.
     """
     effects = tuple(effects)
-    present = {each.effect.name for each in model.causes}
+    present = {cause.effect.name for cause in model.causes}
     wanted: list[tuple[Cause, tuple[float, ...], bool]] = []
     unsolvable: dict[str, str] = {}
     for effect in effects:
@@ -121,8 +118,8 @@ def effect_signals(
             return str(unsolved)
 
     worked = in_parallel(work, wanted, threads, progress)
-    signals = [each for each in worked if isinstance(each, EffectSignal)]
-    shown = {each.cause.effect.name for each in signals if each.usual}
+    signals = [result for result in worked if isinstance(result, EffectSignal)]
+    shown = {signal.cause.effect.name for signal in signals if signal.usual}
     left_out = {}
     for effect in effects:
         if effect.name not in shown:
@@ -134,13 +131,13 @@ def effect_signals(
                 known = "these records could not show it"
             reasons = (each for each in failed if isinstance(each, str))
             left_out[effect.name] = unsolvable.get(effect.name) or next(reasons, known)
-    return [each for each in signals if each.cause.effect.name in shown], left_out
+    return [signal for signal in signals if signal.cause.effect.name in shown], left_out
 
 
 def at_rest(model: CampaignModel, view: RecordView, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Stress of the specimen and as recorded by the model as it is, each of shape (n,) [MPa]."""
     base, active = model.split(parameters)
-    here = tuple(each for each in active if each[0].touches(view.id))
+    here = tuple(action for action in active if action[0].touches(view.id))
     specimen = model.specimen(view, base, here).stress
     return specimen, model.recorded(view, base, active, specimen)
 
@@ -160,7 +157,6 @@ def signal(
     ----------
     model, parameters
         Without the cause.
-    cause : Cause
     values : tuple of float
         Amplitude first.
     still : dict, optional

@@ -49,8 +49,6 @@ def isolability(
         Of the model.
     noises : sequence of NoiseModel
         One per record; `white_noise` makes them of standard deviations.
-    effects : iterable of Effect
-    threads : int
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -68,11 +66,11 @@ def isolability(
     )
     if not signals:
         raise InputError("effects: found none that the law can follow, expected at least one")
-    raw = design.whitened(np.array([each.stress for each in signals]).T)
+    raw = design.whitened(np.array([signal.stress for signal in signals]).T)
     left, sizes = design.left_of(raw)
     rivalry = Rivalry.of(signals, left, sizes)
     cosine, probability = (
-        np.array(each) for each in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
+        np.array(column) for column in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
     )
     smallest = in_parallel(
         lambda k: design.smallest_seen(signals[k], float(sizes[k])),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation.settings.design import DESIGN
-from probation.wording import percentage
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,7 +29,6 @@ class EffectIsolability:
 
     Attributes
     ----------
-    name, title : str
     form : str
         Whose signal was taken: the effect's first.
     records : tuple of str, or None
@@ -130,7 +129,7 @@ class Isolability:
     @property
     def names(self) -> tuple[str, ...]:
         """Of the effects: rows and columns of the matrices."""
-        return tuple(each.name for each in self.effects)
+        return tuple(effect.name for effect in self.effects)
 
     @property
     def angle(self) -> FloatArray:
@@ -142,9 +141,9 @@ class Isolability:
         """Effects that cannot be discriminated, as connected sets; all others stand in none."""
         names = self.names
         friends: dict[str, set[str]] = {name: {name} for name in names}
-        for each in self.effects:
-            for rival in each.rivals:
-                joined = friends[each.name] | friends[rival]
+        for effect in self.effects:
+            for rival in effect.rivals:
+                joined = friends[effect.name] | friends[rival]
                 for name in joined:
                     friends[name] = joined
         found = {tuple(sorted(friends[name], key=names.index)): None for name in names if len(friends[name]) > 1}
@@ -152,7 +151,7 @@ class Isolability:
 
     def with_status(self, *wanted: Status) -> tuple[EffectIsolability, ...]:
         """The effects with one of these statuses."""
-        return tuple(each for each in self.effects if each.status in wanted)
+        return tuple(effect for effect in self.effects if effect.status in wanted)
 
     @property
     def headline(self) -> str:
@@ -164,7 +163,7 @@ class Isolability:
         return {
             "headline": self.headline,
             "records": self.records,
-            "effects": [each.to_dict() for each in self.effects],
+            "effects": [effect.to_dict() for effect in self.effects],
             "groups": self.groups,
             "angle_deg": self.angle,
             "probability": self.probability,
@@ -172,55 +171,55 @@ class Isolability:
         }
 
 
-def _headline(found: Isolability) -> str:
+def _headline(isolability: Isolability) -> str:
     """One sentence for the campaign: "These 4 records can name 14 of 22 effects; …"."""
-    records, effects = len(found.records), len(found.effects)
+    records, effects = len(isolability.records), len(isolability.effects)
     which = "This record" if records == 1 else f"These {records} records"
-    parts = [f"{which} can name {len(found.with_status('named'))} of {effects} effects"]
-    ambiguous = found.with_status("ambiguous")
+    parts = [f"{which} can name {len(isolability.with_status('named'))} of {effects} effects"]
+    ambiguous = isolability.with_status("ambiguous")
     if ambiguous:
-        sets = "; ".join(", ".join(group) for group in found.groups)
+        sets = "; ".join(", ".join(group) for group in isolability.groups)
         parts.append(f"{len(ambiguous)} would be seen but could be taken for another ({sets})")
-    if hidden := found.with_status("absorbed"):
-        parts.append(f"{_listed([each.name for each in hidden])} would hide in the base parameters")
-    if small := found.with_status("too_small"):
-        parts.append(f"{_listed([each.name for each in small])} would drown in the noise at usual size")
-    if silent := found.with_status("without_signal"):
-        parts.append(f"{_listed([each.name for each in silent])} would do nothing in them")
+    if hidden := isolability.with_status("absorbed"):
+        parts.append(f"{listed([effect.name for effect in hidden], 'and')} would hide in the base parameters")
+    if small := isolability.with_status("too_small"):
+        parts.append(f"{listed([effect.name for effect in small], 'and')} would drown in the noise at usual size")
+    if silent := isolability.with_status("without_signal"):
+        parts.append(f"{listed([effect.name for effect in silent], 'and')} would do nothing in them")
     return "; ".join(parts) + "."
 
 
-def _sentence(each: EffectIsolability) -> str:
+def _sentence(effect: EffectIsolability) -> str:
     """What these tests could say of one effect at its usual size."""
-    name, size = next(iter(each.values.items()))
-    there = f" in {each.records[0]}, where it shows best," if each.records else ""
-    title = f"{each.title[0].upper()}{each.title[1:]} of usual size ({name} = {size:.3g}){there}"
-    seen = f"{_count(each.detectability)} standard deviations"
-    if each.status == "without_signal":
+    name, size = next(iter(effect.values.items()))
+    there = f" in {effect.records[0]}, where it shows best," if effect.records else ""
+    title = f"{effect.title[0].upper()}{effect.title[1:]} of usual size ({name} = {size:.3g}){there}"
+    seen = f"{_count(effect.detectability)} standard deviations"
+    if effect.status == "without_signal":
         return f"{title} does nothing in these records that the base law does not do."
-    if each.status == "absorbed":
+    if effect.status == "absorbed":
         return (
-            f"{title} would hide: {_percent(each.absorbable)} of it is taken up by the base parameters, "
-            f"which it biases ({_biased(each.biases)}); {_from(each)}."
+            f"{title} would hide: {_percent(effect.absorbable)} of it is taken up by the base parameters, "
+            f"which it biases ({_biased(effect.biases)}); {_from(effect)}."
         )
-    if each.status == "too_small":
-        return f"{title} would drown in the noise: {seen} where {DESIGN.detected:g} are needed; {_from(each)}."
-    if each.status == "named":
-        return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(each)}."
-    likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(each.rivals.items())[:_NAMED]]
-    more = len(each.rivals) - len(likest)
-    others = _listed([*likest, f"{more} more"] if more else likest, "or")
-    return f"{title} would be seen ({seen}) but could be taken for {others}; {_from(each)}."
+    if effect.status == "too_small":
+        return f"{title} would drown in the noise: {seen} where {DESIGN.detected:g} are needed; {_from(effect)}."
+    if effect.status == "named":
+        return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(effect)}."
+    likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(effect.rivals.items())[:_NAMED]]
+    more = len(effect.rivals) - len(likest)
+    others = listed([*likest, f"{more} more"] if more else likest)
+    return f"{title} would be seen ({seen}) but could be taken for {others}; {_from(effect)}."
 
 
-def _from(each: EffectIsolability) -> str:
+def _from(effect: EffectIsolability) -> str:
     """From which amplitude on it is seen, and named."""
-    if each.seen_from is None:
+    if effect.seen_from is None:
         return "it is seen at no size within its bounds"
-    seen = f"it is seen from {each.seen_from:.2g} on"
-    if each.named_from is None:
+    seen = f"it is seen from {effect.seen_from:.2g} on"
+    if effect.named_from is None:
         return f"{seen}, named at no size within its bounds"
-    return f"{seen}, named from {each.named_from:.2g} on"
+    return f"{seen}, named from {effect.named_from:.2g} on"
 
 
 def _count(size: float) -> str:
@@ -231,14 +230,10 @@ def _biased(biases: Sequence[Bias]) -> str:
     """The biases that matter: "hardening_modulus_MPa by +3.1 %"."""
     worst = max((abs(bias.percent) for bias in biases), default=0.0)
     named = [bias for bias in biases if abs(bias.percent) >= DESIGN.bias_worth_naming * worst]
-    return _listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named])
+    return listed([f"{bias.parameter} by {percentage(0.01 * bias.percent, '+')} %" for bias in named], "and")
 
 
 def _percent(share: float) -> str:
     """A share near 1 with the digits that tell it from 1."""
     text = f"{100.0 * share:.4g} %"
     return "all" if text == "100 %" else text
-
-
-def _listed(items: Sequence[str], word: str = "and") -> str:
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {word} {items[-1]}" if items else ""

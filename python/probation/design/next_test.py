@@ -29,7 +29,6 @@ class RankedTest:
 
     Attributes
     ----------
-    test : PlannedTest
     probability_after : float
         Of a right answer.
     probability_in_rough_hands : float
@@ -79,7 +78,6 @@ class NextTest:
         discriminates best.
     probability_before, probability_after : float
         Of the most probable explanation being the right one, given that one of them is.
-    test : PlannedTest
     ranking : tuple of RankedTest
         All tests, the one of most worth first.
     """
@@ -99,7 +97,7 @@ class NextTest:
             "probability_before": self.probability_before,
             "probability_after": self.probability_after,
             "test": self.test.to_dict(),
-            "ranking": [each.to_dict() for each in self.ranking],
+            "ranking": [explanation.to_dict() for explanation in self.ranking],
         }
 
 
@@ -130,7 +128,6 @@ def next_test(
         One per record.
     threads : int
         Tests are worked out in parallel.
-    seed : int
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -154,7 +151,7 @@ def next_test(
         raise InputError(f"explanations: found the probabilities {prior.tolist()}, expected positive numbers")
     prior = prior / prior.sum()
     group = [answers.index(tuple(sorted(effects))) for _, _, _, effects in explanations]
-    known = [Explanation.of(*each, noises) for each in explanations]
+    known = [Explanation.of(*explanation, noises) for explanation in explanations]
     base = known[int(np.argmax(prior))].parameters[: model.base_count]
 
     titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
@@ -166,13 +163,13 @@ def next_test(
             ways = predictions(test, model, base, known, noises)
         except UNSOLVABLE:
             return None
-        return judged(test, ways, prior, group, [list(each) for each in answers], names, before, seed=seed)
+        return judged(test, ways, prior, group, [list(answer) for answer in answers], names, before, seed=seed)
 
     tests = planned_tests(Laboratory.of(model, base))
-    worked = [each for each in in_parallel(work, tests, threads, progress) if each is not None]
+    worked = [judged_test for judged_test in in_parallel(work, tests, threads, progress) if judged_test is not None]
     if not worked:
         return None
-    worked.sort(key=lambda each: -each.worth)
+    worked.sort(key=lambda judged_test: -judged_test.worth)
     chosen = worked[0]
     return NextTest(chosen.what, chosen.separates, before, chosen.probability_after, chosen.test, tuple(worked))
 
@@ -192,7 +189,6 @@ def judged(
 
     Parameters
     ----------
-    test : PlannedTest
     ways : sequence of Prediction
         How it may come out.
     prior, group
@@ -201,7 +197,6 @@ def judged(
         What each group stands for, as it leaves the program and for people.
     before : float
         Probability of a right answer without the test.
-    seed : int
     """
     found = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
     rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DESIGN.draws, seed=seed)

@@ -52,7 +52,6 @@ class PlannedTest:
     ----------
     id, history : str
         Its name, and what is imposed, for people.
-    samples : int
     duration : float [s]
     largest_strain : float [-]
         True strain of the largest modulus.
@@ -336,5 +335,5 @@ def _extrapolations(law: Law, excitations: Mapping[str, Excitation]) -> tuple[st
     """Where the companion relation is asked outside the rates it was calibrated on."""
     if law.companion is None:
         return ()
-    warned = ((name, law.companion.extrapolation(each.rate)) for name, each in excitations.items())
+    warned = ((name, law.companion.extrapolation(excitation.rate)) for name, excitation in excitations.items())
     return tuple(f"{name}: {text}" for name, text in warned if text)

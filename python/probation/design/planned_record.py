@@ -100,7 +100,7 @@ def planned_noise(view: RecordView, noises: Sequence[NoiseModel], others: Sequen
     if usual.growth != "force":
         return noise_like(view, usual.arma)
     stretch, known = view.sampled(view.stretch), others[at].sampled(others[at].stretch)
-    size, normal = (float(np.sqrt(np.mean(each**2))) for each in (stretch, known))
+    size, normal = (float(np.sqrt(np.mean(column**2))) for column in (stretch, known))
     arma = replace(usual.arma, innovation=usual.arma.innovation * size / normal)
     return replace(noise_like(view, arma), profile=stretch / size, growth="force")
 

@@ -102,8 +102,8 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
             "given; use fewer samples"
         )
     noise = deviation * rng.standard_normal((DESIGN.strain_draws, len(record)))
-    drawn = [excite(replace(record, true_strain=record.true_strain + each)) for each in noise]
-    usual = sorted(drawn, key=lambda each: each.freedom)[DESIGN.strain_draws // 2]
+    drawn = [excite(replace(record, true_strain=record.true_strain + error)) for error in noise]
+    usual = sorted(drawn, key=lambda excitation: excitation.freedom)[DESIGN.strain_draws // 2]
     strain, rate = usual.strain_operator(), usual.rate_operator()
     if strain is None or rate is None:
         return excite(record, "raw")
@@ -118,10 +118,11 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
 
 def _mean_errors(drawn: Sequence[Excitation]) -> Operators:
     """Errors whose covariance is the mean of those of several smoothed strains."""
-    made = [each.errors() for each in drawn if each.errors is not None]
+    made = [excitation.errors() for excitation in drawn if excitation.errors is not None]
     weight = len(made) ** -0.5
     return Operators(
-        weight * np.hstack([each.strain for each in made]), weight * np.hstack([each.rate for each in made])
+        weight * np.hstack([operators.strain for operators in made]),
+        weight * np.hstack([operators.rate for operators in made]),
     )
 
 

@@ -160,7 +160,7 @@ class Laboratory:
         gauge_length: float = 1.0,
     ) -> PlannedTest:
         """A test of straight legs (strain at the end, duration [s]) that starts without strain."""
-        history = piecewise_linear(name, [Leg(*each) for each in legs], self.samples)
+        history = piecewise_linear(name, [Leg(*leg) for leg in legs], self.samples)
         time, strain = history.time, history.true_strain
         assert strain is not None
         assert history.jumps is not None
@@ -327,7 +327,7 @@ def _straining_rate(view: RecordView) -> float:
     """Median rate while straining [1/s], 0 without any."""
     strain, time = view.sampled(view.recorded_strain), view.sampled(view.time)
     rate = np.abs(np.diff(strain) / np.diff(time))
-    moving = rate > 0.01 * float(np.max(rate, initial=0.0))
+    moving = rate > DESIGN.moving_rate * float(np.max(rate, initial=0.0))
     return float(np.median(rate[moving])) if moving.any() else 0.0
 
 

@@ -46,7 +46,6 @@ class Explanation:
         With its causes.
     parameters : ndarray, shape (n_parameters,)
         At their optimum.
-    probability : float
     effects : tuple of str
     root : ndarray, shape (n_parameters, n_parameters)
         R with R R^T = C, the covariance that the records and the priors leave.
@@ -124,7 +123,6 @@ def predictions(
 
     Parameters
     ----------
-    test : PlannedTest
     model : CampaignModel
         The law without causes, on the records there are.
     base : ndarray
@@ -137,16 +135,16 @@ def predictions(
     noise = planned_noise(view, noises, model.views)
     view = view.as_predicted(model.law.stress(view, base))
     found = []
-    for owner, each in enumerate(explanations):
-        confined = {cause.effect.name: cause for cause in each.model.causes if _may_come_back(cause)}
+    for owner, explanation in enumerate(explanations):
+        confined = {cause.effect.name: cause for cause in explanation.model.causes if _may_come_back(cause)}
         ways = (
             [((), 1.0)]
             if not confined
             else [((), 1.0 - DESIGN.fault_repeats), (tuple(confined.values()), DESIGN.fault_repeats)]
         )
         for back, weight in ways:
-            stress, slopes = _on(view, each, back, test)
-            found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ each.root)))
+            stress, slopes = _on(view, explanation, back, test)
+            found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ explanation.root)))
     return found
 
 
@@ -162,10 +160,12 @@ def _may_come_back(cause: Cause) -> bool:
     return cause.records is not None and "all" in cause.effect.placements(cause.form)
 
 
-def _on(view: RecordView, each: Explanation, back: Sequence[Cause], test: PlannedTest) -> tuple[FloatArray, FloatArray]:
+def _on(
+    view: RecordView, explanation: Explanation, back: Sequence[Cause], test: PlannedTest
+) -> tuple[FloatArray, FloatArray]:
     """Stress (n_samples,) [MPa] and slopes (n_samples, n_parameters) of an explanation on a planned record."""
-    base, active = each.model.split(each.parameters)
-    slopes = np.zeros((len(view.data), len(each.parameters)))
+    base, active = explanation.model.split(explanation.parameters)
+    slopes = np.zeros((len(view.data), len(explanation.parameters)))
     causes, values, columns, factors = [], list(base), list(range(len(base))), [1.0] * len(base)
     first = len(base)
     for cause, own in active:
@@ -176,7 +176,7 @@ def _on(view: RecordView, each: Explanation, back: Sequence[Cause], test: Planne
             columns += range(first, first + len(own))
             factors += [factor, *(1.0 for _ in own[1:])]
         first += len(own)
-    model = CampaignModel(each.model.law, (view,), causes)
+    model = CampaignModel(explanation.model.law, (view,), causes)
     residual, jacobian = model.residual_and_jacobian(np.array(values))
     slopes[:, columns] = jacobian * factors
     return residual + model.data, slopes
@@ -213,7 +213,6 @@ def outcome(ways: Sequence[Prediction], prior: FloatArray, group: Sequence[int],
         Which answer each explanation is; several may be the same.
     draws : int
         Of each way.
-    seed : int
     """
     owners = np.array([way.owner for way in ways])
     before = prior[owners] * np.array([way.weight for way in ways])

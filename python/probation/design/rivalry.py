@@ -52,31 +52,27 @@ class Rivalry:
     @classmethod
     def of(cls, signals: Sequence[EffectSignal], left: FloatArray, sizes: FloatArray) -> Rivalry:
         """Of signals, whitened and projected: `left` (n_samples, m), with their lengths (m,)."""
-        names = tuple(dict.fromkeys(each.cause.effect.name for each in signals))
-        owner = np.array([names.index(each.cause.effect.name) for each in signals])
+        names = tuple(dict.fromkeys(signal.cause.effect.name for signal in signals))
+        owner = np.array([names.index(signal.cause.effect.name) for signal in signals])
         chosen = tuple(_representative(signals, sizes, np.flatnonzero(owner == row)) for row in range(len(names)))
-        reach = np.array([each.reach for each in signals])
+        reach = np.array([signal.reach for signal in signals])
         return cls(names, owner, chosen, left, sizes, reach[:, 0], reach[:, 1])
 
-    def against(self, row: int, truth: FloatArray | None = None, factor: float = 1.0) -> tuple[FloatArray, FloatArray]:
+    def against(self, row: int) -> tuple[FloatArray, FloatArray]:
         """An effect that is there, in both signs if it may have both, against every effect.
 
         Parameters
         ----------
         row : int
             Which effect.
-        truth : ndarray, shape (n_samples,), optional
-            Its signal, whitened and projected; the one chosen if left out.
-        factor : float
-            By which that is multiplied.
 
         Returns
         -------
         cosine, probability : ndarray, each of shape (n_names,)
             Of the likest match; of finding the right one more likely than the worst rival signal, the signs' mean.
         """
-        truth = self.left[:, self.chosen[row]] if truth is None else truth
-        return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), factor)
+        truth = self.left[:, self.chosen[row]]
+        return self._weighed(row, truth @ self.left, float(np.linalg.norm(truth)), 1.0)
 
     def length_to_name(self, row: int, truth: FloatArray, most: float) -> float | None:
         """sqrt(lambda) from which on an effect that looks like `truth` is discriminated from every other.

@@ -21,7 +21,6 @@ class Cause:
 
     Attributes
     ----------
-    effect : Effect
     form : Form
         One of the effect's.
     records : tuple of str, or None

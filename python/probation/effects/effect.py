@@ -199,7 +199,7 @@ class Form:
         """Values of an effect of usual size: the amplitude's prior scale, the shapes' first starts."""
         amplitude = self.amplitude
         size = amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
-        shapes = (each.starts[0] if each.starts else each.centre for each in self.parameters[1:])
+        shapes = (parameter.starts[0] if parameter.starts else parameter.centre for parameter in self.parameters[1:])
         return (min(size, amplitude.upper), *shapes)
 
     @property

@@ -29,7 +29,6 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 
     Parameters
     ----------
-    effects : iterable of Effect
     views : sequence of RecordView
         Of the records: a fault is large relative to their forces and elongations.
     """
@@ -62,7 +61,7 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     known = form.amplitude
     wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross size", starts=())
     shapes = form.shapes_at(())
-    grid = [(start, *each) for start in starts for each in shapes] if starts else shapes
+    grid = [(start, *shape) for start in starts for shape in shapes] if starts else shapes
     return replace(
         form,
         name=f"large_{form.name}",

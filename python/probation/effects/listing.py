@@ -32,7 +32,7 @@ def catalogue_json(chosen: Iterable[Effect] | None = None) -> list[dict[str, obj
                 {
                     "name": form.name,
                     "placements": list(effect.placements(form)),
-                    "parameters": [_parameter(each) for each in form.parameters],
+                    "parameters": [_parameter(parameter) for parameter in form.parameters],
                 }
                 for form in effect.forms
             ],
@@ -50,11 +50,16 @@ def catalogue_table(chosen: Iterable[Effect] | None = None) -> str:
         lines.append(f"  Shows in: {effect.shows_in}.")
         lines.append(f"  Source: {effect.source}.")
         for form in effect.forms:
-            where = " or ".join({"all": "all records", "one": "one record"}[each] for each in effect.placements(form))
+            where = " or ".join(
+                {"all": "all records", "one": "one record"}[placement] for placement in effect.placements(form)
+            )
             lines.append(f"  {form.name}, in {where}:")
-            for each in form.parameters:
-                unit = f" {each.unit}" if each.unit else ""
-                lines.append(f"    {each.name}  {each.lower:g} to {each.upper:g}{unit}; {_prior(each)}: {each.reason}")
+            for parameter in form.parameters:
+                unit = f" {parameter.unit}" if parameter.unit else ""
+                lines.append(
+                    f"    {parameter.name}  {parameter.lower:g} to {parameter.upper:g}{unit}; "
+                    f"{_prior(parameter)}: {parameter.reason}"
+                )
         lines.append("")
     return "\n".join(lines)
 

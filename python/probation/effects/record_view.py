@@ -34,7 +34,6 @@ class Measured(NamedTuple):
 
     Attributes
     ----------
-    record : Record
     excitation : Excitation
         What drives the law, at the samples.
     """
@@ -52,7 +51,6 @@ class RecordView:
 
     Attributes
     ----------
-    id, control, role : str
     time : ndarray, shape (n,) [s]
     true_strain : ndarray, shape (n,) [-]
         As it drives the law: recorded and perhaps smoothed; in a view from `driven`, what an effect made of it.
@@ -318,7 +316,6 @@ def view_of(
 
     Parameters
     ----------
-    record : Record
     excitation : Excitation
         From `probation.excite`, at the samples.
     index, count, reference_temperature, scheme
@@ -363,7 +360,6 @@ def views_of(
 
     Parameters
     ----------
-    campaign : Campaign
     excitations : dict of str to Excitation, optional
         By record id; made by `excite` if left out.
     scheme, substeps
@@ -396,8 +392,8 @@ def reference_rate_of(excitations: Sequence[Excitation]) -> float:
     if not excitations:
         raise InputError("found no records, expected at least one")
     medians = []
-    for each in excitations:
-        rate = np.abs(each.rate)
+    for excitation in excitations:
+        rate = np.abs(excitation.rate)
         if np.any(rate > _MOVING):
             medians.append(np.median(np.log(rate[rate > _MOVING])))
     return float(f"{np.exp(np.mean(medians)):.0e}") if medians else 1e-3

@@ -20,7 +20,6 @@ def register(effect: Effect, *, replace: bool = False) -> Effect:
 
     Parameters
     ----------
-    effect : Effect
     replace : bool
         Whether it may take the place of one of the same name.
 

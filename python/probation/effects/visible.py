@@ -21,7 +21,6 @@ def visible(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Eff
 
     Parameters
     ----------
-    effects : iterable of Effect
     views : sequence of RecordView
         Of all records that causes are sought in.
     """

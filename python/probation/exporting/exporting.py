@@ -87,7 +87,7 @@ def export(
             source=words,
             name=name,
             rate=rate,
-            rates=None if rates is None else tuple(float(each) for each in rates),
+            rates=None if rates is None else tuple(float(value) for value in rates),
             strain=strain,
             bulk_modulus=_usual_bulk_modulus(law) if bulk_modulus is None else bulk_modulus,
             density=density,
@@ -107,12 +107,11 @@ def export_law(
     """One format of a request."""
     request = _with_modes(request, chosen, accuracy, modes)
     content = chosen.kind.make(request)
-    read = chosen.read(chosen.write(request, content, ()))
-    checks = tuple(chosen.kind.check(request, read))
+    checks = tuple(chosen.kind.check(request, chosen.read(chosen.write(request, content, ()))))
     header = header_lines(
         chosen.what, [request.lines(), [check.text for check in checks], list(chosen.kind.say(request, content))]
     )
-    return Export(chosen.name, chosen.write(request, content, header), read, checks, request, chosen)
+    return Export(chosen, chosen.write(request, content, header), checks, request)
 
 
 def _usual_bulk_modulus(law: Law) -> float:

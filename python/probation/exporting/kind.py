@@ -44,7 +44,6 @@ class Format(Generic[Content]):
         Of the file's name.
     what : str
         One line for people.
-    kind : Kind
     write : callable
         The text of a content under the lines of a header.
     read : callable

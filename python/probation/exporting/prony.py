@@ -148,7 +148,7 @@ def _say(request: Request, content: PronySeries) -> Sequence[str]:
 
 
 def _beside(request: Request, content: PronySeries, rate: float) -> str:
-    strains = [each for each in _STRAINS if each <= request.strain] or [request.strain]
+    strains = [strain for strain in _STRAINS if strain <= request.strain] or [request.strain]
     time, strain = ramp(rate, strains[-1])
     strain = np.union1d(strain, strains)
     time = strain / rate

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from probation._files import kind_of, write_whole
-from probation.answers import json_answer
+from probation.errors import InputError
 from probation.law.answer import law_answer
+from probation.results.data import Stored, named_in
 from probation.results.rendering import Summarised
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from os import PathLike
 
     from probation.exporting.check import Check
@@ -21,37 +22,43 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Export(Summarised):
+class Export(Summarised, Stored):
     """One file for a finite-element code.
 
     Attributes
     ----------
-    format : str
+    form : Format
     text : str
         The file.
-    content : object
-        What the text says, read back: `MaterialConstants`, `PronySeries` or `StressTable`.
     checks : tuple of Check
         Errors against the law; the first is that of the round trip.
     request : Request
     """
 
-    format: str
+    form: Format[Any] = field(metadata=named_in("exporting.formats.FORMATS"))
     text: str
-    content: Any
     checks: tuple[Check, ...]
     request: Request
-    _format: Format[Any]
+
+    @property
+    def format(self) -> str:
+        """Its name, such as "abaqus-umat"."""
+        return self.form.name
+
+    @cached_property
+    def content(self) -> Any:
+        """What the text says, read back: `MaterialConstants`, `PronySeries` or `StressTable`."""
+        return self.form.read(self.text)
 
     @property
     def file_name(self) -> str:
         """Such as "hdpe-abaqus-umat.inp"."""
-        return f"{self.request.name.lower()}-{self.format}{self._format.ending}"
+        return f"{self.request.name.lower()}-{self.format}{self.form.ending}"
 
     @property
     def what(self) -> str:
         """The format, for people."""
-        return self._format.what
+        return self.form.what
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the file, whole or not at all; into a folder under its own name.
@@ -81,11 +88,33 @@ class Export(Summarised):
             },
         }
 
-    def to_json(self) -> str:
-        """The answer as JSON text, schema "probation.export/1"."""
-        return exports_json([self])
+    def to_json(self, *, curves: bool = False) -> str:
+        """The answer as JSON text, that of `Exports` with this one in it."""
+        return Exports((self,)).to_json(curves=curves)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The export that `to_json` wrote.
+
+        Raises
+        ------
+        InputError
+            If the text is not what `to_json` writes, or holds several exports: `Exports.from_json` reads those.
+        """
+        exports = Exports.from_json(text).exports
+        if len(exports) != 1 or not isinstance(exports[0], cls):
+            raise InputError(f"the text: found {len(exports)} exports, expected one; Exports.from_json reads several")
+        return exports[0]
 
 
-def exports_json(exports: Sequence[Export]) -> str:
-    """Several at once."""
-    return json_answer("probation.export/1", {"exports": [each.to_dict() for each in exports]})
+@dataclass(frozen=True, eq=False)
+class Exports(Stored):
+    """One law in several formats."""
+
+    SCHEMA = "probation.export/1"
+
+    exports: tuple[Export, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What was exported, as Python objects."""
+        return {"exports": [export.to_dict() for export in self.exports]}

@@ -141,7 +141,7 @@ def _points(at: FloatArray, stress: FloatArray) -> list[int]:
     """Which plastic strains a curve needs: the worst of all curves is added until straight lines between them do."""
     points, allowed = [0, len(at) - 1], _TOLERANCE * float(stress.max())
     while len(points) < _MOST_POINTS:
-        missing = np.abs([np.interp(at, at[points], each[points]) - each for each in stress]).max(axis=0)
+        missing = np.abs([np.interp(at, at[points], curve[points]) - curve for curve in stress]).max(axis=0)
         if missing.max() <= allowed:
             break
         points = sorted([*points, int(missing.argmax())])

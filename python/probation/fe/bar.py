@@ -122,11 +122,6 @@ class Snapshot:
 class BarModel:
     """The bar in felupe.
 
-    Parameters
-    ----------
-    point : MaterialPoint
-    bar : Bar
-
     Raises
     ------
     InputError

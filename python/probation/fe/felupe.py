@@ -16,7 +16,6 @@ def felupe_material(point: MaterialPoint, dt: float) -> Any:
 
     Parameters
     ----------
-    point : MaterialPoint
     dt : float [s]
         Length of the increment; change it between increments with ``material.kwargs["dt"] = …``.
 

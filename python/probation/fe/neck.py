@@ -27,7 +27,6 @@ class Necking:
 
     Attributes
     ----------
-    bar : Bar
     time : ndarray [s]
     nominal_strain : ndarray [-]
         Grip displacement over half length.
@@ -81,7 +80,6 @@ def neck(
 
     Parameters
     ----------
-    point : MaterialPoint
     bar : Bar, optional
     centre_rate : float, optional
         Strain rate of the centre [1/s] that the grips are driven for, as a video extensometer does: after each
@@ -89,10 +87,6 @@ def neck(
         move at constant speed.
     stages : sequence of float
         Centre strains at which to keep a snapshot.
-
-    Returns
-    -------
-    Necking
 
     Raises
     ------

@@ -29,7 +29,6 @@ def draw_neck(necking: Necking, path: str | PathLike[str]) -> None:
 
     Parameters
     ----------
-    necking : Necking
     path : path-like
         PNG, SVG or PDF, by the ending.
     """
@@ -61,9 +60,9 @@ def _rates_beside_figure_1(axes: Axes, necking: Necking) -> None:
 def _meshes(figure: Figure, snapshots: Sequence[Snapshot]) -> None:
     """One row each: above the axis the strain rate, below it the strain."""
     rows = np.atleast_1d(figure.subplots(len(snapshots), 1, sharex=True))
-    rates = np.concatenate([each.rate for each in snapshots])
+    rates = np.concatenate([shot.rate for shot in snapshots])
     by_rate = LogNorm(max(float(rates.min()), 1e-3 * float(rates.max())), float(rates.max()))
-    by_strain = Normalize(0.0, max(float(each.strain.max()) for each in snapshots))
+    by_strain = Normalize(0.0, max(float(shot.strain.max()) for shot in snapshots))
     for axes, snapshot in zip(rows, snapshots, strict=True):
         upper = _cells(axes, snapshot.outlines, +1.0, snapshot.rate, by_rate, "viridis")
         lower = _cells(axes, snapshot.outlines, -1.0, snapshot.strain, by_strain, "magma")

@@ -142,7 +142,6 @@ class MaterialPoint:
         dt : float [s]
         state : array_like, shape (points, state_size), optional
             At the start of the increment; left out: relaxed and undeformed.
-        with_tangent : bool
 
         Returns
         -------

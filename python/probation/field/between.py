@@ -18,8 +18,6 @@ def between(time: FloatArray, strain: Samples, substeps: int, *, smooth: bool) -
     ----------
     time : ndarray, shape (n_times,) [s]
     strain : ndarray, shape (pixels, n_times) [-]
-    substeps : int
-    smooth : bool
 
     Returns
     -------

@@ -56,9 +56,6 @@ def write(path: str, name: str, at: Any, values: Any) -> None:
     ----------
     path : str
         Of the store.
-    name : str
-    at : indices
-    values : array_like
     """
     with load("zarr").config.set({"array.write_empty_chunks": True}):
         array_of(path, name, "r+")[at] = values

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.field.samples import LENGTHS
+from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -21,11 +22,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.field.pixels import Pixels
     from probation.field.samples import BoolArray, IndexArray
-
-SIDE = 8
-"""Pixels along a neighbourhood."""
-FEWEST = 16
-"""Draws in a neighbourhood, at least."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +43,7 @@ class Errors:
 
 
 def neighbourhoods(used: BoolArray, shape: tuple[int, int]) -> IndexArray:
-    """Number of each pixel's neighbourhood: within `SIDE` x `SIDE` pixels, records of the same sixteenths of the time.
+    """Number of each pixel's neighbourhood: within a square of pixels, records of the same sixteenths of the time.
 
     Parameters
     ----------
@@ -56,15 +52,16 @@ def neighbourhoods(used: BoolArray, shape: tuple[int, int]) -> IndexArray:
         Of the block.
     """
     y, x = np.divmod(np.arange(len(used)), shape[1])
-    tile = y // SIDE * (-(-shape[1] // SIDE)) + x // SIDE
+    side = FIELD.neighbourhood
+    tile = y // side * (-(-shape[1] // side)) + x // side
     within = np.where(used.any(axis=1), used.shape[1] - np.argmax(used[:, ::-1], axis=1), 0)
     return np.asarray(tile * (LENGTHS + 1) + -(-within * LENGTHS // used.shape[1]), dtype=np.intp)
 
 
 def rounds(identified: BoolArray, neighbourhood: IndexArray) -> Iterator[IndexArray]:
-    """Pixels to draw, round by round, until each neighbourhood has had `FEWEST` draws."""
+    """Pixels to draw, round by round, until each neighbourhood has had `FIELD.fewest_draws` draws."""
     mates = np.bincount(neighbourhood[identified], minlength=neighbourhood.max() + 1)[neighbourhood]
-    times = np.where(identified, -(-FEWEST // np.maximum(mates, 1)), 0)
+    times = np.where(identified, -(-FIELD.fewest_draws // np.maximum(mates, 1)), 0)
     return (np.flatnonzero(times > done) for done in range(times.max()))
 
 
@@ -75,7 +72,6 @@ def drawn_errors(
 
     Parameters
     ----------
-    first : Pixels
     draws : sequence of (ndarray of int, Pixels)
         Of each round, which pixels, and their estimates with more noise.
     level : ndarray, shape (pixels,) [MPa]

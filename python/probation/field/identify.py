@@ -117,10 +117,6 @@ def identify_field(
     progress : callable, optional
         Called with blocks done, blocks in all, and which.
 
-    Returns
-    -------
-    FieldRun
-
     Raises
     ------
     InputError

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.answers import json_answer
 from probation.errors import InputError
 from probation.field.chunks import array_of, read, require_chunks
 from probation.field.grid import BlockGrid
 from probation.field.status import MEANINGS, Status
 from probation.field.store import LEDGER, SECONDS, SUBSTEPS, map_kinds, mark_of, read_run
 from probation.field.truth import Closeness, closeness
+from probation.results.data import CURVE, Stored, WithCurves, from_curves
 from probation.results.rendering import Result
+from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
     import os
@@ -28,18 +29,13 @@ if TYPE_CHECKING:
 
 AGAIN = "probation field identify, called again,"
 
-CERTAIN, UNEVEN = 4.0, 2.0
-"""Standard deviations of ln(rms_residual / noise) from which on a residual is beyond the noise, and their square times
-the samples: 1/2 for even noise that is known, more where it grows along the record and is estimated."""
-
 
 @dataclass(frozen=True)
-class FieldMaps(Result):
+class FieldMaps(Result, Stored, WithCurves):
     """Maps of a field.
 
     Attributes
     ----------
-    path : str
     run : dict
         What they were made from and by.
     maps : dict of str to ndarray, shape (rows, columns)
@@ -53,17 +49,18 @@ class FieldMaps(Result):
         Of all blocks.
     substeps : (int, int)
         Fewest and most steps of the scheme from sample to sample that a block took.
-    blocks, blocks_done : int
     closeness : tuple of Closeness
         To the truth, where that is known; see `FieldMaps.beside`.
     """
 
+    SCHEMA = "probation.field/1"
+
     path: str
     run: dict[str, Any]
-    maps: dict[str, NDArray[Any]] = field(repr=False)
+    maps: dict[str, NDArray[Any]] = field(repr=False, metadata=CURVE)
     units: dict[str, str] = field(repr=False)
-    y: FloatArray = field(repr=False)
-    x: FloatArray = field(repr=False)
+    y: FloatArray = field(repr=False, metadata=CURVE)
+    x: FloatArray = field(repr=False, metadata=CURVE)
     length_unit: str
     cpu_seconds: float
     substeps: tuple[int, int]
@@ -80,16 +77,16 @@ class FieldMaps(Result):
     def beyond_noise(self) -> NDArray[np.bool_]:
         """Where the residual is more than noise leaves."""
         samples = np.maximum(self.maps["samples"], 1)
-        doubt = np.sqrt(UNEVEN / samples)
+        doubt = np.sqrt(FIELD.uneven / samples)
         with np.errstate(invalid="ignore"):
             return np.asarray(
-                self.identified & (self.maps["rms_residual"] > np.exp(CERTAIN * doubt) * self.maps["noise"])
+                self.identified & (self.maps["rms_residual"] > np.exp(FIELD.certain * doubt) * self.maps["noise"])
             )
 
     @property
     def names(self) -> tuple[str, str, str, str]:
         """The product and the three parameters, as their maps are called."""
-        second = "tau_max" if "tau_max" in self.maps else "alpha"
+        second = "tau_max" if "tau_max" in self.units else "alpha"
         return f"unrelaxed_modulus_times_{second}", "unrelaxed_modulus", second, "hardening_modulus"
 
     def beside(self, truth: str | os.PathLike[str]) -> FieldMaps:
@@ -102,37 +99,54 @@ class FieldMaps(Result):
         """
         return replace(self, closeness=closeness(self.maps, self.names, self.identified, truth))
 
-    def to_json(self) -> str:
-        """Counts and medians as JSON text; the maps themselves stay in the store."""
-        good = self.identified
-        medians = {
-            name: {
-                "unit": self.units[name],
-                "median": _median(self.maps[name][good]),
-                "median_standard_error": _median(self.maps[f"{name}_standard_error"][good]),
-                "percentiles_5_95": _percentiles(self.maps[name][good]),
+    @from_curves
+    def counts(self) -> dict[int, int]:
+        """Pixels of each status that there is."""
+        statuses, numbers = np.unique(self.maps["status"], return_counts=True)
+        return dict(zip(statuses.tolist(), numbers.tolist(), strict=True))
+
+    @from_curves
+    def facts(self) -> dict[str, Any]:
+        """Counts and medians over the pixels that were identified; the maps themselves stay in the store."""
+        good, beyond = self.identified, self.beyond_noise
+        rows, columns = np.nonzero(beyond)
+        return {
+            "beyond_noise": len(rows),
+            "where_beyond_noise": {
+                "y": [float(self.y[rows.min()]), float(self.y[rows.max()])],
+                "x": [float(self.x[columns.min()]), float(self.x[columns.max()])],
             }
-            for name in self.names
+            if len(rows)
+            else None,
+            "pixels_with_data": int(np.count_nonzero(self.maps["samples"] > 0)),
+            "parameters": {
+                name: {
+                    "unit": self.units[name],
+                    "median": _quantile(self.maps[name][good], 0.5),
+                    "median_standard_error": _quantile(self.maps[f"{name}_standard_error"][good], 0.5),
+                    "median_relative_standard_error": _quantile(
+                        self.maps[f"{name}_standard_error"][good] / np.abs(self.maps[name][good]), 0.5
+                    ),
+                    "percentiles_5_95": [_quantile(self.maps[name][good], part) for part in (0.05, 0.95)],
+                }
+                for name in self.names
+            },
+            "rms_residual_MPa": _quantile(self.maps["rms_residual"][good], 0.5),
+            "noise_MPa": _quantile(self.maps["noise"][good], 0.5),
         }
-        content = {
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects."""
+        return {
             "maps": self.path,
             "run": self.run,
-            "pixels": {MEANINGS[status]: count for status, count in self.counts().items()},
-            "beyond_noise": int(np.count_nonzero(self.beyond_noise)),
-            "parameters": medians,
-            "rms_residual_MPa": _median(self.maps["rms_residual"][good]),
-            "noise_MPa": _median(self.maps["noise"][good]),
+            "pixels": {MEANINGS[Status(status)]: count for status, count in self.counts.items()},
+            **self.facts,
             "blocks": {"done": self.blocks_done, "all": self.blocks},
             "cpu_seconds": self.cpu_seconds,
             "substeps": list(self.substeps),
-            "closeness": [vars(each) for each in self.closeness],
+            "closeness": [vars(parameter) for parameter in self.closeness],
         }
-        return json_answer("probation.field/1", content)
-
-    def counts(self) -> dict[Status, int]:
-        """Pixels of each status that there is."""
-        found, numbers = np.unique(self.maps["status"], return_counts=True)
-        return {Status(int(each)): int(number) for each, number in zip(found, numbers, strict=True)}
 
 
 def open_maps(path: str | os.PathLike[str], progress: Callable[[int, int, str], None] | None = None) -> FieldMaps:
@@ -223,11 +237,7 @@ def _numbers(where: str, name: str, shape: tuple[int, ...], dtype: str, *, spars
     return read(where, name, sparse=sparse)
 
 
-def _median(values: FloatArray) -> float:
+def _quantile(values: FloatArray, part: float) -> float:
+    """Of the finite values; NaN where there are none."""
     finite = values[np.isfinite(values)]
-    return float(np.median(finite)) if len(finite) else float("nan")
-
-
-def _percentiles(values: FloatArray) -> list[float]:
-    finite = values[np.isfinite(values)]
-    return [float(each) for each in np.percentile(finite, [5, 95])] if len(finite) else []
+    return float(np.quantile(finite, part)) if len(finite) else float("nan")

@@ -39,8 +39,6 @@ class Way:
     ----------
     law : Law
         Spectrum, companion relation, and the values of what is held.
-    scheme : Scheme
-    method : str
     held : tuple of str
         Parameters that are not identified.
     smoothing : bool
@@ -82,7 +80,6 @@ def identify_pixels(
 
     Parameters
     ----------
-    way : Way
     time : ndarray, shape (n_times,) [s]
     strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
     substeps : int

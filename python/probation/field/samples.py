@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from probation.settings.field import FIELD
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -16,8 +18,6 @@ if TYPE_CHECKING:
 BoolArray: TypeAlias = NDArray[np.bool_]
 IndexArray: TypeAlias = NDArray[np.intp]
 
-LONGEST_GAP = 3
-"""Samples that may lack in a row: the strain is straight across. A longer gap ends the record."""
 LENGTHS = 16
 """Lengths that a record which ends early is cut to: pixels that share their instants are identified together."""
 
@@ -34,10 +34,10 @@ def used_samples(strain: Samples, stress: Samples) -> BoolArray:
     ndarray of bool, shape (pixels, n_times)
     """
     there = np.isfinite(strain) & np.isfinite(stress)
-    gap = LONGEST_GAP + 1
+    gap = FIELD.longest_gap + 1
     seen = np.cumsum(np.pad(there, ((0, 0), (1, 0))), axis=1)
     ends = np.zeros_like(there)
-    ends[:, : there.shape[1] - LONGEST_GAP] = seen[:, gap:] == seen[:, :-gap]  # nothing in the next `gap` samples
+    ends[:, : there.shape[1] - FIELD.longest_gap] = seen[:, gap:] == seen[:, :-gap]  # nothing in the next `gap` samples
     before = ~np.maximum.accumulate(ends, axis=1)
     length = np.count_nonzero(before, axis=1)
     length = np.where(length < there.shape[1], length * LENGTHS // there.shape[1] * there.shape[1] // LENGTHS, length)

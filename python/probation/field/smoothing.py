@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.field.samples import bridged
+from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -22,8 +23,6 @@ ORDER = 4
 """Derivative that is penalised. A lower one bends the start of a history, where the unrelaxed modulus is."""
 STIFFNESS: FloatArray = 10.0 ** np.arange(-3.0, 14.1, 0.5)
 """Tried, with times in steps of the median between instants."""
-CAUTION = 1.4
-"""By which degrees of freedom count more than they are, so that noise is not followed (Kim & Gu 2004)."""
 
 
 def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
@@ -44,7 +43,7 @@ def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
     kept = 1.0 / (1.0 + STIFFNESS[:, None] * roughness)  # of each shape, by stiffness
     parts = strain.astype(np.float64) @ shapes
     left = parts**2 @ ((1.0 - kept) ** 2).T
-    freedom = 1.0 - CAUTION * kept.sum(axis=1) / len(time)
+    freedom = 1.0 - SMOOTHING.prudence * kept.sum(axis=1) / len(time)
     score = np.where(freedom > 0.0, left / np.maximum(freedom, 1e-9) ** 2, np.inf)
     return np.asarray((parts * kept[np.argmin(score, axis=1)]) @ shapes.T)
 

@@ -52,7 +52,6 @@ class FieldSource:
 
     Attributes
     ----------
-    path : str
     names : dict of str to str
         The variable of each role: a strain, a stress (or force and initial area), time.
     factors : dict of str to float
@@ -205,14 +204,16 @@ def _roles(path: object, data: xr.Dataset, given: dict[str, str]) -> dict[str, s
     """The variable of each role."""
     for role, name in given.items():
         if name not in data.variables:
-            there = ", ".join(sorted(str(each) for each in data.variables))
+            there = ", ".join(sorted(str(variable) for variable in data.variables))
             raise InputError(f"{path}: found no variable {name!r} for {role}; there are {there}")
     named_so = {role: role for role in UNITS if role in data.variables}
     names, candidates = {}, {**named_so, **given}
     for roles, what in ((STRAINS, "strain"), (STRESSES, "stress")):
         named = [role for role in roles if role in given] or [role for role in roles if role in candidates]
         if len(named) != 1:
-            found = " and ".join(named) or "none (" + ", ".join(sorted(str(each) for each in data.variables)) + ")"
+            found = (
+                " and ".join(named) or "none (" + ", ".join(sorted(str(variable) for variable in data.variables)) + ")"
+            )
             raise InputError(
                 f"{path}: {what}: found {found}, expected one variable named {', '.join(roles)}, or --column ROLE=NAME"
             )

@@ -36,7 +36,7 @@ _RUN: dict[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("scheme", "method", "version", "field_sha256"), lambda value: isinstance(value, str)),
     "law": lambda value: isinstance(value, dict) and "companion" in value,
     "block": lambda value: (
-        isinstance(value, list) and len(value) == 2 and all(type(each) is int and each > 0 for each in value)
+        isinstance(value, list) and len(value) == 2 and all(type(count) is int and count > 0 for count in value)
     ),
 }
 """What `read_run` needs to find, and whether it is of the right kind."""
@@ -48,10 +48,8 @@ class MapKind:
 
     Attributes
     ----------
-    dtype : str
     fill : float
         Before it is written.
-    unit, meaning : str
     """
 
     dtype: str

@@ -12,6 +12,7 @@ from probation.field.pixels import Pixels, identify_pixels, with_more_noise
 from probation.field.source import SHORTEST
 from probation.law.schemes import SA3
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 TRIED = 64
 """Pixels of a block, evenly spaced, on which the error of the scheme is measured."""
-PART = 95.0
-"""Percentage of them in which it must be negligible."""
 REFERENCE_SUBSTEPS = 4
 """Of SA3, which the error is measured against: its own error falls with their cube."""
 
@@ -35,7 +34,6 @@ def needed_substeps(
 
     Parameters
     ----------
-    way : Way
     time : ndarray, shape (n_times,) [s]
     strain, stress, used : ndarray, shape (pixels, n_times) [-], [MPa], bool
     chance : Generator
@@ -64,13 +62,13 @@ def needed_substeps(
     return steps
 
 
-def _shift(found: Pixels, reference: Pixels, errors: Errors) -> float:
+def _shift(pixels: Pixels, reference: Pixels, errors: Errors) -> float:
     """How far the estimates are from the reference [standard errors]: the worst of the parameters and the product."""
-    good = found.identified & reference.identified
+    good = pixels.identified & reference.identified
     if not good.any():
         return 0.0
-    values, expected = found.parameters[good], reference.parameters[good]
+    values, expected = pixels.parameters[good], reference.parameters[good]
     moved = np.column_stack([values - expected, values[:, 0] * values[:, 1] - expected[:, 0] * expected[:, 1]])
     error = np.column_stack([errors.parameters[good], errors.product[good]])
     shift = np.abs(np.divide(moved, error, out=np.zeros_like(moved), where=error > 0.0))
-    return float(np.max(np.percentile(shift, PART, axis=0)))
+    return float(np.max(np.percentile(shift, FIELD.part_of_negligible_error, axis=0)))

@@ -27,7 +27,6 @@ class Closeness:
 
     Attributes
     ----------
-    name : str
     bias : float
         Mean relative error [-].
     scatter : float

@@ -1,28 +1,16 @@
 """Histories for those who have no file: a name and a few numbers.
 
-A new one is a `NamedHistory` in the module of its kind and one line in `NAMED_HISTORIES`.
+A new one is a `NamedHistory` in `kinds.py`.
 """
 
 from __future__ import annotations
 
 from probation.errors import InputError
-from probation.histories import cycles, grips, holds, ramps
 from probation.histories.imposed import ImposedHistory
+from probation.histories.kinds import KINDS
 from probation.histories.named import NamedHistory, Parameter, Value, nearest
-from probation.histories.specification import describe, parse_specification
 
-NAMED_HISTORIES: dict[str, NamedHistory] = {
-    history.name: history
-    for history in (
-        ramps.RAMP,
-        ramps.RATE_JUMP,
-        holds.RELAXATION,
-        cycles.LOAD_UNLOAD,
-        cycles.CYCLIC,
-        grips.NECKING,
-        holds.CREEP,
-    )
-}
+NAMED_HISTORIES: dict[str, NamedHistory] = {history.name: history for history in KINDS}
 
 __all__ = [
     "NAMED_HISTORIES",
@@ -61,11 +49,35 @@ def named_history(name: str, /, **parameters: Value) -> ImposedHistory:
 
 
 def history_from(specification: str) -> ImposedHistory:
-    """A history from text such as ``ramp:rate=0.005,strain=2``; errors as in `named_history`."""
-    history, values = parse_specification(specification, NAMED_HISTORIES)
-    return history(values)
+    """A history from text such as ``ramp:rate=0.005,strain=2``.
+
+    Raises
+    ------
+    InputError
+        As in `named_history`, or if a part is no ``key=value`` or is given twice.
+    """
+    name, _, rest = specification.partition(":")
+    if name not in NAMED_HISTORIES:
+        raise InputError(f"--history: found the unknown name {name!r}; {nearest(name, NAMED_HISTORIES)}")
+    values: dict[str, str] = {}
+    for part in filter(None, rest.split(",")):
+        key, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals or not key or not value:
+            raise InputError(f"history {name!r}: found {part!r}, expected parameter=value")
+        if key in values:
+            raise InputError(f"history {name!r}: found {key} twice, expected it once")
+        values[key] = value
+    return NAMED_HISTORIES[name](values)
 
 
 def list_histories() -> str:
     """Names, parameters, units and defaults, as text."""
-    return describe(NAMED_HISTORIES)
+    lines = []
+    for history in NAMED_HISTORIES.values():
+        lines.append(f"{history.name}: {history.title}")
+        for parameter in history.parameters:
+            unit = "" if parameter.unit == "-" else f" {parameter.unit}"
+            default = parameter.default if isinstance(parameter.default, str) else f"{parameter.default:g}"
+            choices = f" ({', '.join(parameter.choices)})" if parameter.choices else ""
+            lines.append(f"    {parameter.name + '=' + default + unit:<24}{parameter.meaning}{choices}")
+    return "\n".join(lines)

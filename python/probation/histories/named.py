@@ -23,12 +23,10 @@ class Parameter:
 
     Attributes
     ----------
-    name : str
     unit : str
         For people; "-" for a pure number.
     default : float, int or str
         Its type is the parameter's.
-    meaning : str
     choices : tuple of str
         For a parameter that is a choice.
     least : float
@@ -73,7 +71,6 @@ class NamedHistory:
 
     Attributes
     ----------
-    name : str
     title : str
         What happens, in one line.
     parameters : tuple of Parameter
@@ -99,7 +96,7 @@ class NamedHistory:
         for name in values:
             if name not in known:
                 raise InputError(f"{where}: found the unknown parameter {name!r}; {nearest(name, known)}")
-        read = {name: each.read(values.get(name, each.default), where) for name, each in known.items()}
+        read = {name: parameter.read(values.get(name, parameter.default), where) for name, parameter in known.items()}
         return self.make(**read)
 
 

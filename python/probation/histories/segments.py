@@ -40,24 +40,21 @@ def leg(start: float, to: float, rate: float) -> Leg:
     return Leg(to, abs(to - start) / rate)
 
 
-def piecewise_linear(name: str, legs: Sequence[Leg], samples: int, start: float = 0.0) -> ImposedHistory:
+def piecewise_linear(name: str, legs: Sequence[Leg], samples: int) -> ImposedHistory:
     """Join legs to a history.
 
     Parameters
     ----------
-    name : str
     legs : sequence of Leg
         Legs without duration are left out.
     samples : int
         In all; at least two steps for each leg.
-    start : float [-]
-        True strain at time zero.
     """
-    legs = [each for each in legs if each.duration > 0.0]
+    legs = [part for part in legs if part.duration > 0.0]
     if not legs:
         raise InputError(f"{name}: the strain does not move; expected a history that lasts")
-    times, strains, corners = [np.zeros(1)], [np.full(1, start)], []
-    at, strain = 0.0, start
+    times, strains, corners = [np.zeros(1)], [np.zeros(1)], []
+    at, strain = 0.0, 0.0
     for each, steps in zip(legs, _shared_out(legs, samples - 1), strict=True):
         fraction = _graded(steps) if each.graded else np.linspace(0.0, 1.0, steps + 1)[1:]
         times.append(at + each.duration * fraction)
@@ -71,9 +68,9 @@ def _shared_out(legs: Sequence[Leg], steps: int) -> list[int]:
     """Steps of each leg: by its duration, a graded one as an average leg, and none less than half an average."""
     if steps < 2 * len(legs):
         raise InputError(f"samples is {steps + 1}; expected at least {2 * len(legs) + 1} for {len(legs)} legs")
-    total = sum(each.duration for each in legs)
+    total = sum(part.duration for part in legs)
     average = 1.0 / len(legs)
-    weights = np.array([average if each.graded else max(each.duration / total, average / 2) for each in legs])
+    weights = np.array([average if part.graded else max(part.duration / total, average / 2) for part in legs])
     ends = np.rint(np.cumsum(weights) / weights.sum() * steps).astype(int)
     return [int(count) for count in np.diff(ends, prepend=0)]
 

@@ -15,6 +15,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.time_range import time_range
 from probation.law.schemes import scheme_of
 from probation.noise.segments import leftover
+from probation.settings.identification import IDENTIFICATION
 from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 
@@ -25,24 +26,20 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
     from probation.smoothing.excitation import Excitation
 
-FIRST, STIFFER, FAR = 20, 1.3, 3.0
-"""Samples whose slope tells E_u from below, by how much, and the factor from which on a fitted E_u is far from it."""
 
-
-def base_fit(campaign: Campaign, found: Fit) -> BaseFit:
+def base_fit(campaign: Campaign, fit: Fit) -> BaseFit:
     """Fit the engine's law to the identify records of a campaign by generalised least squares.
 
     Parameters
     ----------
-    campaign : Campaign
-    found : Fit
+    fit : Fit
         Where the search begins, from `identify.fit.plain_fit`; its scheme is used, and what it holds stays held.
     """
-    samples = _excitations(campaign, found)
-    steps = enough_substeps(campaign, found, samples)
-    views = views_of(campaign, excitations=samples, scheme=scheme_of(found.scheme, found.start), substeps=steps)
-    held = [name for name in found.law.parameter_names if name not in found.names]
-    law = DnlrLaw(found.law, held=held, times=time_range(campaign.identify, found.law))
+    samples = _excitations(campaign, fit)
+    steps = enough_substeps(campaign, fit, samples)
+    views = views_of(campaign, excitations=samples, scheme=scheme_of(fit.scheme, fit.start), substeps=steps)
+    held = [name for name in fit.law.parameter_names if name not in fit.names]
+    law = DnlrLaw(fit.law, held=held, times=time_range(campaign.identify, fit.law))
     base = fit_views(law, views, campaign.specimens)
     return replace(base, other_starts=_other_starts(base))
 
@@ -54,9 +51,9 @@ def _other_starts(base: BaseFit) -> tuple[FloatArray, ...]:
         return ()
     at = names.index("unrelaxed_modulus_MPa")
     time = next((index for index, name in enumerate(names) if name in ("tau_max_s", "alpha")), None)
-    slope = STIFFER * max(_first_slope(view) for view in base.model.views)
+    slope = IDENTIFICATION.modulus_over_first_slope * max(_first_slope(view) for view in base.model.views)
     ratio = base.parameters[at] / slope if slope > 0.0 else 1.0
-    if 1.0 / FAR < ratio < FAR:
+    if 1.0 / IDENTIFICATION.far_modulus < ratio < IDENTIFICATION.far_modulus:
         return ()
     moved = base.parameters.copy()
     moved[at] = slope
@@ -67,13 +64,14 @@ def _other_starts(base: BaseFit) -> tuple[FloatArray, ...]:
 
 def _first_slope(view: RecordView) -> float:
     """Steepest secant from the first sample to one of the next few [MPa]."""
-    strain = view.sampled(view.true_strain)[1:FIRST] - view.true_strain[0]
-    stress = view.data[1:FIRST] - view.data[0]
-    moving = np.abs(strain) > 0.1 * float(np.max(np.abs(strain), initial=0.0))
+    first = slice(1, IDENTIFICATION.samples_of_first_slope)
+    strain = view.sampled(view.true_strain)[first] - view.true_strain[0]
+    stress = view.data[first] - view.data[0]
+    moving = np.abs(strain) > IDENTIFICATION.least_part_of_strain * float(np.max(np.abs(strain), initial=0.0))
     return float(np.max(np.abs(stress[moving] / strain[moving]), initial=0.0)) if moving.any() else 0.0
 
 
-def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
+def _excitations(campaign: Campaign, fit: Fit) -> dict[str, Excitation]:
     """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
@@ -87,7 +85,7 @@ def _excitations(campaign: Campaign, found: Fit) -> dict[str, Excitation]:
     for record in campaign.identify:
         if record.id in raw:
             smooth, recorded = (
-                predicted(found, way[record.id], found.substeps) - record.true_stress for way in (chosen, raw)
+                predicted(fit, way[record.id], fit.substeps) - record.true_stress for way in (chosen, raw)
             )
             rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
             variance = _local_noise_variance(smooth)

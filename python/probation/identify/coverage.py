@@ -17,23 +17,20 @@ from scipy.special import betaincinv
 
 from probation._arrays import FloatArray, as_whole_number
 from probation._files import kind_of, read_whole, write_whole, written_to
-from probation.answers import json_answer
 from probation.errors import InputError
 from probation.identify.fit import fit
 from probation.pool import run_all
 from probation.records.campaign import Campaign
 from probation.records.record import Record
-from probation.results.reading import answer_in
+from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
     from os import PathLike
 
     from probation.identify.weighting import Weighting
     from probation.smoothing.methods import Method as ExcitationMethod
-
-SCHEMA = "probation.coverage/1"
 
 TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.556}
 """Table 1's reference [MPa], [s], [MPa]."""
@@ -45,7 +42,7 @@ CONFIDENCE = 0.99
 """Of the interval of a coverage, which must contain `NOMINAL`."""
 
 LEAST_COVERAGE = 0.85
-"""A study tells that intervals hold if its draws could tell them from intervals of this coverage."""
+"""A study says that intervals hold if its draws can exclude intervals of this coverage."""
 
 RECOMMENDED: Weighting = "auto"
 JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
@@ -57,7 +54,6 @@ class Case:
 
     Attributes
     ----------
-    name : str
     strain_noise : float [-]
     stress_noise : float [MPa]
     correlation : float
@@ -88,8 +84,6 @@ class Counted:
 
     Attributes
     ----------
-    case, method : str
-    draws : int
     hits : dict of str to int
         By parameter.
     bias : dict of str to float
@@ -116,7 +110,7 @@ class Counted:
         return low <= NOMINAL <= high
 
     @property
-    def tells(self) -> bool:
+    def decides(self) -> bool:
         """Whether there are draws enough to say that an interval holds."""
         return enough_draws(self.draws)
 
@@ -125,9 +119,26 @@ class Counted:
         """Whether the intervals of all parameters hold."""
         return all(self.holds(name) for name in self.hits)
 
+    def to_dict(self) -> dict[str, Any]:
+        """A row of the answer."""
+        return {
+            "case": self.case,
+            "weighting": self.method,
+            "draws": self.draws,
+            "parameters": {
+                name: {
+                    "coverage": self.coverage(name),
+                    "interval99": self.interval(name),
+                    "holds": None if self.holds(name) and not self.decides else self.holds(name),
+                    "bias": self.bias[name],
+                }
+                for name in self.hits
+            },
+        }
+
 
 @dataclass(frozen=True)
-class Coverage(Summarised, Plotted):
+class Coverage(Summarised, Plotted, Stored):
     """The study.
 
     `plot` draws the coverage of every case, method and parameter with its interval.
@@ -135,27 +146,30 @@ class Coverage(Summarised, Plotted):
     Attributes
     ----------
     counted : tuple of Counted
-    seed : int
     """
+
+    SCHEMA = "probation.coverage/1"
 
     counted: tuple[Counted, ...]
     seed: int
 
     def of(self, case: str, method: str) -> Counted:
         """What was counted for one case and method."""
-        return next(each for each in self.counted if (each.case, each.method) == (case, method))
+        return next(
+            counted_case for counted_case in self.counted if (counted_case.case, counted_case.method) == (case, method)
+        )
 
     @property
     def verdict(self) -> str:
         """One sentence."""
-        recommended = [each for each in self.counted if each.method == RECOMMENDED]
-        failing = [each.case for each in recommended if not each.all_hold]
-        draws = min(each.draws for each in self.counted)
+        recommended = [counted_case for counted_case in self.counted if counted_case.method == RECOMMENDED]
+        failing = [counted.case for counted in recommended if not counted.all_hold]
+        draws = min(counted_case.draws for counted_case in self.counted)
         if failing:
             kinds = ", ".join(failing)
             return f"The 95 % intervals of weighting {RECOMMENDED!r} do not hold over {draws} draws: {kinds}."
         if not enough_draws(draws):
-            lowest = min(each.interval(name)[0] for each in recommended for name in each.hits)
+            lowest = min(counted.interval(name)[0] for counted in recommended for name in counted.hits)
             needed = next(count for count in range(draws, 1000) if enough_draws(count))
             return (
                 f"{draws} draws are too few to tell whether the 95 % intervals of weighting {RECOMMENDED!r} hold: they "
@@ -167,54 +181,14 @@ class Coverage(Summarised, Plotted):
             "kinds of noise the exact 99 % interval of their coverage contains 95 % for every parameter."
         )
 
-    def to_json(self) -> str:
-        """The answer, schema "probation.coverage/1"."""
-        rows = [
-            {
-                "case": each.case,
-                "weighting": each.method,
-                "draws": each.draws,
-                "parameters": {
-                    name: {
-                        "coverage": each.coverage(name),
-                        "interval99": list(each.interval(name)),
-                        "holds": None if each.holds(name) and not each.tells else each.holds(name),
-                        "bias": each.bias[name],
-                    }
-                    for name in each.hits
-                },
-            }
-            for each in self.counted
-        ]
-        return json_answer(SCHEMA, {"verdict": self.verdict, "seed": self.seed, "rows": rows})
-
-    @classmethod
-    def from_json(cls, text: str) -> Coverage:
-        """The study that `to_json` wrote.
-
-        Parameters
-        ----------
-        text : str
-
-        Raises
-        ------
-        InputError
-            If the text is not what `to_json` writes.
-        """
-        with answer_in(text, SCHEMA) as answer:
-            return cls(tuple(_counted(row) for row in answer["rows"]), answer["seed"])
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects."""
+        return {"verdict": self.verdict, "seed": self.seed, "rows": [counted.to_dict() for counted in self.counted]}
 
 
-def _counted(row: Mapping[str, Any]) -> Counted:
-    draws, parameters = row["draws"], row["parameters"]
-    hits = {name: round(each["coverage"] * draws) for name, each in parameters.items()}
-    bias = {name: each["bias"] for name, each in parameters.items()}
-    return Counted(row["case"], row["weighting"], draws, hits, bias)
-
-
-def exact_interval(hits: int, draws: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Clopper and Pearson's interval of a proportion."""
-    tail = 0.5 * (1.0 - confidence)
+def exact_interval(hits: int, draws: int) -> tuple[float, float]:
+    """Clopper and Pearson's interval of a proportion, at `CONFIDENCE`."""
+    tail = 0.5 * (1.0 - CONFIDENCE)
     low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
     high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
     return low, high
@@ -239,12 +213,9 @@ def study(
 
     Parameters
     ----------
-    draws : int
-    seed : int
     cases : sequence of Case
     methods : sequence of str
         Weightings of `probation.fit`.
-    processes : int
     state : path-like, optional
         A file that keeps what was counted, a line per draw; what it has is not done again.
     progress : callable, optional
@@ -310,7 +281,7 @@ def ramp_response(time: FloatArray) -> FloatArray:
     unrelaxed, longest, hardening = TRUTH.values()
     stress = np.zeros_like(time)
     times = [longest * 10.0 ** (-(50 - j) * 6.0 / 49.0) for j in range(1, 51)]  # eq. (4)
-    weights = [tau**0.5 / sum(each**0.5 for each in times) for tau in times]  # eq. (5)
+    weights = [tau**0.5 / sum(other**0.5 for other in times) for tau in times]  # eq. (5)
     for tau, weight in zip(times, weights, strict=True):
         decayed = np.exp(-time / tau)
         up = (np.exp(2.0 * STRAIN_RATE * time) - decayed) / (1.0 + 2.0 * STRAIN_RATE * tau)

@@ -23,6 +23,7 @@ from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_nam
 from probation.noise.whiteness import correlation_lags
 from probation.records.noise import scatter
 from probation.results.labelled import LabelledMatrix
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -35,9 +36,6 @@ if TYPE_CHECKING:
     from probation.law.schemes import Scheme
     from probation.noise.model import NoiseModel
     from probation.records.campaign import Campaign
-
-LIKELY_MODULI = (1e-3, 1e6)
-"""Unrelaxed modulus, from the softest gel to diamond [MPa]."""
 
 
 def describe(
@@ -53,10 +51,8 @@ def describe(
 
     Parameters
     ----------
-    campaign : Campaign
     weighted : Weighted
         The law, and the noise that it was found with.
-    scheme : Scheme
     method, weighting, intervals : str
         As the fit was asked for.
     limits : mapping of str to (float, float)
@@ -145,7 +141,7 @@ def _used(weighted: Weighted) -> str:
 
 
 def _record_fit(view: RecordView, law: Law, noise: NoiseModel) -> RecordFit:
-    stress, sensitivity = (view.sampled(each) for each in DnlrLaw(law).sensitivity(view, law.parameters))
+    stress, sensitivity = (view.sampled(values) for values in DnlrLaw(law).sensitivity(view, law.parameters))
     record = view.record
     residual = stress - record.true_stress
     deviation = scatter(record.time, residual)
@@ -187,7 +183,7 @@ def _product(known: Covariance, problem: Problem, law: Law, degrees: int, *, wit
 
 def _modulus_warnings(problem: Problem, law: Law) -> list[str]:
     """No solid is softer or stiffer: a slip of the units is likelier."""
-    low, high = LIKELY_MODULI
+    low, high = IDENTIFICATION.likely_moduli
     if 0 not in problem.engine_law().free or low <= law.unrelaxed_modulus <= high:
         return []
     return [

@@ -46,7 +46,6 @@ def ends_of(problem: Problem, parameters: FloatArray, limits: Mapping[str, tuple
 
     Parameters
     ----------
-    problem : Problem
     parameters : ndarray, shape (free,)
         The best ones.
     limits : mapping of str to (float, float)

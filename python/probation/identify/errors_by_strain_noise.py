@@ -61,10 +61,10 @@ def resampled(view: RecordView, law: Law, gain: FloatArray, method: ExcitationMe
 def strain_noise_warnings(views: Sequence[RecordView], law: Law) -> list[str]:
     """Where strain noise, propagated to the stress by the hardening, is not small against the rest of the residual."""
     return [
-        f"{each.record.id}: strain noise of {each.excitation.strain_noise:.2g} amounts to {propagated:.2g} MPa at the "
+        f"{view.record.id}: strain noise of {view.excitation.strain_noise:.2g} amounts to {propagated:.2g} MPa at the "
         f"largest strain; the standard errors, that of {SYMBOLS['hardening_modulus']} above all, do not include it"
-        for each in views
-        if (propagated := propagated_at_end(each, law)) > CERTIFICATE.strain_noise_matters * left_over(each, law)
+        for view in views
+        if (propagated := propagated_at_end(view, law)) > CERTIFICATE.strain_noise_matters * left_over(view, law)
     ]
 
 

@@ -147,7 +147,6 @@ def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Map
 
     Parameters
     ----------
-    campaign : Campaign
     scheme : {"be2", "sa2", "sa3"}, `BE2`, `SA2` or `SA3`
     hold : dict of str to float, optional
         As in `fit`.
@@ -157,16 +156,8 @@ def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Map
     return fit(campaign, scheme, hold=hold, weighting="plain", method="variable-projection", gap=False)
 
 
-def gap_of(campaign: Campaign, hold: Mapping[str, float] | None = None, *, predicted: bool = True) -> Gap | None:
+def gap_of(campaign: Campaign) -> Gap | None:
     """Whether the campaign's law departs from its records: the test of `probation.diagnose` with its defaults.
-
-    Parameters
-    ----------
-    campaign : Campaign
-    hold : dict of str to float, optional
-        As in `fit`.
-    predicted : bool
-        Whether to test the predictions of held-out records, too.
 
     Returns
     -------
@@ -174,7 +165,7 @@ def gap_of(campaign: Campaign, hold: Mapping[str, float] | None = None, *, predi
         None where the records are too few or too odd for the test.
     """
     try:
-        return find_gap(_base_of(campaign, hold), effects(), predicted=predicted)
+        return find_gap(_base_of(campaign), effects())
     except UNSOLVABLE:
         return None
 
@@ -188,7 +179,7 @@ def _judged(found: Fit, campaign: Campaign, hold: Mapping[str, float] | None) ->
         return found
 
 
-def _base_of(campaign: Campaign, hold: Mapping[str, float] | None) -> BaseFit:
+def _base_of(campaign: Campaign, hold: Mapping[str, float] | None = None) -> BaseFit:
     few = thin(campaign)[0]
     return base_fit(few, plain_fit(few, hold=hold)).screened(effects())
 

@@ -20,7 +20,6 @@ class ModelledRecord(WithCurves):
 
     Attributes
     ----------
-    id : str
     time, true_strain, true_stress : ndarray, shape (n_times,) [s], [-], [MPa]
         As measured.
     excitation : Excitation

@@ -34,10 +34,6 @@ class Posterior:
 
     The size of each record's noise is integrated out with the prior 1 / size; its shape (correlation, growth along the
     record) is what the fit found it to be.
-
-    Attributes
-    ----------
-    problem : Problem
     """
 
     problem: Problem
@@ -85,8 +81,6 @@ def walk(posterior: Posterior, count: int, seed: int, around: FloatArray) -> Flo
 
     Parameters
     ----------
-    posterior : Posterior
-    count, seed : int
     around : ndarray, shape (n_draws, free)
         Draws of the Laplace approximation: where the walkers start.
 

@@ -41,7 +41,6 @@ class Profile:
 
     Attributes
     ----------
-    name : str
     value : float
         The estimate.
     values : ndarray, shape (n_points,)
@@ -81,7 +80,6 @@ def profile(
         The fit.
     known : Covariance
         Of its parameters.
-    index : int
     quantile : float
         Of Student's t at 97.5 %.
     limits : mapping of str to (float, float)

@@ -124,13 +124,13 @@ class Fit(Result, Stored):
     @from_curves
     def rms_MPa(self) -> float:
         """Root mean square of the fit residual over all samples."""
-        return float(np.sqrt(np.mean(np.concatenate([each.fit_residual for each in self.records.values()]) ** 2)))
+        return float(np.sqrt(np.mean(np.concatenate([record.fit_residual for record in self.records.values()]) ** 2)))
 
     @from_curves
     def noise_MPa(self) -> float:
         """Its high-frequency part."""
-        weights = [len(each.time) for each in self.records.values()]
-        return float(np.sqrt(np.average([each.noise_MPa**2 for each in self.records.values()], weights=weights)))
+        weights = [len(record.time) for record in self.records.values()]
+        return float(np.sqrt(np.average([record.noise_MPa**2 for record in self.records.values()], weights=weights)))
 
     @property
     def bias_MPa(self) -> float:
@@ -174,31 +174,31 @@ class Fit(Result, Stored):
         return curves.assign(
             sensitivity_MPa=(
                 ("sample", "parameter"),
-                np.concatenate([each.sensitivity for each in self.records.values()]),
+                np.concatenate([record.sensitivity for record in self.records.values()]),
             )
         ).assign_coords(parameter=[outside_name(name) for name in self.law.parameter_names])
 
     def _curves(self) -> dict[str, dict[str, FloatArray]]:
         return {
             name: {
-                "time_s": each.time,
-                "true_strain": each.true_strain,
-                "true_stress_MPa": each.true_stress,
-                "model_stress_MPa": each.model_stress,
-                "residual_MPa": each.fit_residual,
+                "time_s": record.time,
+                "true_strain": record.true_strain,
+                "true_stress_MPa": record.true_stress,
+                "model_stress_MPa": record.model_stress,
+                "residual_MPa": record.fit_residual,
             }
-            for name, each in self.records.items()
+            for name, record in self.records.items()
         }
 
     @property
     def samples(self) -> int:
         """Of all records."""
-        return sum(each.samples for each in self.records.values())
+        return sum(record.samples for record in self.records.values())
 
     @property
     def effective_samples(self) -> float:
         """Independent samples that would say as much of the scatter: fewer where the fit residual is autocorrelated."""
-        return sum(each.effective_samples for each in self.records.values())
+        return sum(record.effective_samples for record in self.records.values())
 
     @property
     def degrees(self) -> float:
@@ -345,7 +345,7 @@ class Fit(Result, Stored):
     def verdict(self) -> str:
         """One sentence."""
         poor = [p for p in self.parameters.values() if p.status not in ("identifiable", "held")]
-        largest = max(each.largest_stress_MPa for each in self.records.values())
+        largest = max(record.largest_stress_MPa for record in self.records.values())
         part = percentage(self.bias_MPa / largest)
         noise = f"the noise being {self.noise_MPa:.3g} MPa"
         bias = f"the law leaves a bias of {self.bias_MPa:.3g} MPa ({part} % of the largest stress)"
@@ -403,6 +403,6 @@ class Fit(Result, Stored):
                 "shift_in_se": {outside_name(name): shift for name, shift in self.scheme_shift.items()},
             },
             "gap": None if self.gap is None else self.gap.to_dict(),
-            "records": {name: each.to_json() for name, each in self.records.items()},
+            "records": {name: record.to_json() for name, record in self.records.items()},
             "warnings": list(self.warnings),
         }

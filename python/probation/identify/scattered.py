@@ -21,55 +21,54 @@ if TYPE_CHECKING:
     from probation.inference.parameter import Parameter
 
 
-def with_scatter(found: Fit, base: BaseFit) -> Fit:
+def with_scatter(fit: Fit, base: BaseFit) -> Fit:
     """The fit with standard errors and intervals of the material's mean, where scatter is known; else as it is.
 
     Scatter that is assumed for want of replicates widens nothing.
 
     Parameters
     ----------
-    found : Fit
     base : BaseFit
         Of the same campaign.
     """
     if not (base.scatter.known and base.scatter.any):
-        return found
-    moves = _moves(found, base)
-    errors = np.array([found.parameters[name].se or 0.0 for name in found.names])
+        return fit
+    moves = _moves(fit, base)
+    errors = np.array([fit.parameters[name].se or 0.0 for name in fit.names])
     if not np.all(errors > 0.0):
-        return found
-    total = np.outer(errors, errors) * found.correlation + moves @ moves.T
+        return fit
+    total = np.outer(errors, errors) * fit.correlation + moves @ moves.T
     deviation = np.sqrt(np.diag(total))
     degrees = base.scatter.specimens - 1 if base.scatter.source == "replicates" else None
     reach = float(ndtri(0.975) if degrees is None else stdtrit(max(degrees, 1), 0.975))
-    parameters = dict(found.parameters)
-    for name, error in zip(found.names, deviation.tolist(), strict=True):
-        parameters[name] = _widened(found.parameters[name], error, reach)
-    slopes = _product_slopes(found)
-    product = found.product
+    parameters = dict(fit.parameters)
+    for name, error in zip(fit.names, deviation.tolist(), strict=True):
+        parameters[name] = _widened(fit.parameters[name], error, reach)
+    slopes = _product_slopes(fit)
+    product = fit.product
     if product.se is not None:
         product = _widened(product, float(np.hypot(product.se, np.linalg.norm(slopes @ moves))), reach)
     return replace(
-        found,
+        fit,
         parameters=parameters,
         product=product,
         correlation=total / np.outer(deviation, deviation),
-        covariance=replace(found.covariance, matrix=total),
+        covariance=replace(fit.covariance, matrix=total),
         errors_of="material",
     )
 
 
-def _moves(found: Fit, base: BaseFit) -> FloatArray:
+def _moves(fit: Fit, base: BaseFit) -> FloatArray:
     """Change of the estimates by each deviation of each specimen, of one standard deviation, shape (free, n)."""
     white = base.whitened
-    weights = [max(found.records[record.name].noise_MPa, 1e-12) ** -2.0 for record in white.records]
+    weights = [max(fit.records[record.name].noise_MPa, 1e-12) ** -2.0 for record in white.records]
     normal = sum(
         (weight * record.tangent.T @ record.tangent for weight, record in zip(weights, white.records, strict=True)),
-        np.zeros((len(found.names), len(found.names))),
+        np.zeros((len(fit.names), len(fit.names))),
     )
     columns = []
     for members in specimens_of(white.noises):
-        moved = np.zeros((len(found.names), 0))
+        moved = np.zeros((len(fit.names), 0))
         for index in members:
             deviations = white.noises[index].specimen
             if deviations is None:
@@ -82,11 +81,11 @@ def _moves(found: Fit, base: BaseFit) -> FloatArray:
     return np.asarray(inverse @ np.hstack(columns))
 
 
-def _product_slopes(found: Fit) -> FloatArray:
+def _product_slopes(fit: Fit) -> FloatArray:
     """Derivatives of E_u times tau_max or alpha by the identified parameters, shape (free,)."""
-    modulus, time = found.law.parameter_names[:2]
-    values = {modulus: float(getattr(found.law, time)), time: float(getattr(found.law, modulus))}
-    return np.array([values.get(name, 0.0) for name in found.names])
+    modulus, time = fit.law.parameter_names[:2]
+    values = {modulus: float(getattr(fit.law, time)), time: float(getattr(fit.law, modulus))}
+    return np.array([values.get(name, 0.0) for name in fit.names])
 
 
 def _widened(parameter: Parameter, error: float, reach: float) -> Parameter:

@@ -10,7 +10,7 @@ from probation.identify.weighting import known_of
 from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
@@ -23,13 +23,18 @@ ENOUGH_INSTANTS = 4000
 """On short records it may take more, up to this many instants in all: they cost next to nothing."""
 
 
+def most_substeps(lengths: Iterable[int]) -> int:
+    """Steps from sample to sample that are tried at most, on records of so many samples."""
+    return max(CERTIFICATE.most_substeps, ENOUGH_INSTANTS // max(lengths))
+
+
 def scheme_error(
     problem: Problem, views: Sequence[RecordView], parameters: FloatArray, jacobian: FloatArray, known: Covariance
 ) -> tuple[float, FloatArray]:
     """How far the scheme of `views` is from SA3 [MPa], and what that does to the parameters, in standard errors."""
     own, reference = (
-        problem.with_views(each).model.residual(parameters)
-        for each in (views, [view.with_scheme("sa3") for view in views])
+        problem.with_views(chosen).model.residual(parameters)
+        for chosen in (views, [view.with_scheme("sa3") for view in views])
     )
     weighted = problem.whitener_at(parameters).residual(own - reference)
     size = np.where(parameters != 0.0, np.abs(parameters), 1.0)
@@ -51,11 +56,10 @@ def needed_substeps(weighted: Weighted, views: Sequence[RecordView], at_least: i
         The fit.
     views : sequence of RecordView
         By the scheme.
-    at_least : int
     """
     problem, parameters = weighted.problem, weighted.parameters
     known, jacobian = known_of(weighted)
-    most = max(CERTIFICATE.most_substeps, ENOUGH_INSTANTS // max(problem.lengths))
+    most = most_substeps(problem.lengths)
     steps = at_least
     while True:  # once would do, were the steps always short enough for the order to show
         shift = scheme_error(problem, [view.with_substeps(steps) for view in views], parameters, jacobian, known)[1]

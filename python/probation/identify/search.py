@@ -48,7 +48,6 @@ def by_least_squares(
 
     Parameters
     ----------
-    problem : Problem
     start : ndarray, shape (free,)
     bounds : mapping of str to (float, float)
     tolerance : float

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.identify.scheme_error import most_substeps
 from probation.law.schemes import scheme_of
 from probation.records.noise import scatter
 from probation.settings.certificate import CERTIFICATE
@@ -20,29 +21,24 @@ if TYPE_CHECKING:
     from probation.smoothing.excitation import Excitation
 
 
-MOST, ENOUGH_INSTANTS = 16, 4000
-"""Most substeps; on short records as many as make so many instants in all."""
-
-
-def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Excitation]) -> int:
+def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Excitation]) -> int:
     """Substeps for a scheme of order 2, at least those of the fit.
 
     A fit takes as many as its standard errors ask for, which are wide where there is a gap; the noise asks for more.
 
     Parameters
     ----------
-    campaign : Campaign
-    found : Fit
+    fit : Fit
         Of the base law.
     excitations : dict of str to Excitation
         By record id, at the samples.
     """
-    most = max(MOST, ENOUGH_INSTANTS // max(len(record.time) for record in campaign.identify))
-    steps = found.substeps
+    most = most_substeps(len(record.time) for record in campaign.identify)
+    steps = fit.substeps
     while steps < most:
         square = 0.0
         for record in campaign.identify:
-            coarse, fine = (predicted(found, excitations[record.id], count) for count in (steps, 2 * steps))
+            coarse, fine = (predicted(fit, excitations[record.id], count) for count in (steps, 2 * steps))
             least = NOISE.least_noise * float(np.max(np.abs(record.true_stress)))
             noise = max(scatter(record.time, record.true_stress - fine), least)
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
@@ -56,8 +52,8 @@ def enough_substeps(campaign: Campaign, found: Fit, excitations: Mapping[str, Ex
     return steps
 
 
-def predicted(found: Fit, excitation: Excitation, substeps: int) -> FloatArray:
+def predicted(fit: Fit, excitation: Excitation, substeps: int) -> FloatArray:
     """The fitted law's stress at the samples, shape (n_samples,) [MPa]."""
     fine = excitation.refined(substeps)
-    stress = found.law.stress(fine, scheme=scheme_of(found.scheme, found.start))
+    stress = fit.law.stress(fine, scheme=scheme_of(fit.scheme, fit.start))
     return np.asarray(stress[::substeps])

@@ -19,6 +19,7 @@ from probation.identify.search import by_least_squares, first_guess
 from probation.inference.residual_noise import with_residual_noise
 from probation.inference.strain_noise import LARGEST, StrainNoise
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.identification import IDENTIFICATION
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.excitation import excite
 
@@ -88,7 +89,7 @@ def weigh(
     parameters = plain
     smooth, there = (problem, parameters) if frozen else _smoothly_driven(problem, parameters, limits)
     strain, added = _strain_noises(problem, smooth, there, weighting, excitation)
-    if any(each is not None for each in strain):
+    if any(noise is not None for noise in strain):
         # First with the noise as it is known: the least-squares residual may be far from what is left in the end.
         known = problem.with_noises(problem.whitener.noises, strain)
         if frozen:
@@ -157,7 +158,8 @@ def _strain_noises(
     for view, gain in zip(problem.views, gains, strict=True):
         if len(view.record) > LARGEST:
             found.append(None)
-            if propagated_at_end(view, law) > 0.3 * CERTIFICATE.strain_noise_matters * left_over(view, law):
+            enough = IDENTIFICATION.early_part_of_strain_noise * CERTIFICATE.strain_noise_matters
+            if propagated_at_end(view, law) > enough * left_over(view, law):
                 moved = resampled(view, law, gain, excitation)
                 added = moved if added is None else added + moved
             continue

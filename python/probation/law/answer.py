@@ -95,7 +95,7 @@ def _companion_from(answer: object) -> Companion | None:
         raise InputError(f"law.companion.form: found {_shown(form)}, expected one of {', '.join(FORMS)}")
     relation: Any = FORMS[form]
     outside = {name: key for key, name in _COMPANION_NAMES.items()}
-    known = {outside.get(each.name, each.name): each for each in fields(relation)}
+    known = {outside.get(declared.name, declared.name): declared for declared in fields(relation)}
     for key in table:
         if key not in known and key != "form":
             raise InputError(f"law.companion: found no {quoted(key)} that is known of the form {form}")
@@ -105,7 +105,7 @@ def _companion_from(answer: object) -> Companion | None:
         if key in table or each.default is MISSING
     }
     made: Companion = relation(
-        **{name: tuple(each) if isinstance(each, list) else each for name, each in values.items()}
+        **{name: tuple(value) if isinstance(value, list) else value for name, value in values.items()}
     )
     return made
 

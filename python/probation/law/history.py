@@ -73,7 +73,7 @@ class StrainHistory:
 
     def __reduce__(self) -> tuple[Callable[..., StrainHistory], tuple[object, ...]]:
         made = self.time, self.true_strain, self.strain_rate, self.time[list(self.jumps)], self.direction
-        return _made, tuple(None if each is None else each.copy() for each in made)
+        return _made, tuple(None if array is None else array.copy() for array in made)
 
     @property
     def time(self) -> FloatArray:

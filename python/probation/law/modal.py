@@ -270,7 +270,7 @@ class Law(Displayed):
             engine_directions = parameter_directions(made, modification, solver.history)
         else:
             refuse(modification, _FOLLOWS_PARAMETERS, "a derivative along directions or strains")
-            engine_directions = [each._engine() for each in directions]
+            engine_directions = [direction._engine() for direction in directions]
         stress = np.empty(len(solver.history))
         sensitivity = np.empty((len(stress), len(engine_directions)))
         solver.tangent(made.law, made.change, engine_directions, stress, sensitivity)

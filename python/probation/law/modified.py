@@ -32,7 +32,6 @@ class ModifiedLaw(NamedTuple):
     ----------
     law : _core.Law
         With its rate shift and its weights.
-    change : _core.LawChange
     """
 
     law: _core.Law
@@ -62,7 +61,6 @@ def modified(
         As in `engine_law_of`.
     companion, spectrum
         Of the law without modification.
-    modification : Modification
     initial_haward_thackray_strain : float
         e_HT of the first sample [-]; only an `InitialStress` needs it.
 

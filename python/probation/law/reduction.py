@@ -47,7 +47,6 @@ def fewer_modes(
     relaxation_ratio, modal_weight : ndarray, shape (modes,) [-]
     accuracy : float
         Error at which no further mode is added [-].
-    most : int
 
     Returns
     -------

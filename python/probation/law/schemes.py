@@ -54,7 +54,7 @@ class Scheme:
         self.engine  # noqa: B018 - refuses what cannot be
 
     def __getstate__(self) -> dict[str, object]:
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+        return {option.name: getattr(self, option.name) for option in fields(self)}
 
     @cached_property
     def engine(self) -> _core.SolverOptions:
@@ -162,7 +162,7 @@ class CVODE(Scheme):
         return scheme, start, tolerances[0], tolerances[1], most
 
 
-_NAMED: dict[str, Scheme] = {each.name: each() for each in (BE2, SA2, SA3, Exact, CVODE)}
+_NAMED: dict[str, Scheme] = {kind.name: kind() for kind in (BE2, SA2, SA3, Exact, CVODE)}
 
 
 def as_scheme(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEMES) -> Scheme:

@@ -50,7 +50,6 @@ class Twin:
 
     Attributes
     ----------
-    name : str
     time : ndarray, shape (n_times,) [s]
     true_strain : ndarray, shape (n_times,) [-]
         As recorded.
@@ -64,7 +63,6 @@ class Twin:
         Standard deviation of the stress noise.
     control : str
         As in a record.
-    seed : int
     strain_noise : float [-]
         Standard deviation of the strain noise; the specimen did not see it.
     """
@@ -100,7 +98,6 @@ def experiment_1(
 
     Parameters
     ----------
-    seed : int
     noise : float [MPa]
         Standard deviation of the stress noise.
     vibration : bool
@@ -141,7 +138,6 @@ def experiment_3(
 
     Parameters
     ----------
-    seed : int
     noise : float [MPa]
         Standard deviation of the stress noise.
     necking : {"P1", "P2", "P3"}
@@ -182,7 +178,6 @@ def twin_campaign(
     ----------
     experiments : sequence of {1, 2, 3}
         Which to identify on.
-    seed : int
     noise : float [MPa]
     held_out : sequence of {1, 2, 3}
         Which to predict only.

@@ -15,7 +15,6 @@ class Printed:
 
     Attributes
     ----------
-    value : float
     change : str
         The relative change to the table's reference beside it [%], as printed; empty for a dash.
     """
@@ -30,7 +29,6 @@ class PrintedIdentification:
 
     Attributes
     ----------
-    name : str
     unrelaxed_modulus : Printed [MPa]
     time : Printed
         tau_max [s] in Table 1, alpha [-] in Tables 3 and 4.

@@ -32,7 +32,6 @@ class Fault:
         Which of the sampled quantities.
     sample : int
         Index of the sample, from 0.
-    found, expected, remedy : str
     """
 
     quantity: str

@@ -29,13 +29,9 @@ Signals = tuple[FloatArray, FloatArray]
 _STEPS = 400  # of the grid on which rates are compared, over the shorter record
 _SMOOTHED = 4  # steps of the grid that a rate is taken over, either way
 _KEPT = 1000  # means of neighbouring samples, over the shorter record, in which the strain itself is compared
-_PROPOSED = 3.0  # times the least rest of the rates: a minimum below it is looked at
 _MOST_PROPOSED = 8  # of such minima
-_UNSTRAINED = 0.05  # of the largest strain: a first frame with less is one of the specimen at rest
 _FEWEST = 10  # samples of an onset
 _FEWEST_STEPS = 20  # of the grid in the shorter record: fewer tell no shift
-_EXACT = 1e-6  # of the largest strain: no file has less noise
-_BETWEEN = 0.1  # of the distance of samples: what lies between them is known no better
 _FINER = 5  # times, in each of the refinements
 _REFINEMENTS = 4
 _BY = "strain, displacement and force"
@@ -88,10 +84,6 @@ def estimate_shift(
     strain_time : ndarray, shape (m,) [s]
         Of the strain file.
     strain : ndarray, shape (m,) [-]
-
-    Returns
-    -------
-    Shift
     """
     if displacement is None:
         return _by_onset(time, force, strain_time, strain)
@@ -119,7 +111,7 @@ def estimate_shift(
         (at for at in elsewhere if rests[at] < rests[value] + READING.clock_rival * variance),
         key=rests.__getitem__,
     )
-    se = float(np.hypot(max(reach, step * _FINER**-_REFINEMENTS), _BETWEEN * apart))
+    se = float(np.hypot(max(reach, step * _FINER**-_REFINEMENTS), READING.clock_between * apart))
     at_the_edge = not lowest + step < value < highest - step
     unknown = at_the_edge or bool(others) or se > READING.clock_unknown * shorter
     tried = np.unique(np.append(shifts, value))
@@ -142,7 +134,7 @@ def _proposed(machine: Signals, film: Signals, shifts: FloatArray, step: float) 
     inner = np.flatnonzero((rests[1:-1] <= rests[:-2]) & (rests[1:-1] <= rests[2:])) + 1
     found: list[float] = []
     for i in sorted([*inner.tolist(), int(np.argmin(rests))], key=rests.__getitem__):
-        if rests[i] < _PROPOSED * rests.min() and all(abs(shifts[i] - other) > reach for other in found):
+        if rests[i] < READING.clock_proposed * rests.min() and all(abs(shifts[i] - other) > reach for other in found):
             found.append(float(shifts[i]))
     return found[:_MOST_PROPOSED]
 
@@ -180,7 +172,7 @@ class _Tie:
         """Of the sum of squares that is left at a shift, if it were noise that remembers itself as this does."""
         residual, frames = self._residual(shift)
         left = residual[:frames]
-        exact = _EXACT * float(np.abs(self.film[1]).max())
+        exact = READING.clock_exact * float(np.abs(self.film[1]).max())
         return max(_square(left) / max(frames - 4, 1) * _memory(left), exact**2)
 
     def reach(self, value: float, step: float, variance: float, within: tuple[float, float]) -> float:
@@ -231,7 +223,7 @@ def _filled(sums: FloatArray, frames: FloatArray, of: float) -> FloatArray:
 
 
 def _starts_at_rest(film: Signals) -> bool:
-    return bool(abs(film[1][0]) < _UNSTRAINED * np.abs(film[1]).max())
+    return bool(abs(film[1][0]) < READING.clock_unstrained * np.abs(film[1]).max())
 
 
 def _rested(signals: Signals, before: float) -> Signals:

@@ -74,10 +74,8 @@ def extract(
 
     Parameters
     ----------
-    table : Table
     reading : Reading
         What the profile says besides.
-    options : ReadOptions
     with_stress : bool
         False for a strain history, which needs no stress column.
     minimum : int
@@ -324,12 +322,10 @@ def _unstated_units(
 
     Parameters
     ----------
-    table : Table
     columns : mapping of str to Column
         By role.
     used : collection of str
         The roles that are read.
-    options : ReadOptions
     """
     bare = {
         role: column

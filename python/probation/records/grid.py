@@ -102,7 +102,6 @@ def check_extent(source: Source, row: int, columns: int, cells: int) -> None:
 
     Parameters
     ----------
-    source : Source
     row : int
         Of the file, counted from 1.
     columns : int

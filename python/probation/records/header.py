@@ -48,7 +48,6 @@ def find_heading(
 
     Parameters
     ----------
-    grid : Grid
     wanted : collection of str
         Labels that the user named.
     known : collection of str

@@ -106,7 +106,6 @@ def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
 
     Parameters
     ----------
-    path : Path
     cells : sequence of sequence of str
         The rows.
     """
@@ -115,7 +114,7 @@ def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
     if tabled:
         return HeaderBlock(_facts(rows), tabled)
     found: dict[str, float] = {}
-    said = [*filter(None, map(_dimension, rows)), *(each for row in rows for each in _in_remarks(row))]
+    said = [*filter(None, map(_dimension, rows)), *(dimension for row in rows for dimension in _in_remarks(row))]
     for key, value, _ in sorted(said, key=lambda dimension: dimension[2]):
         found.setdefault(key, value)
     needed = _needed(path, found)
@@ -209,7 +208,7 @@ def _table_of_specimens(path: Path, rows: Sequence[Sequence[str]]) -> tuple[dict
             if not cells or not all(map(is_number, cells.values())):
                 break
             found = [_in_millimetres(keys[place], text, units[place]) for place, text in cells.items()]
-            specimens.append(_needed(path, dict(each for each in found if each is not None)))
+            specimens.append(_needed(path, dict(dimension for dimension in found if dimension is not None)))
         if specimens:
             return tuple(specimens)
     return ()

@@ -60,7 +60,7 @@ def records_from_arrays(
     """Records of arrays by role; `Campaign.from_arrays` says the arguments."""
     place = Path("from_arrays")
     given = {role: values for role, values in arrays.items() if values is not None}
-    values = {role: _samples(place, role, each, "argument") for role, each in given.items()}
+    values = {role: _samples(place, role, values, "argument") for role, values in given.items()}
     columns = {role: Column(role, role, ROLES[role].unit, at) for at, role in enumerate(values)}
     names = None if isinstance(record, str) else _names(place, "record", record)
     return _records(
@@ -189,7 +189,7 @@ def _by_record(
 ) -> dict[str, Any]:
     """An argument for each record: one value for all, or a mapping by the record's name."""
     keys = set(value) if isinstance(value, Mapping) else set()
-    by_name = any(isinstance(each, Mapping) for each in value.values()) if nested else bool(keys)
+    by_name = any(isinstance(entry, Mapping) for entry in value.values()) if nested else bool(keys)
     if not by_name:
         return dict.fromkeys(names, value)
     for key in value:

@@ -43,7 +43,6 @@ class Joined:
     within : ndarray of bool, shape (n,)
         The samples of the force file at which there is a strain.
     true_strain : ndarray, shape (n_within,) [-]
-    shift : Shift
     note : str
         Which file, which shift, how well it is known.
     """
@@ -61,7 +60,6 @@ def join(path: Path, film: Film, time: FloatArray, force: FloatArray, displaceme
     ----------
     path : Path
         The force file.
-    film : Film
     time : ndarray, shape (n,) [s]
     force : ndarray, shape (n,)
         Force or stress.

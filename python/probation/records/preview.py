@@ -32,7 +32,6 @@ class Preview(Summarised, Plotted):
 
     Attributes
     ----------
-    path : Path
     profile, title : str
         Import profile, and what it is.
     encoding, separator, decimal : str

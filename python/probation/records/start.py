@@ -26,7 +26,6 @@ FloatArray = NDArray[np.float64]
 STARTS = ("auto", "relaxed", "loaded")
 """`auto` is loaded where no more than one interval between samples is missing, and else relaxed."""
 
-_AHEAD = 4.0  # times the first strain: how far the strain rate at the start is looked for
 _FEWEST = 10  # samples behind the strain rate at the start
 _FEWEST_OF_FORCE = 4  # ... behind the rate of the stress, which bends soon
 
@@ -138,7 +137,7 @@ def _line_before(record: Record) -> tuple[float, float] | None:
     noise: in true strain, or in engineering strain where the displacement was driven.
     """
     time, strain = record.time - record.time[0], record.true_strain
-    beyond = np.flatnonzero(np.abs(strain) > _AHEAD * abs(strain[0]))
+    beyond = np.flatnonzero(np.abs(strain) > READING.start_reach * abs(strain[0]))
     count = max(int(beyond[0]) if beyond.size else len(strain), _FEWEST)
     driven = np.expm1(strain) if record.control == "displacement-rate" else strain
     rate, first = np.polyfit(time[:count], driven[:count], 1)

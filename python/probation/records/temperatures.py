@@ -11,6 +11,7 @@ from probation.records.checks import find_excess, find_fault, find_short_step, r
 from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadOptions
 from probation.records.record import Record
+from probation.settings.reading import READING
 
 _ROLES = ("time", "temperature")
 
@@ -20,7 +21,6 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
 
     Parameters
     ----------
-    record : Record
     path : Path
         A file whose profile finds time [s] and temperature [°C]; both clocks start together.
     specimen_index : int
@@ -42,7 +42,7 @@ def with_temperature(record: Record, path: Path, specimen_index: int = 1) -> Rec
         raise refusal(table, columns, fault)
     time, begin, end = log["time"], float(record.time[0]), float(record.time[-1])
     missing = max(float(time[0]) - begin, end - float(time[-1]), 0.0)
-    if missing > 0.1 * (end - begin):
+    if missing > READING.log_missing * (end - begin):
         raise bad_input(
             path,
             f"temperatures from {time[0]:g} to {time[-1]:g} s",

@@ -44,7 +44,6 @@ class TomlTable:
 
     Attributes
     ----------
-    path : Path
     name : str
         For people: ``"[law.companion]"``, ``"[[record]] 2"``; empty for the top.
     dotted : str

@@ -10,7 +10,7 @@ from scipy.special import chdtri
 from probation.errors import InputError
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.normal import TWO_SIDED_95
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour
 from probation.wording import percentage
 
@@ -31,8 +31,7 @@ REACH = 3.5
 
 def band_figure(found: StressBand) -> Figure:
     """The stress over strain with its confidence band within its prediction band."""
-    with house_style():
-        figure = new_figure(7.2, 4.2)
+    with styled_figure(7.2, 4.2) as figure:
         axes = figure.subplots()
         level = percentage(found.level)
         for band, alpha, label in (
@@ -61,8 +60,7 @@ def corner_figure(fit: Fit) -> Figure:
     centre = np.array([getattr(fit.law, name) for name in fit.names])
     errors = np.sqrt(np.diag(matrix))
     count = len(centre)
-    with house_style():
-        figure = new_figure(1.2 + 2.1 * count, 1.0 + 1.9 * count)
+    with styled_figure(1.2 + 2.1 * count, 1.0 + 1.9 * count) as figure:
         panels = figure.subplots(count, count, squeeze=False, sharex="col")
         for row in range(count):
             for column in range(count):

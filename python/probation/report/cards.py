@@ -117,24 +117,26 @@ def law_card(law: Law) -> Card:
     )
 
 
-def simulation_line(found: Simulation) -> str:
+def simulation_line(simulation: Simulation) -> str:
     """What was simulated, and how far it goes."""
     return (
-        f"<Simulation of {found.name!r} by {found.scheme}: {len(found.time)} samples, "
-        f"true strain up to {found.true_strain.max():.3g}, true stress up to {found.true_stress.max():.3g} MPa>"
+        f"<Simulation of {simulation.name!r} by {simulation.scheme}: {len(simulation.time)} samples, "
+        f"true strain up to {simulation.true_strain.max():.3g}, "
+        f"true stress up to {simulation.true_stress.max():.3g} MPa>"
     )
 
 
-def simulation_card(found: Simulation) -> Card:
+def simulation_card(simulation: Simulation) -> Card:
     """The law, and the curve that it gives."""
-    law = law_card(found.law)
+    law = law_card(simulation.law)
     return Card(
         kind="Simulation",
-        title=found.name,
-        verdict=f"{len(found.time)} samples by {found.scheme}; true stress up to {found.true_stress.max():.4g} MPa",
+        title=simulation.name,
+        verdict=f"{len(simulation.time)} samples by {simulation.scheme}; "
+        f"true stress up to {simulation.true_stress.max():.4g} MPa",
         tables=law.tables,
-        drawing=Drawing(((found.true_strain, found.true_stress, "model"),)),
-        notes=(law.verdict, *found.warnings),
+        drawing=Drawing(((simulation.true_strain, simulation.true_stress, "model"),)),
+        notes=(law.verdict, *simulation.warnings),
     )
 
 
@@ -151,8 +153,8 @@ def fit_card(fit: Fit) -> Card:
         for name, p in fit.parameters.items()
     )
     records = tuple(
-        (each.id, f"{each.rms_MPa:.3g}", f"{each.noise_MPa:.3g}", f"{each.bias_MPa:.3g}")
-        for each in fit.records.values()
+        (record.id, f"{record.rms_MPa:.3g}", f"{record.noise_MPa:.3g}", f"{record.bias_MPa:.3g}")
+        for record in fit.records.values()
     )
     poor = any(p.status not in ("identifiable", "held") for p in fit.parameters.values())
     return Card(
@@ -164,75 +166,80 @@ def fit_card(fit: Fit) -> Card:
             Table(("parameter", "unit", "estimate ± standard error", "status"), rows, left=4),
             Table(("record", "rms [MPa]", "noise [MPa]", "bias [MPa]"), _first(records)),
         ),
-        drawing=_drawn((each.true_strain, each.true_stress, each.model_stress) for each in fit.records.values()),
+        drawing=_drawn(
+            (record.true_strain, record.true_stress, record.model_stress) for record in fit.records.values()
+        ),
         notes=shortened(fit.warnings, MOST_NOTES, "warning"),
     )
 
 
-def certificate_line(found: Certificate) -> str:
+def certificate_line(certificate: Certificate) -> str:
     """The verdict."""
-    return _line("Certificate", found.campaign, found.headline)
+    return _line("Certificate", certificate.campaign, certificate.headline)
 
 
-def certificate_card(found: Certificate) -> Card:
+def certificate_card(certificate: Certificate) -> Card:
     """The verdict, what passes, and the predictions."""
     return Card(
         kind="Certificate",
-        title=found.campaign,
-        verdict=found.headline,
-        mood={"intrinsic": "good", "not_intrinsic": "bad"}.get(found.verdict, "neutral"),  # type: ignore[arg-type]
-        tables=(parameter_table(found), prediction_table(found)),
-        drawing=_drawn((each.true_strain, each.true_stress, each.model_stress) for each in found.predictions.values()),
-        notes=shortened(found.warnings, MOST_NOTES, "warning"),
+        title=certificate.campaign,
+        verdict=certificate.headline,
+        mood={"intrinsic": "good", "not_intrinsic": "bad"}.get(certificate.verdict, "neutral"),  # type: ignore[arg-type]
+        tables=(parameter_table(certificate), prediction_table(certificate)),
+        drawing=_drawn(
+            (prediction.true_strain, prediction.true_stress, prediction.model_stress)
+            for prediction in certificate.predictions.values()
+        ),
+        notes=shortened(certificate.warnings, MOST_NOTES, "warning"),
     )
 
 
-def diagnosis_line(found: Diagnosis) -> str:
+def diagnosis_line(diagnosis: Diagnosis) -> str:
     """The headline."""
-    return _line("Diagnosis", found.campaign, found.headline)
+    return _line("Diagnosis", diagnosis.campaign, diagnosis.headline)
 
 
-def diagnosis_card(found: Diagnosis) -> Card:
+def diagnosis_card(diagnosis: Diagnosis) -> Card:
     """The headline, the causes, and where the gap is."""
-    which, _ = which_table(found, MOST_ROWS)
-    where, _ = where_table(found, MOST_ROWS)
+    which, _ = which_table(diagnosis, MOST_ROWS)
+    where, _ = where_table(diagnosis, MOST_ROWS)
     return Card(
         kind="Diagnosis",
-        title=found.campaign,
-        verdict=found.headline,
-        mood={"no_gap": "good", "explained": "neutral"}.get(found.verdict, "bad"),  # type: ignore[arg-type]
-        tables=(base_table(found),) if found.verdict == "no_gap" else (which, where),
-        drawing=_drawn((each.true_strain, each.data, each.base) for each in found.curves.values()),
-        notes=shortened(found.warnings, MOST_NOTES, "warning"),
+        title=diagnosis.campaign,
+        verdict=diagnosis.headline,
+        mood={"no_gap": "good", "explained": "neutral"}.get(diagnosis.verdict, "bad"),  # type: ignore[arg-type]
+        tables=(base_table(diagnosis),) if diagnosis.verdict == "no_gap" else (which, where),
+        drawing=_drawn((curves.true_strain, curves.data, curves.base) for curves in diagnosis.curves.values()),
+        notes=shortened(diagnosis.warnings, MOST_NOTES, "warning"),
     )
 
 
-def calibration_line(found: Calibration) -> str:
+def calibration_line(calibration: Calibration) -> str:
     """The relation."""
-    return _line("Calibration", found.source, found.verdict)
+    return _line("Calibration", calibration.source, calibration.verdict)
 
 
-def calibration_card(found: Calibration) -> Card:
+def calibration_card(calibration: Calibration) -> Card:
     """The relation and its rivals."""
-    chosen = found.candidates[found.chosen]
+    chosen = calibration.candidates[calibration.chosen]
     known = chosen.companion
     rows = tuple(
         (name, plus_minus(float(value), float(error)))
         for name, value, error in zip(known.parameter_names, known.parameters, known.standard_errors, strict=True)
     )
     rivals = tuple(
-        (each.form.title, "–" if each.score is None else f"{100.0 * each.score.rms:.2g}")
-        for each in found.candidates.values()
+        (candidate.form.title, "–" if candidate.score is None else f"{100.0 * candidate.score.rms:.2g}")
+        for candidate in calibration.candidates.values()
     )
     return Card(
         kind="Calibration",
-        title=found.source,
-        verdict=found.verdict,
+        title=calibration.source,
+        verdict=calibration.verdict,
         tables=(
             Table(("parameter", "value ± standard error"), rows, chosen.form.title),
             Table(("form", "error at rates left out [%]"), _first(rivals)),
         ),
-        notes=shortened(found.warnings, MOST_NOTES, "warning"),
+        notes=shortened(calibration.warnings, MOST_NOTES, "warning"),
     )
 
 

@@ -16,7 +16,7 @@ from probation.report.certificate_summary import (
     parameter_table,
     prediction_table,
 )
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import styled_figure, thinned
 from probation.report.page import Page, Section, picture
 from probation.report.plots import strain_rates
 from probation.report.style import colour, series_colour
@@ -36,36 +36,35 @@ _DOTS = 250  # measured points that are drawn
 _MOOD = {"intrinsic": "good", "intrinsic_except": "neutral", "not_intrinsic": "bad"}
 
 
-def certificate_figure(found: Certificate) -> Figure:
+def certificate_figure(certificate: Certificate) -> Figure:
     """Every record over strain: measured, predicted with nothing adjusted, identified alone; beside it the errors.
 
     The paper's Figures 4 to 6.
     """
-    records = list(found.alone)
-    with house_style():
-        figure = new_figure(7.6, 0.5 + 2.3 * len(records))
+    records = list(certificate.alone)
+    with styled_figure(7.6, 0.5 + 2.3 * len(records)) as figure:
         panels = figure.subplots(len(records), 2, squeeze=False, width_ratios=(1.25, 1), sharex=True)
         for (left, right), record in zip(panels, records, strict=True):
-            _record(left, right, found, record)
+            _record(left, right, certificate, record)
         for axes in panels[-1]:
             axes.set_xlabel("true strain [–]")
     return figure
 
 
-def _record(left: Axes, right: Axes, found: Certificate, record: str) -> None:
-    alone = found.alone[record].records[record]
+def _record(left: Axes, right: Axes, certificate: Certificate, record: str) -> None:
+    alone = certificate.alone[record].records[record]
     strain, stress = alone.true_strain, alone.true_stress
     left.plot(*thinned(strain, stress, _DOTS), ".", ms=4, mew=0, color=colour("data"), label="measured")
     lines: list[tuple[str, FloatArray, str]] = []
-    if record in found.predictions:
-        lines.append(("predicted, nothing adjusted", found.predictions[record].model_stress, colour("second")))
-    if record in found.base.records:
-        lines.append(("identified together", found.base.records[record].model_stress, colour("third")))
+    if record in certificate.predictions:
+        lines.append(("predicted, nothing adjusted", certificate.predictions[record].model_stress, colour("second")))
+    if record in certificate.base.records:
+        lines.append(("identified together", certificate.base.records[record].model_stress, colour("third")))
     lines.append(("identified alone", alone.model_stress, colour("model")))
     for label, model, shade in lines:
         left.plot(*thinned(strain, model), color=shade, lw=1.1, label=label)
         right.plot(*thinned(strain, model - stress), color=shade, lw=0.9)
-    tolerance = found.tolerance * float(np.max(np.abs(stress)))
+    tolerance = certificate.tolerance * float(np.max(np.abs(stress)))
     right.axhspan(-tolerance, tolerance, color=colour("data"), alpha=0.15, lw=0)
     right.axhline(0.0, color=colour("muted"), lw=0.8)
     note = f"band: ±{tolerance:.2g} MPa"
@@ -76,18 +75,17 @@ def _record(left: Axes, right: Axes, found: Certificate, record: str) -> None:
     left.legend(loc="best", fontsize=7.5)
 
 
-def parameter_figure(found: Certificate) -> Figure:
+def parameter_figure(certificate: Certificate) -> Figure:
     """Every parameter over the records, with 95 % intervals: a law that is intrinsic keeps them level."""
     shown = {
-        name: [(record, e.value, e.total_se) for record, e in each.by_record.items() if e.total_se is not None]
-        for name, each in found.parameters.items()
+        name: [(record, e.value, e.total_se) for record, e in parameter.by_record.items() if e.total_se is not None]
+        for name, parameter in certificate.parameters.items()
     }
     shown = {name: entries for name, entries in shown.items() if entries}
-    with house_style():
-        figure = new_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown))
+    with styled_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown)) as figure:
         panels = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
         for axes, (name, entries) in zip(panels, shown.items(), strict=True):
-            each = found.parameters[name]
+            each = certificate.parameters[name]
             good = not each.tested or each.passes
             for at, (_, value, error) in enumerate(entries):
                 shade = colour("model" if good else "bad")
@@ -107,12 +105,11 @@ def parameter_figure(found: Certificate) -> Figure:
     return figure
 
 
-def without_companion_figure(found: Certificate) -> Figure:
+def without_companion_figure(certificate: Certificate) -> Figure:
     """Every record with a constant tau_max: the paper's Figure 3."""
-    with house_style():
-        figure = new_figure(7.6, 3.6)
+    with styled_figure(7.6, 3.6) as figure:
         axes = figure.subplots()
-        for at, (record, fit) in enumerate(found.without_companion.items()):
+        for at, (record, fit) in enumerate(certificate.without_companion.items()):
             entry = fit.records[record]
             measured = thinned(entry.true_strain, entry.true_stress, _DOTS)
             axes.plot(*measured, ".", ms=4, mew=0, color=colour("data"), label="measured" if at == 0 else None)
@@ -123,13 +120,12 @@ def without_companion_figure(found: Certificate) -> Figure:
     return figure
 
 
-def hardening_figure(found: Certificate) -> Figure:
+def hardening_figure(certificate: Certificate) -> Figure:
     """Stress over Haward-Thackray strain and its regression: the paper's Figure S1."""
-    with house_style():
-        figure = new_figure(7.6, 3.6)
+    with styled_figure(7.6, 3.6) as figure:
         axes = figure.subplots()
-        for at, (record, line) in enumerate(found.regressions.items()):
-            entry = found.alone[record].records[record]
+        for at, (record, line) in enumerate(certificate.regressions.items()):
+            entry = certificate.alone[record].records[record]
             hardening = haward_thackray_strain(entry.true_strain)
             axes.plot(*thinned(hardening, entry.true_stress, _DOTS), ".", ms=4, mew=0, color=colour("data"))
             ends = haward_thackray_strain(np.array([line.from_strain, float(entry.true_strain.max())]))
@@ -140,40 +136,40 @@ def hardening_figure(found: Certificate) -> Figure:
     return figure
 
 
-def write_certificate_page(found: Certificate, path: Path) -> None:
+def write_certificate_page(certificate: Certificate, path: Path) -> None:
     """Write the page."""
-    sections = [_prediction(found), _parameters(found), _identification(found)]
-    if found.without_companion:
-        sections.append(_without_companion(found))
-    if found.regressions:
-        sections.append(_hardening(found))
-    sections.append(_how(found))
+    sections = [_prediction(certificate), _parameters(certificate), _identification(certificate)]
+    if certificate.without_companion:
+        sections.append(_without_companion(certificate))
+    if certificate.regressions:
+        sections.append(_hardening(certificate))
+    sections.append(_how(certificate))
     Page(
-        title=f"Probation test of the law on {found.campaign}",
-        verdict=found.headline,
-        mood=_MOOD[found.verdict],  # type: ignore[arg-type]
+        title=f"Probation test of the law on {certificate.campaign}",
+        verdict=certificate.headline,
+        mood=_MOOD[certificate.verdict],  # type: ignore[arg-type]
         lead="A law is intrinsic if parameters found on one kind of test predict tests driven quite otherwise. Here "
-        f"they are found on {', '.join(found.base.records)}.",
+        f"they are found on {', '.join(certificate.base.records)}.",
         sections=tuple(sections),
-        provenance=provenance(found.data_sha256),
+        provenance=provenance(certificate.data_sha256),
     ).write(path)
 
 
-def _prediction(found: Certificate) -> Section:
+def _prediction(certificate: Certificate) -> Section:
     rates = strain_rates(
         [
             (name, fit.records[name].excitation.true_strain, fit.records[name].excitation.rate)
-            for name, fit in found.alone.items()
+            for name, fit in certificate.alone.items()
         ]
     )
     return Section(
         "Prediction",
         (
-            prediction_table(found),
+            prediction_table(certificate),
             "The error is judged without the noise: the tolerance is "
-            f"{100 * found.tolerance:g} % of the largest stress of each record.",
+            f"{100 * certificate.tolerance:g} % of the largest stress of each record.",
             picture(
-                certificate_figure(found),
+                certificate_figure(certificate),
                 "Measured, predicted and identified stress, and what they differ by; band: the tolerance.",
             ),
             picture(rates, "What drives the records: strain rate over strain (Figure 1 of the paper)."),
@@ -181,60 +177,67 @@ def _prediction(found: Certificate) -> Section:
     )
 
 
-def _parameters(found: Certificate) -> Section:
+def _parameters(certificate: Certificate) -> Section:
     return Section(
         "Does every parameter keep its value?",
         (
-            parameter_table(found),
+            parameter_table(certificate),
             "Each record is identified alone, held-out ones too, after the predictions were made. A standard error "
             "holds the noise, the wave that the law leaves behind (taken as a sample of a bias that may also hide "
             "behind the parameters), and the uncertainty of the E_u that is held. p is the chance of values that "
             "differ at least so much if the parameter were the same; a parameter fails below "
             f"{CERTIFICATE.significance:.0%}, shared between the parameters (Holm).",
             picture(
-                parameter_figure(found),
+                parameter_figure(certificate),
                 "Each parameter over the records, with 95 % intervals; line: their common value, where they have one.",
             ),
         ),
     )
 
 
-def _identification(found: Certificate) -> Section:
+def _identification(certificate: Certificate) -> Section:
     text = (
         "“E_u held” keeps E_u as identified above (identifications 2 and 3 of the paper's Tables 3 and 4); “all free” "
         "is its identification 4. Where those differ much in E_u and hardly in what is left, the record does not tell "
         "E_u from the relaxation times."
     )
-    return Section("Each record by itself", (identification_table(found), text))
+    return Section("Each record by itself", (identification_table(certificate), text))
 
 
-def _without_companion(found: Certificate) -> Section:
-    worst = max(found.without_companion, key=lambda name: found.without_companion[name].rms_MPa)
+def _without_companion(certificate: Certificate) -> Section:
+    worst, fit = max(certificate.without_companion.items(), key=lambda item: item[1].rms_MPa)
     text = (
-        f"With one constant τ_max the law leaves up to {found.without_companion[worst].rms_MPa:.2g} MPa rms ({worst}). "
+        f"With one constant τ_max the law leaves up to {fit.rms_MPa:.2g} MPa rms ({worst}). "
         "Where the strain rate changes along a record, E_u may then grow without bound while τ_max shrinks: only their "
         "product is seen."
     )
-    figure = picture(without_companion_figure(found), "The best that a constant τ_max can do (Figure 3 of the paper).")
+    figure = picture(
+        without_companion_figure(certificate), "The best that a constant τ_max can do (Figure 3 of the paper)."
+    )
     return Section("Without the companion relation", (text, figure))
 
 
-def _hardening(found: Certificate) -> Section:
+def _hardening(certificate: Certificate) -> Section:
     start = CERTIFICATE.hardening_from
     caption = f"Stress over Haward–Thackray strain and its slope beyond a strain of {start:g} (Figure S1)."
     text = (
         "The regression assumes that all viscous stress stays constant; where it relaxes or grows with the strain rate "
         "the slope differs from the G that the law needs."
     )
-    return Section("G by regression", (hardening_table(found), text, picture(hardening_figure(found), caption)))
+    return Section(
+        "G by regression", (hardening_table(certificate), text, picture(hardening_figure(certificate), caption))
+    )
 
 
-def _how(found: Certificate) -> Section:
-    base = found.base
+def _how(certificate: Certificate) -> Section:
+    base = certificate.base
     companion = base.law.companion
     relation = f"companion relation {companion}" if companion else "no companion relation: τ_max is a constant"
     steps = f"{base.substeps} steps from sample to sample"
     return Section(
         "How it was done",
-        (f"Scheme {base.scheme}, {steps}, start {base.start}; {base.law.modes} modes; {relation}.", *found.warnings),
+        (
+            f"Scheme {base.scheme}, {steps}, start {base.start}; {base.law.modes} modes; {relation}.",
+            *certificate.warnings,
+        ),
     )

@@ -11,7 +11,7 @@ from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.errors import InputError
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.normal import TWO_SIDED_95
-from probation.report.figures import house_style, legend_outside, new_figure
+from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -26,50 +26,53 @@ _BEYOND = 10.0  # drawn to so many times below and above the calibrated rates
 _POINTS = 241
 
 
-def companion_figure(found: Calibration) -> Figure:
+def companion_figure(calibration: Calibration) -> Figure:
     """Data and relations, tau_max on the left, We on the right; beyond the calibrated rates dashed.
 
     The band is that of 95 % of the chosen relation, from the covariance of its parameters. Table 2 has no standard
     errors: its bars are the paper's "fictitious 10 %", and its (11) and (12) as printed stand beside.
     """
-    shown = [name for name, each in found.candidates.items() if not each.form.reference]
-    shown.sort(key=lambda name: name != found.chosen)
-    if found.chosen not in shown:
-        shown.insert(0, found.chosen)
-    companion = found.companion
+    shown = [name for name, candidate in calibration.candidates.items() if not candidate.form.reference]
+    shown.sort(key=lambda name: name != calibration.chosen)
+    if calibration.chosen not in shown:
+        shown.insert(0, calibration.chosen)
+    companion = calibration.companion
     low, high = companion.relation.calibrated or (1e-4, 1e-2)
     rates = np.geomspace(low / _BEYOND, high * _BEYOND, _POINTS)
-    with house_style():
-        figure = new_figure(9.2, 4.4)
+    with styled_figure(9.2, 4.4) as figure:
         left, right = figure.subplots(1, 2)
         for axes, power in ((left, 0.0), (right, 1.0)):
             _band(axes, companion, rates, power, (low, high))
             for at, name in enumerate(shown):
-                relation = found.candidates[name].companion.relation
+                relation = calibration.candidates[name].companion.relation
                 _curve(axes, relation, rates, power, (low, high), series_colour(at))
-            if found.table is TABLE_2:
+            if calibration.table is TABLE_2:
                 _curve(axes, WEISSENBERG_AS_PRINTED, rates, power, (low, high), series_colour(3), width=0.9)
                 _curve(axes, EXPONENTIAL_AS_PRINTED, rates, power, (low, high), series_colour(4), width=0.9)
-            _data(axes, found, power)
+            _data(axes, calibration, power)
             axes.set_xscale("log")
             axes.set_xlabel("true strain rate [1/s]")
         left.set_yscale("log")
         left.set_ylabel("τ_max [s]")
         right.set_ylabel("We = τ_max·rate [–]")
-        _limits(right, found, rates, (low, high))
-        handles = [Line2D([], [], color=series_colour(at), label=_label(found, name)) for at, name in enumerate(shown)]
-        if found.table is TABLE_2:
+        _limits(right, calibration, rates, (low, high))
+        handles = [
+            Line2D([], [], color=series_colour(at), label=_label(calibration, name)) for at, name in enumerate(shown)
+        ]
+        if calibration.table is TABLE_2:
             printed = (("(11) as printed", 3), ("(12) as printed", 4))
             handles += [Line2D([], [], color=series_colour(at), lw=0.9, label=name) for name, at in printed]
-        legend_outside(figure, handles, [str(each.get_label()) for each in handles], columns=3)
+        legend_outside(figure, handles, [str(handle.get_label()) for handle in handles], columns=3)
         left.set_title("dashed: beyond the calibrated rates")
-        right.set_title(f"band: 95 % of {found.chosen}" if companion.covariance is not None else "")
+        right.set_title(f"band: 95 % of {calibration.chosen}" if companion.covariance is not None else "")
     return figure
 
 
-def _label(found: Calibration, name: str) -> str:
-    regressed = f"{name}, regressed in {found.candidates[name].form.measure}" if found.route == "table" else name
-    return f"{regressed} (chosen)" if name == found.chosen else regressed
+def _label(calibration: Calibration, name: str) -> str:
+    regressed = (
+        f"{name}, regressed in {calibration.candidates[name].form.measure}" if calibration.route == "table" else name
+    )
+    return f"{regressed} (chosen)" if name == calibration.chosen else regressed
 
 
 def _curve(
@@ -115,10 +118,10 @@ def _band(
     axes.fill_between(rates, low, high, color=series_colour(0), alpha=0.16, lw=0)
 
 
-def _data(axes: Axes, found: Calibration, power: float) -> None:
+def _data(axes: Axes, calibration: Calibration, power: float) -> None:
     look = {"fmt": "o", "ms": 4.5, "color": colour("ink"), "ecolor": colour("data"), "elinewidth": 1.0, "capsize": 2.5}
-    if found.table is not None:
-        table = found.table
+    if calibration.table is not None:
+        table = calibration.table
         scale = table.rates**power
         error = table.se
         if error is None and table is TABLE_2:
@@ -126,24 +129,24 @@ def _data(axes: Axes, found: Calibration, power: float) -> None:
         bars = None if error is None else TWO_SIDED_95 * error * scale if table.se is not None else error * scale
         axes.errorbar(table.rates, table.tau_max * scale, yerr=bars, zorder=4, **look)  # type: ignore[arg-type]
         return
-    chosen = found.candidates[found.chosen]
-    for rate, residual in zip(found.record_rates, chosen.percent_residual, strict=True):
+    chosen = calibration.candidates[calibration.chosen]
+    for rate, residual in zip(calibration.record_rates, chosen.percent_residual, strict=True):
         needed = 1.0 + residual / 100.0
         along = np.geomspace(rate.slow, rate.fast, 20)
         times = _times(chosen.companion.relation, along) / needed
         axes.plot(along, times * along**power, color=colour("ink"), lw=2.2, zorder=4)
 
 
-def _limits(axes: Axes, found: Calibration, rates: FloatArray, calibrated: tuple[float, float]) -> None:
+def _limits(axes: Axes, calibration: Calibration, rates: FloatArray, calibrated: tuple[float, float]) -> None:
     """We of the calibrated rates fills the plot; what relations do far beyond may leave it."""
     within = np.geomspace(*calibrated, 30)
     values = np.concatenate(
         [
-            _times(each.companion.relation, within) * within
-            for each in found.candidates.values()
-            if not each.form.reference
+            _times(candidate.companion.relation, within) * within
+            for candidate in calibration.candidates.values()
+            if not candidate.form.reference
         ]
-        + ([] if found.table is None else [found.table.tau_max * found.table.rates])
+        + ([] if calibration.table is None else [calibration.table.tau_max * calibration.table.rates])
     )
     values = values[np.isfinite(values)]
     axes.set_ylim(0.0, 1.6 * float(values.max()))

@@ -32,35 +32,39 @@ _LEADS = {
 }
 
 
-def write_companion_page(found: Calibration, path: Path) -> None:
+def write_companion_page(calibration: Calibration, path: Path) -> None:
     """Write the page."""
-    sections = [_relations(found), _choice(found), _use(found)]
-    if found.paper is not None:
-        sections.insert(2, _paper(found.paper))
-    if found.warnings:
-        sections.append(Section("What to know", found.warnings))
+    sections = [_relations(calibration), _choice(calibration), _use(calibration)]
+    if calibration.paper is not None:
+        sections.insert(2, _paper(calibration.paper))
+    if calibration.warnings:
+        sections.append(Section("What to know", calibration.warnings))
     Page(
-        title=f"Companion relation of {found.source}",
-        verdict=found.verdict,
+        title=f"Companion relation of {calibration.source}",
+        verdict=calibration.verdict,
         mood="neutral",
-        lead=_LEADS[found.route],
+        lead=_LEADS[calibration.route],
         sections=tuple(sections),
-        provenance=provenance(found.data_sha256),
+        provenance=provenance(calibration.data_sha256),
     ).write(path)
 
 
-def _relations(found: Calibration) -> Section:
-    bars = "; bars of 10 %, as fictitious as in the paper" if found.paper is not None else "; bars of 95 %"
+def _relations(calibration: Calibration) -> Section:
+    bars = "; bars of 10 %, as fictitious as in the paper" if calibration.paper is not None else "; bars of 95 %"
     data = f"Points: τ_max identified at each rate{bars}."
-    if found.route == "direct":
+    if calibration.route == "direct":
         data = "Black: what each record's own α makes of the chosen relation, over the rates that it runs through."
     caption = f"τ_max (left) and the Weissenberg number (right) against the strain rate: Figure S2. {data}"
-    parts: list[object] = [picture(companion_figure(found), caption), relations_table(found), residuals_table(found)]
-    return Section("Relations", tuple(parts) + tuple(notes_on(found)))  # type: ignore[arg-type]
+    parts: list[object] = [
+        picture(companion_figure(calibration), caption),
+        relations_table(calibration),
+        residuals_table(calibration),
+    ]
+    return Section("Relations", tuple(parts) + tuple(notes_on(calibration)))  # type: ignore[arg-type]
 
 
-def _choice(found: Calibration) -> Section:
-    scores, predicted = scores_table(found), prediction_table(found)
+def _choice(calibration: Calibration) -> Section:
+    scores, predicted = scores_table(calibration), prediction_table(calibration)
     if scores is None:
         return Section("Which form?", ("Too few rates to leave one out: the data do not choose a form.",))
     parts: list[str | Table] = [
@@ -96,8 +100,13 @@ def _paper(paper: PaperRelations) -> Section:
         ("(12) R² in τ_max", "1", f"{paper.exponential.r_squared:.5f}"),
     )
     ratios = tuple(
-        (f"experiment {each.experiment}", f"{each.printed:.3f}", f"{each.as_printed:.3f}", f"{each.as_regressed:.3f}")
-        for each in paper.ratios
+        (
+            f"experiment {ratio.experiment}",
+            f"{ratio.printed:.3f}",
+            f"{ratio.as_printed:.3f}",
+            f"{ratio.as_regressed:.3f}",
+        )
+        for ratio in paper.ratios
     )
     return Section(
         "The paper's own relations",
@@ -114,9 +123,9 @@ def _paper(paper: PaperRelations) -> Section:
     )
 
 
-def _use(found: Calibration) -> Section:
-    low, high = found.companion.relation.calibrated or (np.nan, np.nan)
-    lines = found.toml().splitlines()
+def _use(calibration: Calibration) -> Section:
+    low, high = calibration.companion.relation.calibrated or (np.nan, np.nan)
+    lines = calibration.toml().splitlines()
     rows = tuple((line.split(" = ")[0], _shortened(line.split(" = ", 1)[-1])) for line in lines[1:])
     return Section(
         "To use it",

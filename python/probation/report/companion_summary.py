@@ -15,32 +15,37 @@ if TYPE_CHECKING:
     from probation.calibration.result import Calibration
 
 
-def companion_summary(found: Calibration) -> str:
+def companion_summary(calibration: Calibration) -> str:
     """Verdict first, then the relations, then the scores, then what should be known about them."""
-    tables = [relations_table(found), residuals_table(found), scores_table(found), prediction_table(found)]
-    parts = [f"{found.source}: {found.verdict}", *(each.text() for each in tables if each is not None)]
-    notes = notes_on(found)
-    if found.paper is not None:
-        notes += [*found.paper.sentences()]
+    tables = [
+        relations_table(calibration),
+        residuals_table(calibration),
+        scores_table(calibration),
+        prediction_table(calibration),
+    ]
+    parts = [f"{calibration.source}: {calibration.verdict}", *(table.text() for table in tables if table is not None)]
+    notes = notes_on(calibration)
+    if calibration.paper is not None:
+        notes += [*calibration.paper.sentences()]
     if notes:
         parts.append("\n".join(f"  {note}" for note in notes))
-    if found.warnings:
-        parts.append("\n".join(f"  warning: {warning}" for warning in found.warnings))
+    if calibration.warnings:
+        parts.append("\n".join(f"  warning: {warning}" for warning in calibration.warnings))
     return "\n\n".join(parts)
 
 
-def relations_table(found: Calibration) -> Table:
+def relations_table(calibration: Calibration) -> Table:
     """Every relation with its parameters and their standard errors; R² or rms."""
     rows = []
-    for name, each in found.candidates.items():
-        marked = f"{name} ←" if name == found.chosen else name
-        fit = f"{each.r_squared:.4f} in {each.form.measure}"
-        if each.direct is not None:
-            fit = f"{np.sqrt(np.mean(each.direct.rms**2)):.4g} MPa rms"
-        if each.form.reference and not each.form.parameter_names:
+    for name, candidate in calibration.candidates.items():
+        marked = f"{name} ←" if name == calibration.chosen else name
+        fit = f"{candidate.r_squared:.4f} in {candidate.form.measure}"
+        if candidate.direct is not None:
+            fit = f"{np.sqrt(np.mean(candidate.direct.rms**2)):.4g} MPa rms"
+        if candidate.form.reference and not candidate.form.parameter_names:
             fit = "–"
-        rows.append((marked, parameters_text(each.companion), fit, _scatter_text(each.companion.log_scatter)))
-    fit_heading = "fit" if found.route == "direct" else "R²"
+        rows.append((marked, parameters_text(candidate.companion), fit, _scatter_text(candidate.companion.log_scatter)))
+    fit_heading = "fit" if calibration.route == "direct" else "R²"
     return Table(
         ("form", "parameters ± standard errors", fit_heading, "scatter [%]"),
         tuple(rows),
@@ -49,12 +54,16 @@ def relations_table(found: Calibration) -> Table:
     )
 
 
-def residuals_table(found: Calibration) -> Table | None:
+def residuals_table(calibration: Calibration) -> Table | None:
     """tau_max at each rate and the error of every relation there [%]."""
-    shown = {n: each for n, each in found.candidates.items() if each.form.parameter_names and n != "constant"}
+    shown = {
+        n: candidate
+        for n, candidate in calibration.candidates.items()
+        if candidate.form.parameter_names and n != "constant"
+    }
     rows = []
-    if found.table is not None:
-        table = found.table
+    if calibration.table is not None:
+        table = calibration.table
         error = table.log_error
         for at, label in enumerate(table.labels):
             known = "" if error is None else f" ± {percentage(error[at])} %"
@@ -67,12 +76,12 @@ def residuals_table(found: Calibration) -> Table | None:
                     f"{table.tau_max[at]:.5g}{known}",
                     f"{weissenberg:.4f}",
                     hardening,
-                    *(percentage(0.01 * each.percent_residual[at], "+") for each in shown.values()),
+                    *(percentage(0.01 * candidate.percent_residual[at], "+") for candidate in shown.values()),
                 )
             )
         headings = ("", "rate [1/s]", "τ_max [s]", "We", "G [MPa]", *(f"{name} [%]" for name in shown))
         return Table(headings, tuple(rows), "Each rate, and the error of each relation there")
-    for at, rate in enumerate(found.record_rates):
+    for at, rate in enumerate(calibration.record_rates):
         rows.append(
             (
                 rate.id,
@@ -84,15 +93,15 @@ def residuals_table(found: Calibration) -> Table | None:
     return Table(headings, tuple(rows), "Each relation over what the record's own α asks for")
 
 
-def scores_table(found: Calibration) -> Table | None:
+def scores_table(calibration: Calibration) -> Table | None:
     """How well each form predicts rates left out."""
     rows = []
-    for name, each in found.candidates.items():
-        if each.score is None:
+    for name, candidate in calibration.candidates.items():
+        if candidate.score is None:
             continue
-        kind = "reference" if each.form.reference else "chosen" if name == found.chosen else ""
-        errors = ", ".join(percent(error, sign="+") for error in each.score.log_error)
-        rms = percent(each.score.rms)
+        kind = "reference" if candidate.form.reference else "chosen" if name == calibration.chosen else ""
+        errors = ", ".join(percent(error, sign="+") for error in candidate.score.log_error)
+        rms = percent(candidate.score.rms)
         rows.append((name, kind, rms, errors))
     if not rows:
         return None
@@ -100,18 +109,18 @@ def scores_table(found: Calibration) -> Table | None:
     return Table(headings, tuple(rows), "Error in ln τ_max [%] at rates left out of the calibration", left=2)
 
 
-def prediction_table(found: Calibration) -> Table | None:
+def prediction_table(calibration: Calibration) -> Table | None:
     """Records predicted from those at other rates, nothing adjusted [MPa]."""
-    if not found.predicted:
+    if not calibration.predicted:
         return None
-    forms = list(dict.fromkeys(each.form for each in found.predicted))
+    forms = list(dict.fromkeys(prediction.form for prediction in calibration.predicted))
     rows = []
-    for record in dict.fromkeys(each.record for each in found.predicted):
-        own = {each.form: each for each in found.predicted if each.record == record}
+    for record in dict.fromkeys(prediction.record for prediction in calibration.predicted):
+        own = {prediction.form: prediction for prediction in calibration.predicted if prediction.record == record}
         cells = [
             f"{own[f].rms:.3g} ({percentage(own[f].rms / own[f].largest_stress)} %)" if f in own else "–" for f in forms
         ]
-        best = min(own.values(), key=lambda each: each.rms)
+        best = min(own.values(), key=lambda prediction: prediction.rms)
         rows.append(
             (record, *cells, f"{best.hardening_rms:.3g}", f"{best.refit_rms:.3g}", f"{best.largest_stress:.3g}")
         )
@@ -120,10 +129,10 @@ def prediction_table(found: Calibration) -> Table | None:
     return Table(headings, tuple(rows), caption)
 
 
-def notes_on(found: Calibration) -> list[str]:
+def notes_on(calibration: Calibration) -> list[str]:
     """What a reader must know to use the numbers."""
     notes = []
-    fits, companion = found.record_fits, found.companion
+    fits, companion = calibration.record_fits, calibration.companion
     if fits is not None and fits.unrelaxed_modulus is not None:
         how = "held by the campaign" if fits.unrelaxed_modulus_se == 0.0 else "shared by all records"
         notes.append(
@@ -132,23 +141,27 @@ def notes_on(found: Calibration) -> list[str]:
             "E_u's."
         )
     elif companion.unrelaxed_modulus is not None:
-        direct = found.candidates[found.chosen].direct
+        direct = calibration.candidates[calibration.chosen].direct
         error = 0.0 if direct is None else direct.unrelaxed_modulus_se
         how = "shared by all records" if error else "held by the campaign"
-        hardening = "G is each record's own" if found.hardening == "by-record" else "G is one for all"
+        hardening = "G is each record's own" if calibration.hardening == "by-record" else "G is one for all"
         notes.append(f"E_u = {plus_minus(companion.unrelaxed_modulus, error)} MPa, {how}; {hardening}; α = 1.")
-    if found.check is not None:
-        notes.append(check_text(found))
-    if found.table is not None and found.table.se is None:
+    if calibration.check is not None:
+        notes.append(check_text(calibration))
+    if calibration.table is not None and calibration.table.se is None:
         notes.append("No standard errors given: errors of τ_max are taken as relative and alike at all rates.")
-    if found.table is not None and found.table.se is not None and "exponential" not in found.candidates:
+    if (
+        calibration.table is not None
+        and calibration.table.se is not None
+        and "exponential" not in calibration.candidates
+    ):
         notes.append("exponential (12) is the same function as power, and the same relation where errors are known.")
     return notes
 
 
-def check_text(found: Calibration) -> str:
+def check_text(calibration: Calibration) -> str:
     """How far the relation identified on all records at once is from that of the table."""
-    check, own = found.check, found.companion
+    check, own = calibration.check, calibration.companion
     assert check is not None
     rates = np.geomspace(*(own.relation.calibrated or (1e-4, 1e-2)), 50)
     apart = np.log(check.companion.relaxation_time(rates) * check.unrelaxed_modulus)

@@ -16,24 +16,24 @@ if TYPE_CHECKING:
 MOST = 6
 
 
-def comparison_summary(found: Comparison) -> str:
+def comparison_summary(comparison: Comparison) -> str:
     """The headline, then every explanation of the answer set and the next ones, then the records."""
-    lines = [f"{found.campaign}: {found.headline}", ""]
-    for each in found.explanations[:MOST]:
-        star = "*" if each in found.answer_set else " "
-        where = ", ".join(each.records)
-        text = f"{star} {chance(each.probability):>6}  {named(each)}" + (f" in {where}" if where else "")
+    lines = [f"{comparison.campaign}: {comparison.headline}", ""]
+    for explanation in comparison.explanations[:MOST]:
+        star = "*" if explanation in comparison.answer_set else " "
+        where = ", ".join(explanation.records)
+        text = f"{star} {chance(explanation.probability):>6}  {named(explanation)}" + (f" in {where}" if where else "")
         lines.append(fill(text, WIDTH, subsequent_indent=12 * " "))
-        lines += [f"            {sized(parameter)}" for parameter in each.parameters]
+        lines += [f"            {sized(parameter)}" for parameter in explanation.parameters]
     lines.append("")
-    for name, others in found.pairs.items():
+    for name, others in comparison.pairs.items():
         text = (
-            f"{name} against {', '.join(others)}: the change is {found.rms_MPa[name]:.3g} MPa rms, the noise "
-            f"{found.noise_MPa[name]:.3g} MPa"
+            f"{name} against {', '.join(others)}: the change is {comparison.rms_MPa[name]:.3g} MPa rms, the noise "
+            f"{comparison.noise_MPa[name]:.3g} MPa"
         )
         lines.append(f"  {text}")
-    if found.scatter.any:
-        lines.append(f"  {found.scatter.text}.")
-    lines += [f"  left out: {each}" for each in skipped_lines(found.skipped, MOST_SKIPPED)]
-    lines += [f"  warning: {each}" for each in found.warnings]
+    if comparison.scatter.any:
+        lines.append(f"  {comparison.scatter.text}.")
+    lines += [f"  left out: {line}" for line in skipped_lines(comparison.skipped, MOST_SKIPPED)]
+    lines += [f"  warning: {warning}" for warning in comparison.warnings]
     return "\n".join(lines)

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.identify.coverage import NOMINAL, TRUTH
 from probation.inference.parameter import SYMBOLS
-from probation.report.figures import house_style, legend_outside, new_figure
+from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -19,10 +19,9 @@ if TYPE_CHECKING:
 
 def coverage_figure(coverage: Coverage) -> Figure:
     """Coverage of the 95 % intervals with its exact 99 % interval: a panel per parameter, a row per kind of noise."""
-    cases = list(dict.fromkeys(each.case for each in coverage.counted))
-    methods = list(dict.fromkeys(each.method for each in coverage.counted))
-    with house_style():
-        figure = new_figure(9.0, 0.9 + 0.55 * len(cases))
+    cases = list(dict.fromkeys(counted_case.case for counted_case in coverage.counted))
+    methods = list(dict.fromkeys(counted_case.method for counted_case in coverage.counted))
+    with styled_figure(9.0, 0.9 + 0.55 * len(cases)) as figure:
         panels = figure.subplots(1, len(TRUTH), sharey=True)
         for axes, name in zip(panels, TRUTH, strict=True):
             axes.axvline(100 * NOMINAL, color=colour("muted"), lw=0.8)

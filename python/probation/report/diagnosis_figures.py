@@ -10,7 +10,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from probation.report.diagnosis_tables import WORTH_A_ROW
 from probation.report.diagnosis_words import closed, explanation_name, short_ids
-from probation.report.figures import house_style, legend_outside, new_figure, thinned
+from probation.report.figures import legend_outside, styled_figure, thinned
 from probation.report.style import colour
 from probation.wording import chance, percent
 
@@ -28,14 +28,13 @@ _LINE = 30  # letters of a label in one line
 _PROBES = 40
 
 
-def diagnosis_figure(found: Diagnosis) -> Figure:
+def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
     """Every record: stress with and without the best explanation; beside it what both miss, in units of the noise."""
-    names = short_ids(found.curves, 44)
-    with house_style():
-        figure = new_figure(7.6, 0.4 + 2.1 * len(found.curves))
-        panels = figure.subplots(len(found.curves), 2, squeeze=False, width_ratios=(1, 1))
-        for at, ((left, right), each) in enumerate(zip(panels, found.curves.values(), strict=True)):
-            label = _draw(left, right, each, found)
+    names = short_ids(diagnosis.curves, 44)
+    with styled_figure(7.6, 0.4 + 2.1 * len(diagnosis.curves)) as figure:
+        panels = figure.subplots(len(diagnosis.curves), 2, squeeze=False, width_ratios=(1, 1))
+        for at, ((left, right), each) in enumerate(zip(panels, diagnosis.curves.values(), strict=True)):
+            label = _draw(left, right, each, diagnosis)
             left.set_title(_title(each, names), fontsize=9)
             left.set_xlabel(label)
             right.set_xlabel(label)
@@ -44,23 +43,22 @@ def diagnosis_figure(found: Diagnosis) -> Figure:
     return figure
 
 
-def record_figure(found: Diagnosis, record_id: str) -> Figure:
+def record_figure(diagnosis: Diagnosis, record_id: str) -> Figure:
     """One record: stress with and without the best explanation, below it what both miss, in units of the noise."""
-    each = found.curves[record_id]
-    with house_style():
-        figure = new_figure(3.9, 3.7)
+    each = diagnosis.curves[record_id]
+    with styled_figure(3.9, 3.7) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.35, 1))
-        below.set_xlabel(_draw(above, below, each, found))
-        above.set_title(fill(_title(each, short_ids(found.curves, 44)), 46), fontsize=9)
+        below.set_xlabel(_draw(above, below, each, diagnosis))
+        above.set_title(fill(_title(each, short_ids(diagnosis.curves, 44)), 46), fontsize=9)
         above.legend(loc="best", fontsize=7.5)
     return figure
 
 
-def _title(each: RecordCurves, names: dict[str, str]) -> str:
-    return names[each.id] if each.role == "identify" else f"{names[each.id]} – not fitted"
+def _title(curves: RecordCurves, names: dict[str, str]) -> str:
+    return names[curves.id] if curves.role == "identify" else f"{names[curves.id]} – not fitted"
 
 
-def _draw(stress: Axes, errors: Axes, each: RecordCurves, found: Diagnosis) -> str:
+def _draw(stress: Axes, errors: Axes, each: RecordCurves, diagnosis: Diagnosis) -> str:
     """Both panels of a record; returns the label of their common axis."""
     x, label = _axis(each)
     stress.plot(*thinned(x, each.data, _DOTS), ".", ms=5, mew=0, color=colour("data"), label="measured")
@@ -72,7 +70,7 @@ def _draw(stress: Axes, errors: Axes, each: RecordCurves, found: Diagnosis) -> s
         errors.plot(
             *thinned(x, (model - each.data) / np.maximum(each.noise, 1e-300), _POINTS), color=colour(shade), lw=0.7
         )
-    for region in found.located:
+    for region in diagnosis.located:
         if region.record == each.id:
             inside = x[region.samples]
             for axes in (stress, errors):
@@ -84,33 +82,32 @@ def _draw(stress: Axes, errors: Axes, each: RecordCurves, found: Diagnosis) -> s
     return label
 
 
-def _axis(each: RecordCurves) -> tuple[FloatArray, str]:
+def _axis(curves: RecordCurves) -> tuple[FloatArray, str]:
     """Strain where it grows all along, time otherwise."""
-    probes = each.true_strain[np.linspace(0, len(each.time) - 1, _PROBES).astype(int)]
+    probes = curves.true_strain[np.linspace(0, len(curves.time) - 1, _PROBES).astype(int)]
     steps = np.diff(probes)
     if steps.min() > 0.1 * steps.mean() > 0.0:
-        return each.true_strain, "true strain [–]"
-    return each.time, "time [s]"
+        return curves.true_strain, "true strain [–]"
+    return curves.time, "time [s]"
 
 
-def probability_figure(found: Diagnosis) -> Figure:
+def probability_figure(diagnosis: Diagnosis) -> Figure:
     """A bar for every explanation that matters; those that the data cannot tell from the best are starred."""
-    shown = _shown(found)
-    others = len(found.explanations) - len(shown)
-    names = [fill(explanation_name(each, found), _LINE) for each in shown]
+    shown = _shown(diagnosis)
+    others = len(diagnosis.explanations) - len(shown)
+    names = [fill(explanation_name(explanation, diagnosis), _LINE) for explanation in shown]
     if others:
         names.append(f"{others} other{'s' if others > 1 else ''}")
     places, rows = _rows(names)
-    with house_style():
-        figure = new_figure(5.3, 0.8 + 0.36 * rows)
+    with styled_figure(5.3, 0.8 + 0.36 * rows) as figure:
         axes = figure.subplots()
         for at, each in zip(places, shown, strict=False):
-            inside = each.effects in found.answer_set
+            inside = each.effects in diagnosis.answer_set
             size = 100.0 * each.probability
             axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
             axes.text(size + 1.0, at, f"{chance(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5)
         if others:
-            rest = max(1.0 - sum(each.probability for each in shown), 0.0)
+            rest = max(1.0 - sum(explanation.probability for explanation in shown), 0.0)
             axes.barh(places[-1], 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
             axes.text(100.0 * rest + 1.0, places[-1], percent(rest), va="center", fontsize=8.5)
         axes.set_yticks(places, names)
@@ -129,34 +126,39 @@ def _rows(names: list[str]) -> tuple[list[float], float]:
     return middles, sum(heights)
 
 
-def _shown(found: Diagnosis) -> list[Explanation]:
+def _shown(diagnosis: Diagnosis) -> list[Explanation]:
     """The probable ones, the answer set, and always "none" and "unknown"."""
     always = [
-        each for each in found.explanations if each.effects in found.answer_set or each.effects in ((), ("unknown",))
+        explanation
+        for explanation in diagnosis.explanations
+        if explanation.effects in diagnosis.answer_set or explanation.effects in ((), ("unknown",))
     ]
     room = _BARS - len(always)
-    probable = [each for each in found.explanations if each not in always and each.probability >= WORTH_A_ROW]
+    probable = [
+        explanation
+        for explanation in diagnosis.explanations
+        if explanation not in always and explanation.probability >= WORTH_A_ROW
+    ]
     kept = [*always, *probable[: max(room, 0)]]
-    return [each for each in found.explanations if each in kept]
+    return [explanation for explanation in diagnosis.explanations if explanation in kept]
 
 
-def closure_figure(found: Diagnosis) -> Figure:
+def closure_figure(diagnosis: Diagnosis) -> Figure:
     """Error of every record before and after the best explanation, against the noise, on a logarithmic scale."""
-    shrink, names = found.shrink, short_ids(found.curves)
+    shrink, names = diagnosis.shrink, short_ids(diagnosis.curves)
     rows: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
     if shrink.held_out is not None:
         rows.append(("all held-out records", shrink.held_out))
     together = len(rows)
-    rows += [(names.get(record, record), each) for record, each in shrink.records.items()]
-    with house_style():
-        figure = new_figure(5.3, 1.1 + 0.34 * len(rows))
+    rows += [(names.get(record, record), closure) for record, closure in shrink.records.items()]
+    with styled_figure(5.3, 1.1 + 0.34 * len(rows)) as figure:
         axes = figure.subplots()
         for at, (_, each) in enumerate(rows):
             axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
         for label, shade, marker, values in (
-            ("noise", "ink", "|", [each.noise_MPa for _, each in rows]),
-            ("before", "second", "o", [each.before_MPa for _, each in rows]),
-            ("after", "model", "o", [each.after_MPa for _, each in rows]),
+            ("noise", "ink", "|", [closure.noise_MPa for _, closure in rows]),
+            ("before", "second", "o", [closure.before_MPa for _, closure in rows]),
+            ("after", "model", "o", [closure.after_MPa for _, closure in rows]),
         ):
             size = 13 if marker == "|" else 5.5
             axes.plot(values, range(len(rows)), marker, color=colour(shade), ms=size, mew=1.2, label=label)
@@ -178,7 +180,7 @@ def closure_figure(found: Diagnosis) -> Figure:
 
 def _plain_decades(axes: Axes, values: list[float]) -> None:
     """Round numbers on a logarithmic axis, also where it spans less than a decade."""
-    drawn = [each for each in values if each > 0.0] or [1.0]
+    drawn = [value for value in values if value > 0.0] or [1.0]
     low, high = min(drawn), max(drawn)
     axes.set_xlim(low / 1.4, high * 1.4)
     steps = (1.0, 2.0, 5.0) if high / low < 50.0 else (1.0,)

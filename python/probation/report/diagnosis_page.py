@@ -42,45 +42,47 @@ _EXPLANATIONS = 20
 _MOOD: dict[str, Mood] = {"no_gap": "good", "not_predicted": "bad", "explained": "neutral", "unexplained": "bad"}
 
 
-def write_diagnosis_page(found: Diagnosis, path: Path) -> None:
+def write_diagnosis_page(diagnosis: Diagnosis, path: Path) -> None:
     """Write the page."""
-    diagnosis_page(found).write(path)
+    diagnosis_page(diagnosis).write(path)
 
 
-def diagnosis_page(found: Diagnosis) -> Page:
+def diagnosis_page(diagnosis: Diagnosis) -> Page:
     """The page: the verdict, where, before and after, which, how far, the next test, isolability, details."""
-    sections = [_short(found), _where(found), _records(found), _which(found), _shrink(found)]
-    sections += [remainder_section(found.remainder)] if found.remainder is not None else []
-    sections += [_next_test(found)] if found.next_test is not None else []
-    sections += [_isolability(found)] if found.isolability is not None else []
+    sections = [_short(diagnosis), _where(diagnosis), _records(diagnosis), _which(diagnosis), _shrink(diagnosis)]
+    sections += [remainder_section(diagnosis.remainder)] if diagnosis.remainder is not None else []
+    sections += [_next_test(diagnosis)] if diagnosis.next_test is not None else []
+    sections += [_isolability(diagnosis)] if diagnosis.isolability is not None else []
     return Page(
-        title=f"Diagnosis of {found.campaign}: what does the simulation leave out?",
-        verdict=found.headline,
-        mood=_MOOD[found.verdict],
-        lead=f"{gap_text(found)} {specimens_text(found)}".strip(),
-        sections=(*sections, _looked_for(found), _details(found)),
-        provenance=provenance(found.data_sha256, found.seed),
+        title=f"Diagnosis of {diagnosis.campaign}: what does the simulation leave out?",
+        verdict=diagnosis.headline,
+        mood=_MOOD[diagnosis.verdict],
+        lead=f"{gap_text(diagnosis)} {specimens_text(diagnosis)}".strip(),
+        sections=(*sections, _looked_for(diagnosis), _details(diagnosis)),
+        provenance=provenance(diagnosis.data_sha256, diagnosis.seed),
     )
 
 
-def _short(found: Diagnosis) -> Section:
+def _short(diagnosis: Diagnosis) -> Section:
     where = "In no part of any record can a gap be distinguished from noise"
-    if found.located:
-        worst = found.located[0]
+    if diagnosis.located:
+        worst = diagnosis.located[0]
         where = (
             f"{percent(worst.share)} of the gap sits in {worst.record}, at {span_text(worst.time_s)} s and true "
             f"strains of {span_text(worst.true_strain)}"
         )
-    best = leading(found)
-    which = listed([f"{explanation_name(each, found)} ({chance(each.probability)})" for each in best])
+    best = leading(diagnosis)
+    which = listed(
+        [f"{explanation_name(explanation, diagnosis)} ({chance(explanation.probability)})" for explanation in best]
+    )
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
-    rows.append(("How far", _capital(_how_far(found))))
-    if found.remainder is not None:
-        rows.append(("Left", found.remainder.description))
-    if found.next_test is not None:
-        rows.append(("Next test", found.next_test.what))
-    rows += [("Mind" if at == 0 else "", sentence(each)) for at, each in enumerate(found.warnings)]
+    rows.append(("How far", _capital(_how_far(diagnosis))))
+    if diagnosis.remainder is not None:
+        rows.append(("Left", diagnosis.remainder.description))
+    if diagnosis.next_test is not None:
+        rows.append(("Next test", diagnosis.next_test.what))
+    rows += [("Mind" if at == 0 else "", sentence(warning)) for at, warning in enumerate(diagnosis.warnings)]
     return Section("In short", (Table(("", "what was found"), tuple(rows), left=2),))
 
 
@@ -88,24 +90,24 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _how_far(found: Diagnosis) -> str:
-    shrink = found.shrink
-    if found.verdict == "no_gap":
+def _how_far(diagnosis: Diagnosis) -> str:
+    shrink = diagnosis.shrink
+    if diagnosis.verdict == "no_gap":
         return (
             f"the error of the fitted records is {shrink.identify.before_MPa:.3g} MPa rms, the noise "
             f"{shrink.identify.noise_MPa:.3g} MPa: there is no gap to close."
         )
-    if not mended_by(found):
+    if not mended_by(diagnosis):
         ceiling = (
             "" if shrink.ceiling is None else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
         )
         return f"no effect of the catalogue closes the gap{ceiling}."
     text = (
-        f"with {mended_by(found)} the error of the fitted records falls from {shrink.identify.before_MPa:.3g} to "
+        f"with {mended_by(diagnosis)} the error of the fitted records falls from {shrink.identify.before_MPa:.3g} to "
         f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
     )
     if shrink.held_out is None:
-        none = "The only record that was held out is among them" if found.held_out else "No record was held out"
+        none = "The only record that was held out is among them" if diagnosis.held_out else "No record was held out"
         return f"{text}. {none}, so that nothing here was predicted."
     return (
         f"{text}. Records that were held out are predicted to {shrink.held_out.after_MPa:.3g} MPa rms instead of "
@@ -113,57 +115,57 @@ def _how_far(found: Diagnosis) -> str:
     )
 
 
-def _where(found: Diagnosis) -> Section:
-    mended = any(each.explained is not None for each in found.curves.values())
+def _where(diagnosis: Diagnosis) -> Section:
+    mended = any(curves.explained is not None for curves in diagnosis.curves.values())
     thin = " The thin strip below each shows what is left with the best explanation." if mended else ""
     caption = f"Error of the base law along every record, from its start to its end.{thin}"
     parts: list[str | Table | Picture] = [
         "Each strip is one record; blue means that the simulated stress is too low, orange that it is too high, pale "
         "that it agrees within the noise. Frames mark the parts where chance cannot be the reason, with their share of "
         "the whole squared gap.",
-        picture(residual_map(found), caption),
+        picture(residual_map(diagnosis), caption),
     ]
-    if found.held_out:
-        parts.append(held_out_table(found))
+    if diagnosis.held_out:
+        parts.append(held_out_table(diagnosis))
         parts.append("Expected is what the noise and the uncertainty of the parameters make of a prediction's error.")
-    if found.located:
-        parts.append(where_table(found)[0])
+    if diagnosis.located:
+        parts.append(where_table(diagnosis)[0])
         parts.append(
             "A fit spreads a gap over places where there was none, because it bends its parameters to make up for it: "
             "a frame shows where the error is, not always where its cause acts."
         )
-    if found.acts:
-        places = [f"{each.record} at {span_text(each.time_s)} s" for each in found.acts[:_PLACES]]
-        more = [f"{len(found.acts) - _PLACES} more places"] if len(found.acts) > _PLACES else []
-        parts.append(f"What {mended_by(found)} itself contributes is certain in {listed([*places, *more], 'and')}.")
-    if found.signatures:
-        parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(found))}.")
+    if diagnosis.acts:
+        places = [f"{region.record} at {span_text(region.time_s)} s" for region in diagnosis.acts[:_PLACES]]
+        more = [f"{len(diagnosis.acts) - _PLACES} more places"] if len(diagnosis.acts) > _PLACES else []
+        parts.append(f"What {mended_by(diagnosis)} itself contributes is certain in {listed([*places, *more], 'and')}.")
+    if diagnosis.signatures:
+        parts.append(f"Further signs in the errors of the base law: {'; '.join(signs(diagnosis))}.")
     return Section("Where the simulation departs", tuple(parts))
 
 
-def _records(found: Diagnosis) -> Section:
-    mended = mended_by(found)
+def _records(diagnosis: Diagnosis) -> Section:
+    mended = mended_by(diagnosis)
     blue = f" and the law with {mended} (blue)" if mended else ""
-    tinted = " Tinted parts are the framed ones from above." if found.located else ""
+    tinted = " Tinted parts are the framed ones from above." if diagnosis.located else ""
     text = (
         f"Above: what was measured (dots), the base law alone (orange){blue}. Below: what the law misses, as a "
         "multiple of the noise; a curve that stays in the grey band is as good as the measurement allows, but for one "
         f"sample in twenty.{tinted}"
     )
-    pictures = tuple(picture(record_figure(found, name), _caption(found, name)) for name in found.curves)
+    pictures = tuple(picture(record_figure(diagnosis, name), _caption(diagnosis, name)) for name in diagnosis.curves)
     return Section("Record by record, before and after", (text, Gallery(pictures)))
 
 
-def _caption(found: Diagnosis, record: str) -> str:
-    each = found.shrink.records.get(record)
-    if each is None or found.curves[record].explained is None:
+def _caption(diagnosis: Diagnosis, record: str) -> str:
+    each = diagnosis.shrink.records.get(record)
+    if each is None or diagnosis.curves[record].explained is None:
         return f"{record}: measured, and the base law."
     return (
         f"{record}: error {each.before_MPa:.2g} MPa rms before, {each.after_MPa:.2g} after; noise {each.noise_MPa:.2g}."
     )
 
 
-def _which(found: Diagnosis) -> Section:
+def _which(diagnosis: Diagnosis) -> Section:
     text = (
         "Each bar is the probability that this explanation is the right one, given the data and what is physically "
         "plausible; all together make 100 %. Starred bars are those that the data cannot tell from the best: treat "
@@ -174,22 +176,22 @@ def _which(found: Diagnosis) -> Section:
         "to, does it need the same strength in every record, and does it leave more than noise and its form's error?"
     )
     caption = "How probable each explanation is; “no effect is needed” and “outside the catalogue” always compete."
-    table, rest = which_table(found, _EXPLANATIONS)
-    parts: list[str | Table | Picture] = [text, picture(probability_figure(found), caption), checks, table]
+    table, rest = which_table(diagnosis, _EXPLANATIONS)
+    parts: list[str | Table | Picture] = [text, picture(probability_figure(diagnosis), caption), checks, table]
     if rest:
         parts.append(f"{rest}.")
-    if found.verdict != "no_gap" and found.effects:
+    if diagnosis.verdict != "no_gap" and diagnosis.effects:
         parts.append(
             "Effect by effect: the probability that it acts, alone or with others, and the part of the squared "
             "gap that it closes. What one effect closes depends on which others were added before it; its share is the "
             "mean over all orders. Where an effect closes nearly all of the gap alone and the others add next to "
             "nothing in addition, the headline names it alone."
         )
-        parts.append(effects_table(found)[0])
+        parts.append(effects_table(diagnosis)[0])
     return Section("Which effect explains it", tuple(parts))
 
 
-def _shrink(found: Diagnosis) -> Section:
+def _shrink(diagnosis: Diagnosis) -> Section:
     text = (
         "Orange dots are the errors of the base law, blue ones those with the explanation; upright ticks are the "
         "noise, below which no model can get. “Gap closed” is 100 % when the blue dot reaches the tick, 0 % when "
@@ -197,61 +199,63 @@ def _shrink(found: Diagnosis) -> Section:
     )
     parts: list[str | Table | Picture] = [
         text,
-        picture(closure_figure(found), "Error of each record before and after, on a logarithmic scale."),
-        shrink_table(found)[0],
-        _judge(found),
+        picture(closure_figure(diagnosis), "Error of each record before and after, on a logarithmic scale."),
+        shrink_table(diagnosis)[0],
+        _judge(diagnosis),
         "“Any smooth correction” is what an arbitrary smooth curve through the errors could close at best.",
-        f"How the intervals of 90 % were made – {found.shrink.identify.how}.",
+        f"How the intervals of 90 % were made – {diagnosis.shrink.identify.how}.",
     ]
-    if found.shrink.held_out is not None and found.shrink.held_out.how != found.shrink.identify.how:
-        parts.append(f"Those of held-out records – {found.shrink.held_out.how}.")
+    if diagnosis.shrink.held_out is not None and diagnosis.shrink.held_out.how != diagnosis.shrink.identify.how:
+        parts.append(f"Those of held-out records – {diagnosis.shrink.held_out.how}.")
     return Section("How far the gap shrinks", tuple(parts))
 
 
-def _judge(found: Diagnosis) -> str:
+def _judge(diagnosis: Diagnosis) -> str:
     """Whether anything was predicted."""
-    if found.shrink.held_out is not None:
+    if diagnosis.shrink.held_out is not None:
         return "Held-out records are the fair judge: nothing was adjusted to them."
-    if found.held_out:
+    if diagnosis.held_out:
         return "The only record that was held out was needed to find the cause, so that none is left to judge it by."
-    what = "the explanation" if mended_by(found) else "the law"
+    what = "the explanation" if mended_by(diagnosis) else "the law"
     return f"No record was held out (--held-out ID), so that {what} was fitted to all that it is judged by."
 
 
-def _next_test(found: Diagnosis) -> Section:
-    text = next_test_text(found).removeprefix("Next test: ")
+def _next_test(diagnosis: Diagnosis) -> Section:
+    text = next_test_text(diagnosis).removeprefix("Next test: ")
     how = (
         "It was picked among tests that can be run on an ordinary machine by asking for each how differently the "
         "explanations that are still open would answer. The chance is a forecast, made with the noise of your own "
         "records."
     )
     parts: list[str | Table | Picture] = [text, how]
-    if len(found.next_tests) > 1:
-        parts.append(next_tests_table(found))
+    if len(diagnosis.next_tests) > 1:
+        parts.append(next_tests_table(diagnosis))
     return Section("The next test", tuple(parts))
 
 
-def _isolability(found: Diagnosis) -> Section:
-    assert found.isolability is not None
+def _isolability(diagnosis: Diagnosis) -> Section:
+    assert diagnosis.isolability is not None
     return Section(
         "What these tests can discriminate",
         (
-            f"Whatever the records show: {in_words(found.isolability.headline, found.isolability)}",
+            f"Whatever the records show: {in_words(diagnosis.isolability.headline, diagnosis.isolability)}",
             HOW_TO_READ_THE_MAP,
-            picture(isolability_figure(found.isolability), "Which effects could be taken for which others."),
-            isolability_table(found.isolability),
+            picture(isolability_figure(diagnosis.isolability), "Which effects could be taken for which others."),
+            isolability_table(diagnosis.isolability),
         ),
     )
 
 
-def _looked_for(found: Diagnosis) -> Section:
-    sought = {name for each in found.explanations for name in each.effects} | {
-        name.removeprefix("effect ").partition("[")[0] for name in found.gap.p_values if name.startswith("effect ")
+def _looked_for(diagnosis: Diagnosis) -> Section:
+    sought = {name for each in diagnosis.explanations for name in each.effects} | {
+        name.removeprefix("effect ").partition("[")[0] for name in diagnosis.gap.p_values if name.startswith("effect ")
     }
-    if found.isolability is not None:
-        sought |= set(found.isolability.names)
+    if diagnosis.isolability is not None:
+        sought |= set(diagnosis.isolability.names)
     rows = tuple(
-        (each.title, each.kind, each.physics.splitlines()[0]) for each in known_effects() if each.name in sought
+        (effect.title, effect.kind, effect.physics.splitlines()[0])
+        for effect in known_effects()
+        if effect.name in sought
     )
     text = (
         "These effects were tried, alone and combined, each with several sets of starting values. Something that no "
@@ -259,17 +263,17 @@ def _looked_for(found: Diagnosis) -> Section:
         "by that entry's name, which no statistics can prevent."
     )
     parts: list[str | Table | Picture] = [text, Table(("effect", "sits in", "what it is"), rows, left=3)]
-    if found.skipped:
+    if diagnosis.skipped:
         parts.append(
             "Left out, because the law cannot be solved with it or for want of time; a cause that stands here can be "
             "neither named nor excluded:"
         )
-        parts.append(Table(("left out",), tuple((each,) for each in skipped_lines(found.skipped)), left=1))
+        parts.append(Table(("left out",), tuple((line,) for line in skipped_lines(diagnosis.skipped)), left=1))
     return Section("What was looked for", tuple(parts))
 
 
-def _details(found: Diagnosis) -> Section:
-    gap = found.gap
+def _details(diagnosis: Diagnosis) -> Section:
+    gap = diagnosis.gap
     levels = ", ".join(
         f"{value:.2g} {when}"
         for value, when in (
@@ -278,16 +282,17 @@ def _details(found: Diagnosis) -> Section:
             (gap.p_value_high_noise, "with 1.25 times the noise"),
         )
     )
-    records = [each.id for each in found.curves.values()]
-    held_out = [each.id for each in found.curves.values() if each.role != "identify"]
+    records = [curves.id for curves in diagnosis.curves.values()]
+    held_out = [curves.id for curves in diagnosis.curves.values() if curves.role != "identify"]
     forms = [
-        f"{name_of((effect,))}: {form}" for effect, form in zip(found.best.effects, found.best.forms, strict=False)
+        f"{name_of((effect,))}: {form}"
+        for effect, form in zip(diagnosis.best.effects, diagnosis.best.forms, strict=False)
     ]
     lines = [
-        f"Base law: {found.law}. Scheme {found.scheme}.",
+        f"Base law: {diagnosis.law}. Scheme {diagnosis.scheme}.",
         f"Records: {', '.join(records)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
         f"p-value of “there is nothing but noise”: {levels}; a gap is declared below {gap.level:g}.",
     ]
-    if forms and found.best.effects != (UNKNOWN,):
+    if forms and diagnosis.best.effects != (UNKNOWN,):
         lines.append(f"Functional form of the best explanation: {'; '.join(forms)}.")
-    return Section("Details", (base_table(found), *lines))
+    return Section("Details", (base_table(diagnosis), *lines))

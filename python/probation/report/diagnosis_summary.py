@@ -24,46 +24,45 @@ if TYPE_CHECKING:
 MOST_SIGNS = 4
 
 
-def summary(found: Diagnosis) -> str:
+def summary(diagnosis: Diagnosis) -> str:
     """What was found.
-
-    Parameters
-    ----------
-    found : Diagnosis
 
     Returns
     -------
     str
         The first line holds the campaign and the headline, however long.
     """
-    parts = [f"{found.campaign}: {found.headline}", _gap(found), _sentence(specimens_text(found))]
-    if found.held_out:
-        parts.append(_shown(held_out_table(found), ""))
-    if found.located:
-        parts.append(_shown(*where_table(found, MOST)))
-    parts.append("\n".join(_sentence(line) for line in _signs(found)))
-    parts.append(_shown(*which_table(found, MOST)))
-    if found.verdict != "no_gap":
-        parts.append(_shown(*effects_table(found, MOST)))
-    parts.append(_shown(*shrink_table(found, MOST)) + "\n" + _sentence(f"Intervals: {found.shrink.identify.how}."))
-    if found.remainder is not None:
-        parts.append(found.remainder.description)
-    if found.next_test is not None:
-        parts.append(next_test_text(found))
-    parts.append("\n".join(_sentence(f"left out: {each}") for each in skipped_lines(found.skipped, MOST_SKIPPED)))
-    parts.append("\n".join(_sentence(f"warning: {warning}") for warning in found.warnings))
+    parts = [f"{diagnosis.campaign}: {diagnosis.headline}", _gap(diagnosis), _sentence(specimens_text(diagnosis))]
+    if diagnosis.held_out:
+        parts.append(_shown(held_out_table(diagnosis), ""))
+    if diagnosis.located:
+        parts.append(_shown(*where_table(diagnosis, MOST)))
+    parts.append("\n".join(_sentence(line) for line in _signs(diagnosis)))
+    parts.append(_shown(*which_table(diagnosis, MOST)))
+    if diagnosis.verdict != "no_gap":
+        parts.append(_shown(*effects_table(diagnosis, MOST)))
+    parts.append(
+        _shown(*shrink_table(diagnosis, MOST)) + "\n" + _sentence(f"Intervals: {diagnosis.shrink.identify.how}.")
+    )
+    if diagnosis.remainder is not None:
+        parts.append(diagnosis.remainder.description)
+    if diagnosis.next_test is not None:
+        parts.append(next_test_text(diagnosis))
+    parts.append("\n".join(_sentence(f"left out: {line}") for line in skipped_lines(diagnosis.skipped, MOST_SKIPPED)))
+    parts.append("\n".join(_sentence(f"warning: {warning}") for warning in diagnosis.warnings))
     return "\n\n".join(part for part in parts if part)
 
 
-def gap_text(found: Diagnosis) -> str:
+def gap_text(diagnosis: Diagnosis) -> str:
     """How large the gap is against the noise, and whether that depends on how well the noise is known."""
-    gap = found.gap
+    gap = diagnosis.gap
     text = (
-        f"The base law misses the fitted records by {found.rms_MPa:.3g} MPa rms; the noise is {found.noise_MPa:.3g} "
-        f"MPa. A gap is declared where noise alone would look like this in fewer than {100 * gap.level:g} % of all "
+        f"The base law misses the fitted records by {diagnosis.rms_MPa:.3g} MPa rms; the noise is "
+        f"{diagnosis.noise_MPa:.3g} MPa. A gap is declared where noise alone would look like this in fewer than "
+        f"{100 * gap.level:g} % of all "
         f"cases; here it is {_cases(gap.p_value)}."
     )
-    text += size_text(found)
+    text += size_text(diagnosis)
     if gap.robust:
         return text
     return (
@@ -72,31 +71,31 @@ def gap_text(found: Diagnosis) -> str:
     )
 
 
-def specimens_text(found: Diagnosis) -> str:
+def specimens_text(diagnosis: Diagnosis) -> str:
     """How far specimens differ, and whether there would be a gap if they did not; empty where nothing is known."""
-    if found.scatter is None:
+    if diagnosis.scatter is None:
         return ""
-    text = found.scatter.text
-    if found.scatter.any and found.verdict == "no_gap":
-        text += "; if they were alike there would " + ("be a gap" if found.hangs_on_scatter else "still be no gap")
+    text = diagnosis.scatter.text
+    if diagnosis.scatter.any and diagnosis.verdict == "no_gap":
+        text += "; if they were alike there would " + ("be a gap" if diagnosis.hangs_on_scatter else "still be no gap")
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def size_text(found: Diagnosis) -> str:
+def size_text(diagnosis: Diagnosis) -> str:
     """How large the gap is relative to the stress, and whether that matters; empty where nothing is known of it."""
-    size = found.size
+    size = diagnosis.size
     if size is None:
         return ""
     low, high = size.interval_MPa
-    if found.verdict == "no_gap":
+    if diagnosis.verdict == "no_gap":
         return (
             f" A gap of up to {high:.2g} MPa ({percentage(size.relative_interval[1])} % of the largest stress of "
             f"{size.record}) could be there unseen."
         )
-    does = "" if found.matters else ", so that it does not matter"
+    does = "" if diagnosis.matters else ", so that it does not matter"
     return (
         f" Without the noise the gap is {size.rms_MPa:.3g} MPa rms (95 %: {low:.3g} to {high:.3g}) in {size.record}: "
-        f"{percentage(size.relative)} % of the largest stress there; {percentage(found.tolerance)} % are let pass"
+        f"{percentage(size.relative)} % of the largest stress there; {percentage(diagnosis.tolerance)} % are let pass"
         f"{does}, {percentage(CERTIFICATE.tolerance)} % by a certificate."
     )
 
@@ -107,28 +106,28 @@ def _cases(p_value: float) -> str:
     return f"{percentage(p_value)} %" if p_value >= 1e-4 else "fewer than 0.01 %"
 
 
-def next_test_text(found: Diagnosis) -> str:
+def next_test_text(diagnosis: Diagnosis) -> str:
     """The next test in one sentence; empty if there is none."""
-    test = found.next_test
+    test = diagnosis.next_test
     if test is None:
         return ""
     cost = f" ({test.cost})" if test.cost else ""
     return f"Next test: {test.what.rstrip('.')}{cost}."
 
 
-def signs(found: Diagnosis) -> list[str]:
+def signs(diagnosis: Diagnosis) -> list[str]:
     """What is sharp or drifts in the errors, one phrase each."""
-    return [each.text.strip().rstrip(".") for each in found.signatures]
+    return [signature.text.strip().rstrip(".") for signature in diagnosis.signatures]
 
 
-def _signs(found: Diagnosis) -> list[str]:
-    every = signs(found)
+def _signs(diagnosis: Diagnosis) -> list[str]:
+    every = signs(diagnosis)
     more = [f"… and {len(every) - MOST_SIGNS} more"] if len(every) > MOST_SIGNS else []
-    return [f"sign: {each}" for each in every[:MOST_SIGNS]] + more
+    return [f"sign: {sign}" for sign in every[:MOST_SIGNS]] + more
 
 
-def _gap(found: Diagnosis) -> str:
-    return _sentence(gap_text(found))
+def _gap(diagnosis: Diagnosis) -> str:
+    return _sentence(gap_text(diagnosis))
 
 
 def _sentence(text: str) -> str:

@@ -40,49 +40,51 @@ _STATUS = {
 }
 
 
-def where_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+def where_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """Regions with a gap, most first, at most so many; and a line about those left out, empty if there are none."""
-    names = short_ids(found.curves)
+    names = short_ids(diagnosis.curves)
     rows = [
         (
-            names[each.record],
-            span_text(each.time_s),
-            span_text(each.true_strain),
-            f"{each.rms_MPa:.2g}",
-            percent(each.share),
-            p_text(each.p_value),
+            names[region.record],
+            span_text(region.time_s),
+            span_text(region.true_strain),
+            f"{region.rms_MPa:.2g}",
+            percent(region.share),
+            p_text(region.p_value),
         )
-        for each in found.located
+        for region in diagnosis.located
     ]
-    kept = _kept([each.share for each in found.located], most)
+    kept = _kept([region.share for region in diagnosis.located], most)
     headings = ("record", "time [s]", "true strain [–]", "rms error [MPa]", "share", "p")
     caption = f"Where the simulation departs (share of the squared gap; {P_VALUE})"
-    return Table(headings, tuple(rows[:kept]), caption), _rest([each.share for each in found.located[kept:]], "region")
+    return Table(headings, tuple(rows[:kept]), caption), _rest(
+        [region.share for region in diagnosis.located[kept:]], "region"
+    )
 
 
-def held_out_table(found: Diagnosis) -> Table:
+def held_out_table(diagnosis: Diagnosis) -> Table:
     """The base law's predictions of records that it was not fitted to."""
-    names = short_ids([*found.curves, *found.held_out])
+    names = short_ids([*diagnosis.curves, *diagnosis.held_out])
     rows = tuple(
-        (names[record], f"{each.rms_MPa:.3g}", f"{each.expected_MPa:.3g}", p_text(each.p_value))
-        for record, each in found.held_out.items()
+        (names[record], f"{held.rms_MPa:.3g}", f"{held.expected_MPa:.3g}", p_text(held.p_value))
+        for record, held in diagnosis.held_out.items()
     )
     caption = "What was only predicted (p: how often noise and the uncertainty of the parameters alone would do it)"
     return Table(("record", "rms error [MPa]", "expected [MPa]", "p"), rows, caption)
 
 
-def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """Explanations, the most probable first; a star marks those that the data cannot tell from the best."""
-    shown = list(found.explanations)
+    shown = list(diagnosis.explanations)
     rows = []
     for each in shown:
-        star = "★" if each.effects in found.answer_set else ""
+        star = "★" if each.effects in diagnosis.answer_set else ""
         detail = bool(star) or each.checks is not None
         rows.append(
             (
                 star,
-                explanation_name(each, found),
-                "\n".join(parameter_lines(each, found)) if detail else "",
+                explanation_name(each, diagnosis),
+                "\n".join(parameter_lines(each, diagnosis)) if detail else "",
                 "\n".join(checks_text(each)),
                 chance(each.probability),
             )
@@ -94,45 +96,45 @@ def which_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     caption = "Which effect explains the gap (★: the data cannot tell these apart)"
     lines = tuple(_without(row, empty) for row in rows[:kept])
     table = Table(_without(headings, empty), lines, caption, left=4 - len(empty))
-    return table, _rest([each.probability for each in shown[kept:]], "explanation")
+    return table, _rest([explanation.probability for explanation in shown[kept:]], "explanation")
 
 
-def effects_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """How probable each effect is, alone or with others, and how much of the gap it closes."""
-    names = short_ids(found.curves)
-    fitted = [each.id for each in found.curves.values() if each.role == "identify"]
+    names = short_ids(diagnosis.curves)
+    fitted = [curves.id for curves in diagnosis.curves.values() if curves.role == "identify"]
     rows = [
         (
-            title(each.name),
-            chance(each.probability),
-            _signed(each.share) if each.name in found.best.effects else "–",
-            "" if each.alone is None else _signed(each.alone),
-            "" if each.beside is None else _signed(each.beside),
-            "" if set(each.records) >= {*fitted} else ", ".join(names.get(name, name) for name in each.records),
+            title(effect.name),
+            chance(effect.probability),
+            _signed(effect.share) if effect.name in diagnosis.best.effects else "–",
+            "" if effect.alone is None else _signed(effect.alone),
+            "" if effect.beside is None else _signed(effect.beside),
+            "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
         )
-        for each in found.effects
+        for effect in diagnosis.effects
     ]
     empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
-    kept = _kept([max(each.probability, each.share) for each in found.effects], most)
+    kept = _kept([max(effect.probability, effect.share) for effect in diagnosis.effects], most)
     headings = ("effect", "probability", "share of the gap", "alone", "beside the others", "only in")
     table = Table(
         _without(headings, empty),
         tuple(_without(row, empty) for row in rows[:kept]),
         "Effect by effect: how probable it is, and what it closes of the gap (–: not in the best explanation)",
     )
-    return table, _rest([each.probability for each in found.effects[kept:]], "effect")
+    return table, _rest([effect.probability for effect in diagnosis.effects[kept:]], "effect")
 
 
-def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
     """How far the best explanation closes the gap, all records together and one by one."""
-    shrink, names = found.shrink, short_ids(found.curves)
+    shrink, names = diagnosis.shrink, short_ids(diagnosis.curves)
     lines: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
     if shrink.held_out is not None:
         lines.append(("all held-out records", shrink.held_out))
     if shrink.ceiling is not None:
         lines.append(("(any smooth correction)", shrink.ceiling))
     if len(shrink.records) > 1:
-        lines += [(names.get(record, record), each) for record, each in shrink.records.items()]
+        lines += [(names.get(record, record), closure) for record, closure in shrink.records.items()]
     rows = [
         (
             label,
@@ -145,8 +147,8 @@ def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]
         for label, each in lines
     ]
     kept = len(rows) if most is None else min(most, len(rows))
-    headings = ("records", "before", "after", floor_name(found), "gap closed", "90 % interval")
-    mended = mended_by(found)
+    headings = ("records", "before", "after", floor_name(diagnosis), "gap closed", "90 % interval")
+    mended = mended_by(diagnosis)
     by = f"with {mended}" if mended else "– no effect was added"
     caption = f"How far the gap shrinks {by} (rms errors in MPa)"
     left_out = len(rows) - kept
@@ -154,20 +156,22 @@ def shrink_table(found: Diagnosis, most: int | None = None) -> tuple[Table, str]
     return Table(headings, tuple(rows[:kept]), caption), rest
 
 
-def floor_name(found: Diagnosis) -> str:
+def floor_name(diagnosis: Diagnosis) -> str:
     """What no model can get below: the noise, and how far specimens differ where that is allowed for."""
-    return "noise and scatter" if found.scatter is not None and found.scatter.any else "noise"
+    return "noise and scatter" if diagnosis.scatter is not None and diagnosis.scatter.any else "noise"
 
 
-def next_tests_table(found: Diagnosis) -> Table:
+def next_tests_table(diagnosis: Diagnosis) -> Table:
     """What could be done next, the most worth first."""
-    rows = tuple((each.what.partition(": ")[0], each.cost, chance(each.probability_after)) for each in found.next_tests)
+    rows = tuple(
+        (test.what.partition(": ")[0], test.cost, chance(test.probability_after)) for test in diagnosis.next_tests
+    )
     return Table(
         ("test", "cost", "right answer after it"), rows, "What could be done next, the most worth first", left=2
     )
 
 
-def base_table(found: Diagnosis) -> Table:
+def base_table(diagnosis: Diagnosis) -> Table:
     """Parameters of the base law as fitted without any effect."""
     rows = tuple(
         (
@@ -175,24 +179,24 @@ def base_table(found: Diagnosis) -> Table:
             f"{each.value:.5g}" if each.se is None else plus_minus(each.value, each.se),
             _STATUS.get(each.status, each.status),
         )
-        for each in found.base
+        for each in diagnosis.base
     )
     headings = ("parameter", "value ± standard error", "by the data")
     return Table(headings, rows, "The base law, fitted without any effect")
 
 
-def leading(found: Diagnosis) -> tuple[Explanation, ...]:
+def leading(diagnosis: Diagnosis) -> tuple[Explanation, ...]:
     """Those in the answer set, the most probable first."""
-    return tuple(each for each in found.explanations if each.effects in found.answer_set)
+    return tuple(explanation for explanation in diagnosis.explanations if explanation.effects in diagnosis.answer_set)
 
 
-def mended_by(found: Diagnosis) -> str:
+def mended_by(diagnosis: Diagnosis) -> str:
     """What the curves and errors called "after" are made with; empty where nothing of the catalogue helps."""
-    known = tuple(effect for effect in found.best.effects if effect != UNKNOWN)
+    known = tuple(effect for effect in diagnosis.best.effects if effect != UNKNOWN)
     titles = tuple(
-        title for effect, title in zip(found.best.effects, found.best.titles, strict=False) if effect in known
+        title for effect, title in zip(diagnosis.best.effects, diagnosis.best.titles, strict=False) if effect in known
     )
-    return explanation_name(replace(found.best, effects=known, titles=titles), found) if known else ""
+    return explanation_name(replace(diagnosis.best, effects=known, titles=titles), diagnosis) if known else ""
 
 
 def _without(row: tuple[str, ...], left_out: set[int]) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from probation.inference.unknown import UNKNOWN
 from probation.settings.detection import DETECTION
+from probation.settings.evidence import EVIDENCE
 from probation.wording import plus_minus
 
 if TYPE_CHECKING:
@@ -22,38 +23,39 @@ OUTSIDE = "an effect outside the catalogue"
 LONGEST_ID = 30
 """Letters of a record's id that tables and figures show."""
 
-SAME = 0.01
-"""p-value below which an amplitude is said to differ from record to record."""
-
 _SMALLEST_P = 1e-4  # draws of the noise tell no less
 _UNIT_WORDS = {"°C": "degC", "%": "percent"}
 
 
 def name_of(effects: Sequence[str], titles: Sequence[str] = ()) -> str:
     """An explanation's name: "self-heating + damage"; `titles` where they are known."""
-    known = [each for each in effects if each != UNKNOWN]
-    words = " + ".join(titles if len(titles) == len(known) else [each.replace("_", " ") for each in known])
+    known = [effect for effect in effects if effect != UNKNOWN]
+    words = " + ".join(titles if len(titles) == len(known) else [effect.replace("_", " ") for effect in known])
     if UNKNOWN not in effects:
         return words or NOTHING
     return f"{words} + {OUTSIDE}" if words else OUTSIDE
 
 
-def explanation_name(each: Explanation, found: Diagnosis) -> str:
+def explanation_name(explanation: Explanation, diagnosis: Diagnosis) -> str:
     """The same with the record that it sits in, where it does not touch all that were fitted."""
-    titles = [title for effect, title in zip(each.effects, each.titles, strict=False) if UNKNOWN not in (effect, title)]
-    name = name_of(each.effects, titles)
-    fitted = {curves.id for curves in found.curves.values() if curves.role == "identify"}
-    if not each.records or fitted <= set(each.records):
+    titles = [
+        title
+        for effect, title in zip(explanation.effects, explanation.titles, strict=False)
+        if UNKNOWN not in (effect, title)
+    ]
+    name = name_of(explanation.effects, titles)
+    fitted = {curves.id for curves in diagnosis.curves.values() if curves.role == "identify"}
+    if not explanation.records or fitted <= set(explanation.records):
         return name
-    if len(each.records) == 1:
-        return f"{name}, in {short_ids(found.curves).get(each.records[0], each.records[0])} alone"
-    return f"{name}, in {len(each.records)} of {len(fitted)} records"
+    if len(explanation.records) == 1:
+        return f"{name}, in {short_ids(diagnosis.curves).get(explanation.records[0], explanation.records[0])} alone"
+    return f"{name}, in {len(explanation.records)} of {len(fitted)} records"
 
 
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)
-    short = [each if len(each) <= longest else _shortened(each, longest) for each in every]
+    short = [record_id if len(record_id) <= longest else _shortened(record_id, longest) for record_id in every]
     return {name: brief if short.count(brief) == 1 else name for name, brief in zip(every, short, strict=True)}
 
 
@@ -77,14 +79,18 @@ def p_text(value: float) -> str:
     return f"{value:.2g}" if value >= _SMALLEST_P else f"< {_SMALLEST_P:.4f}"
 
 
-def closed(each: Closure) -> str:
+def closed(closure: Closure) -> str:
     """How much of the gap is gone, with the digits that mean something: "99.7 %"."""
-    return "no gap to close" if each.closure is None else f"{_closed(each.closure, _digits(each))} %"
+    return "no gap to close" if closure.closure is None else f"{_closed(closure.closure, _digits(closure))} %"
 
 
-def closed_interval(each: Closure) -> str:
+def closed_interval(closure: Closure) -> str:
     """Its interval: "99.1 to 99.9 %"."""
-    return "" if each.interval is None else f"{' to '.join(_closed(end, _digits(each)) for end in each.interval)} %"
+    return (
+        ""
+        if closure.interval is None
+        else f"{' to '.join(_closed(end, _digits(closure)) for end in closure.interval)} %"
+    )
 
 
 def span_text(ends: tuple[float, float]) -> str:
@@ -94,45 +100,47 @@ def span_text(ends: tuple[float, float]) -> str:
     return " to ".join(f"{round(end, digits) + 0.0:.{digits}f}" for end in ends).replace("-", "−")  # no "-0.00"
 
 
-def _digits(each: Closure) -> int:
-    if each.interval is None or each.interval[1] <= each.interval[0]:
+def _digits(closure: Closure) -> int:
+    if closure.interval is None or closure.interval[1] <= closure.interval[0]:
         return 1
-    return min(max(-floor(log10(50.0 * (each.interval[1] - each.interval[0]))), 0), 2)
+    return min(max(-floor(log10(50.0 * (closure.interval[1] - closure.interval[0]))), 0), 2)
 
 
 def _closed(part: float, digits: int = 0) -> str:
     return f"{100.0 * part:.{digits}f}".replace("-", "−")
 
 
-def parameter_text(each: CauseParameter) -> str:
+def parameter_text(parameter: CauseParameter) -> str:
     """Such as "heating 0.48 ± 0.02 °C/MPa": the unit goes from the name to behind the value."""
-    value = f"{each.value:.4g}" if each.se is None else plus_minus(each.value, each.se)
+    value = f"{parameter.value:.4g}" if parameter.se is None else plus_minus(parameter.value, parameter.se)
     notes = []
-    if each.bound:
-        notes.append(f"at its {each.bound} bound")
-    elif each.se is None:
+    if parameter.bound:
+        notes.append(f"at its {parameter.bound} bound")
+    elif parameter.se is None:
         notes.append("not determined")
-    words = [parameter_words(each), value, each.unit, *(f"({note})" for note in notes)]
+    words = [parameter_words(parameter), value, parameter.unit, *(f"({note})" for note in notes)]
     return " ".join(words).replace("  ", " ").rstrip()
 
 
-def parameter_lines(each: Explanation, found: Diagnosis) -> list[str]:
+def parameter_lines(explanation: Explanation, diagnosis: Diagnosis) -> list[str]:
     """An explanation's parameters, one a line; those of a combination under the name of their effect."""
-    titles = dict(zip(each.effects, each.titles, strict=False))
-    causes = list(dict.fromkeys((parameter.effect, parameter.records) for parameter in each.parameters))
+    titles = dict(zip(explanation.effects, explanation.titles, strict=False))
+    causes = list(dict.fromkeys((parameter.effect, parameter.records) for parameter in explanation.parameters))
     lines = []
     for effect, records in causes:
         if len(causes) > 1:
-            place = f", in {short_ids(found.curves).get(records[0], records[0])}" if len(records) == 1 else ""
+            place = f", in {short_ids(diagnosis.curves).get(records[0], records[0])}" if len(records) == 1 else ""
             lines.append(f"{titles.get(effect, effect.replace('_', ' '))}{place}:")
-        lines += [parameter_text(own) for own in each.parameters if (own.effect, own.records) == (effect, records)]
+        lines += [
+            parameter_text(own) for own in explanation.parameters if (own.effect, own.records) == (effect, records)
+        ]
     return lines
 
 
-def parameter_words(each: CauseParameter | EffectParameter) -> str:
+def parameter_words(parameter: CauseParameter | EffectParameter) -> str:
     """The name of a parameter without its unit: "heating" for `heating_degC_per_MPa`."""
-    suffix = _suffix(each.unit)
-    return (each.name.removesuffix(f"_{suffix}") if suffix else each.name).replace("_", " ")
+    suffix = _suffix(parameter.unit)
+    return (parameter.name.removesuffix(f"_{suffix}") if suffix else parameter.name).replace("_", " ")
 
 
 def _suffix(unit: str) -> str:
@@ -143,24 +151,24 @@ def _suffix(unit: str) -> str:
     return f"per_{parts[1]}" if above == "1" else f"{parts[0]}_per_{parts[1]}"
 
 
-def checks_text(each: Explanation) -> list[str]:
+def checks_text(explanation: Explanation) -> list[str]:
     """What speaks for or against an explanation in addition to its probability, one phrase each."""
-    checks = each.checks
+    checks = explanation.checks
     if checks is None:
         return []
     found = [*_prediction(checks)]
     if checks.amplitude_p_value is not None:
-        same = checks.amplitude_p_value >= SAME
+        same = checks.amplitude_p_value >= EVIDENCE.same_amplitude
         found.append("one strength suits all records" if same else "each record wants another strength")
-    if each.effects and checks.remaining_p_value < DETECTION.gap_level and each.effects != (UNKNOWN,):
+    if explanation.effects and checks.remaining_p_value < DETECTION.gap_level and explanation.effects != (UNKNOWN,):
         found.append("a gap is left in addition")
-    elif each.effects and UNKNOWN not in each.effects:
+    elif explanation.effects and UNKNOWN not in explanation.effects:
         found.append("what is left may be noise and the form's error")
-    return [*found, *(_without_names(note, each) for note in checks.notes)]
+    return [*found, *(_without_names(note, explanation) for note in checks.notes)]
 
 
-def _without_names(note: str, each: Explanation) -> str:
-    for parameter in sorted(each.parameters, key=lambda parameter: -len(parameter.name)):
+def _without_names(note: str, explanation: Explanation) -> str:
+    for parameter in sorted(explanation.parameters, key=lambda parameter: -len(parameter.name)):
         note = note.replace(parameter.name, parameter_words(parameter))
     return note
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.ticker import LogFormatter
 
-from probation.report.figures import house_style, legend_outside, new_figure, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, styled_figure, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -28,8 +28,7 @@ _SAME = 1e-9  # relative: curves that vary by less are constant
 
 def excitation_figure(answer: RecordExcitation) -> Figure:
     """Strain, what smoothing took away, and the rate with its band of two standard errors."""
-    with house_style():
-        figure = new_figure(7.2, 6.6)
+    with styled_figure(7.2, 6.6) as figure:
         above, middle, below = figure.subplots(3, 1, sharex=True, height_ratios=(1.0, 0.7, 1.2))
         _strain(above, answer)
         _residual(middle, answer)
@@ -47,8 +46,7 @@ def answer_figure(answer: ExcitationAnswer) -> Figure:
 
 def strain_figure(answer: RecordExcitation) -> Figure:
     """Measured and smoothed strain, and their difference."""
-    with house_style():
-        figure = new_figure(7.2, 4.4)
+    with styled_figure(7.2, 4.4) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
         _strain(above, answer)
         _residual(below, answer)
@@ -59,8 +57,7 @@ def strain_figure(answer: RecordExcitation) -> Figure:
 
 def rate_figure(answer: RecordExcitation) -> Figure:
     """The rate with its band, and the standard error as a part of it."""
-    with house_style():
-        figure = new_figure(7.2, 4.8)
+    with styled_figure(7.2, 4.8) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
         _rate(above, answer)
         time, rate = answer.time, np.abs(answer.excitation.rate)
@@ -83,8 +80,7 @@ def integration_figure(answer: RecordExcitation) -> Figure:
 def figure_s3(fit: NeckingFit) -> Figure:
     """Strain and its first fit (A-1); below, the residuals."""
     steps = fit.strain
-    with house_style():
-        figure = new_figure(7.2, 4.6)
+    with styled_figure(7.2, 4.6) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
         _dots(above, steps.time, steps.measured, "measured")
         above.plot(*thinned(steps.time, steps.first), color=colour("model"), lw=1.1, label="(A-1)")
@@ -100,8 +96,7 @@ def figure_s3(fit: NeckingFit) -> Figure:
 def figure_s4(fit: NeckingFit) -> Figure:
     """The residuals of the first step and the sines through them."""
     steps = fit.strain
-    with house_style():
-        figure = new_figure(7.2, 3.4)
+    with styled_figure(7.2, 3.4) as figure:
         axes = figure.subplots()
         _dots(axes, steps.time, steps.first_residual, "residual after step 1")
         label = _sines(len(steps.sines.frequencies))
@@ -115,8 +110,7 @@ def figure_s4(fit: NeckingFit) -> Figure:
 def figure_s5(fit: NeckingFit) -> Figure:
     """The residuals of the first step with their fit; below, what the second step leaves."""
     steps = fit.strain
-    with house_style():
-        figure = new_figure(7.2, 4.6)
+    with styled_figure(7.2, 4.6) as figure:
         above, below = figure.subplots(2, 1, sharex=True)
         _dots(above, steps.time, steps.first_residual, "after step 1")
         above.plot(*thinned(steps.time, steps.sines(steps.time)), color=colour("second"), label="its fit")
@@ -134,8 +128,7 @@ def figure_s5(fit: NeckingFit) -> Figure:
 def figure_s6(fit: NeckingFit) -> Figure:
     """The final fit of the strain."""
     steps = fit.strain
-    with house_style():
-        figure = new_figure(7.2, 3.6)
+    with styled_figure(7.2, 3.6) as figure:
         axes = figure.subplots()
         _dots(axes, steps.time, steps.measured, "measured")
         label = f"(A-1) and {_sines(len(steps.sines.frequencies))}"
@@ -148,8 +141,7 @@ def figure_s6(fit: NeckingFit) -> Figure:
 def figure_s7(fit: NeckingFit) -> Figure:
     """The differentiated strain, its fits after one and two steps, and the derivative of the strain's own fit."""
     steps, time = fit.rate, fit.rate.time
-    with house_style():
-        figure = new_figure(7.2, 3.8)
+    with styled_figure(7.2, 3.8) as figure:
         axes = figure.subplots()
         _dots(axes, time, steps.measured, fit.differentiator)
         axes.plot(*thinned(time, steps.first), color=colour("model"), lw=1.1, label="derivative of (A-1)")
@@ -238,8 +230,7 @@ def _rate(axes: Axes, answer: RecordExcitation) -> None:
 
 
 def _integration(time: FloatArray, measured: FloatArray, integrated: FloatArray) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 4.4)
+    with styled_figure(7.2, 4.4) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
         _dots(above, time, measured, "measured")
         above.plot(*thinned(time, integrated), color=colour("second"), lw=1.1, label="integrated rate")
@@ -274,7 +265,7 @@ def _note(axes: Axes, text: str) -> None:
 
 def _around(scattered: FloatArray, curves: tuple[FloatArray, ...]) -> tuple[float, float]:
     """Limits that show the curves, and of the scattered samples what is not far away from them."""
-    low, high = min(float(each.min()) for each in curves), max(float(each.max()) for each in curves)
+    low, high = min(float(curve.min()) for curve in curves), max(float(curve.max()) for curve in curves)
     room = 0.5 * (high - low)
     if room <= _SAME * max(abs(low), abs(high)):  # constant but for rounding
         room = 0.5 * abs(high) or 1.0

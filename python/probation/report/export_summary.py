@@ -10,13 +10,13 @@ if TYPE_CHECKING:
     from probation.exporting.result import Export
 
 
-def export_summary(found: Export) -> str:
+def export_summary(exported: Export) -> str:
     """The round trip first, then what is left out."""
-    first, *others = found.checks
+    first, *others = exported.checks
     lines = [
-        f"{found.what}.",
+        f"{exported.what}.",
         f"  round trip: {first.error:.2g} MPa at most, {percentage(first.relative)} % of the largest stress",
     ]
-    if found.request.reduction is not None:
-        lines.append(f"  {found.request.reduction.summary()}")
+    if exported.request.reduction is not None:
+        lines.append(f"  {exported.request.reduction.summary()}")
     return "\n".join([*lines, *(f"  {check.text}" for check in others)])

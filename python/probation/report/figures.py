@@ -78,6 +78,13 @@ def new_figure(width: float = 7.2, height: float = 4.2) -> SafeFigure:
     return SafeFigure(figsize=(width, height), layout="constrained")
 
 
+@contextmanager
+def styled_figure(width: float = 7.2, height: float = 4.2) -> Iterator[SafeFigure]:
+    """A figure of that size [inch] that is drawn in the house style within the block."""
+    with house_style():
+        yield new_figure(width, height)
+
+
 class SafeFigure(Figure):
     """A figure in which text is data: nothing in it is taken for mathematics, and what does not print is escaped."""
 
@@ -154,7 +161,6 @@ def figure_to_svg(figure: Figure, label: str) -> str:
 
     Parameters
     ----------
-    figure : Figure
     label : str
         What it shows, for those who cannot see it; unique within a page.
     """
@@ -226,7 +232,7 @@ def narrow(figure: Figure) -> Figure | None:
                 number_logarithmic(axis)
     for legend in list(figure.legends):
         handles, labels = (
-            [each for each in legend.legend_handles if each is not None],
+            [handle for handle in legend.legend_handles if handle is not None],
             [text.get_text() for text in legend.get_texts()],
         )
         place = next(name for name, code in Legend.codes.items() if code == getattr(legend, "_loc", None))
@@ -251,7 +257,6 @@ def legend_outside(
 
     Parameters
     ----------
-    figure : Figure
     handles : sequence of Artist
     labels : sequence of str
         A label that is wider than the figure is broken.
@@ -273,7 +278,7 @@ def legend_outside(
     tall = max(1, -(-len(broken) // most))  # a column is filled before the next
     stacks = [broken[at : at + tall] for at in range(0, len(broken), tall)]
     figure.legend(handles, broken, loc=cast("Any", f"outside {place}"), ncols=max(1, len(stacks)))
-    return max((sum(1 + each.count("\n") for each in stack) for stack in stacks), default=1)
+    return max((sum(1 + label.count("\n") for label in stack) for stack in stacks), default=1)
 
 
 def number_logarithmic(axis: Axis) -> None:
@@ -326,7 +331,7 @@ def _axes(figure: Figure) -> str:
 def _map(axes: Axes) -> dict[str, object]:
     """The pixels of a map with a title, and their borders; nothing where there is no map, or a very large one."""
     title = next((text for loc in _TITLES if (text := axes.get_title(loc))), "")
-    mesh = next((each for each in axes.collections if isinstance(each, QuadMesh) and title), None)
+    mesh = next((collection for collection in axes.collections if isinstance(collection, QuadMesh) and title), None)
     drawn = None if mesh is None else mesh.get_array()
     if mesh is None or drawn is None or drawn.ndim != 2 or drawn.size > _MOST_PIXELS:
         return {}
@@ -339,7 +344,7 @@ def _map(axes: Axes) -> dict[str, object]:
             "label": printable(title),
             "unit": "" if unit == "-" else f" {unit}",
             "values": [[float(f"{value:.3g}") if np.isfinite(value) else None for value in row] for row in pixels],
-            **{name: [float(f"{border:.7g}") for border in each] for name, each in borders.items()},
+            **{name: [float(f"{border:.7g}") for border in positions] for name, positions in borders.items()},
         }
     }
 
@@ -361,7 +366,7 @@ def _label_of(axes: Axes, direction: str) -> str:
     """The label of an axis, or of one that it is shared with."""
     shared = axes.get_shared_x_axes() if direction == "x" else axes.get_shared_y_axes()
     own = getattr(axes, f"get_{direction}label")()
-    others = (getattr(each, f"get_{direction}label")() for each in shared.get_siblings(axes))
+    others = (getattr(sibling, f"get_{direction}label")() for sibling in shared.get_siblings(axes))
     return str(own or next((label for label in others if label), ""))
 
 
@@ -375,7 +380,6 @@ def thinned(x: FloatArray, y: FloatArray, limit: int = _DRAWN) -> tuple[FloatArr
     Parameters
     ----------
     x, y : ndarray, shape (n,)
-    limit : int
     """
     if len(x) <= limit:
         return x, y

@@ -30,12 +30,12 @@ def fit_summary(fit: Fit) -> str:
         "",
         f"  fit residual [MPa]: rms {fit.rms_MPa:.4g}, noise {fit.noise_MPa:.4g}, bias {fit.bias_MPa:.4g}",
     ]
-    for each in fit.records.values():
+    for record in fit.records.values():
         lines.append(
-            f"    {each.id}: rms {each.rms_MPa:.4g}, largest {each.max_MPa:.4g}, noise {each.noise_MPa:.4g} MPa; "
-            f"rate: {each.excitation.differentiator}"
+            f"    {record.id}: rms {record.rms_MPa:.4g}, largest {record.max_MPa:.4g}, noise "
+            f"{record.noise_MPa:.4g} MPa; rate: {record.excitation.differentiator}"
         )
-        lines.append(f"      {each.bias.text}")
+        lines.append(f"      {record.bias.text}")
     if fit.scheme_shift:
         worst = max(fit.scheme_shift, key=lambda name: abs(fit.scheme_shift[name]))
         shift = fit.scheme_shift[worst]
@@ -62,9 +62,9 @@ def noise_text(fit: Fit) -> str:
         "strain-noise-frozen": "noise of the stress and, at the plain estimate, of the strain",
         "plain, strain noise resampled": "white noise of the stress, and that of the strain drawn again",
     }[fit.weighting]
-    correlated = [each for each in fit.records.values() if each.noise_correlation != 0.0]
+    correlated = [record for record in fit.records.values() if record.noise_correlation != 0.0]
     if correlated:
-        sizes = ", ".join(f"{each.noise_correlation:.2f} ({each.id})" for each in correlated)
+        sizes = ", ".join(f"{record.noise_correlation:.2f} ({record.id})" for record in correlated)
         what += f", correlation of neighbours {sizes}"
     if fit.newey_west:
         what += "; autocorrelated fit residuals (Newey-West)"

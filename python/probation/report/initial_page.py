@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.records.said_once import of_all
-from probation.report.figures import house_style, legend_outside, new_figure
+from probation.report.figures import legend_outside, styled_figure
 from probation.report.initial_summary import record_table
 from probation.report.page import Page, Section, picture
 from probation.report.style import colour
@@ -29,8 +29,7 @@ _PERFECT = 1e-12  # less than that of the strain is unexplained by rounding alon
 
 def initial_figure(made: InitialCampaign) -> Figure:
     """Stress over strain, and strain over time, of all records."""
-    with house_style():
-        figure = new_figure(10.0, 4.0)
+    with styled_figure(10.0, 4.0) as figure:
         over_strain, over_time = figure.subplots(1, 2)
         for record in made.campaign.records:
             over_strain.plot(record.true_strain, record.true_stress, lw=1.0, label=record.id)
@@ -42,8 +41,7 @@ def initial_figure(made: InitialCampaign) -> Figure:
 
 def record_figure(record: Record) -> Figure:
     """The same of one record, and its stress over time."""
-    with house_style():
-        figure = new_figure(10.0, 3.2)
+    with styled_figure(10.0, 3.2) as figure:
         over_strain, strain_axes, stress_axes = figure.subplots(1, 3)
         over_strain.plot(record.true_strain, record.true_stress, lw=1.0)
         strain_axes.plot(record.time, record.true_strain, lw=1.0)
@@ -56,8 +54,7 @@ def record_figure(record: Record) -> Figure:
 def clocks_figure(record: Record) -> Figure:
     """How the clock of the strain file was set: the misfit over the shift, and the start of force and strain."""
     clock = record.clock
-    with house_style():
-        figure = new_figure(10.0, 3.2)
+    with styled_figure(10.0, 3.2) as figure:
         if clock is None or not clock.tried.size:
             start = figure.subplots()
         else:

@@ -35,10 +35,10 @@ _NUMBERED_LINE = 24  # letters of a title beside a map on a telephone
 _TWO_LINES = 0.27  # inch that two of them take
 
 
-def isolability_figure(found: Isolability) -> Figure:
+def isolability_figure(isolability: Isolability) -> Figure:
     """How probably the effect of a row, which is there, would be named rather than the one of a column."""
-    titles = [each.title for each in found.effects]
-    return chance_map(titles, found.probability, [each.detectability for each in found.effects])
+    titles = [effect.title for effect in isolability.effects]
+    return chance_map(titles, isolability.probability, [effect.detectability for effect in isolability.effects])
 
 
 def chance_map(titles: list[str], probability: FloatArray, detectability: list[float]) -> Figure:
@@ -46,7 +46,6 @@ def chance_map(titles: list[str], probability: FloatArray, detectability: list[f
 
     Parameters
     ----------
-    titles : list of str, length n
     probability : ndarray, shape (n, n)
         Of naming the row's effect, which is there, rather than the column's.
     detectability : list of float, length n
@@ -110,7 +109,7 @@ def _map(
 
 def _explain(figure: Figure) -> None:
     handles = _legend()
-    legend_outside(figure, handles, [str(each.get_label()) for each in handles], "upper left", columns=3)
+    legend_outside(figure, handles, [str(handle.get_label()) for handle in handles], "upper left", columns=3)
 
 
 def _alpha(chance: float) -> float:

@@ -1,4 +1,4 @@
-"""What a campaign's tests could say of each effect, as a table."""
+"""What tests could say of each effect, as a table; and of all, as text."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from probation.wording import listed, percent
 
 if TYPE_CHECKING:
     from probation.design.isolability_result import EffectIsolability, Isolability
+    from probation.diagnosis.isolability import CampaignIsolability
 
 HOW_TO_READ = (
     "Every effect is taken at its usual size. Seen: how far its signal stands above the noise, in standard deviations, "
@@ -29,27 +30,33 @@ _STATUS = {
 _RIVALS = 2
 
 
-def in_words(text: str, found: Isolability) -> str:
+def in_words(text: str, isolability: Isolability) -> str:
     """A sentence of the analysis with the titles of effects in place of their names."""
-    for each in found.effects:
-        text = re.sub(rf"\b{each.name}\b", each.title, text)
+    for effect in isolability.effects:
+        text = re.sub(rf"\b{effect.name}\b", effect.title, text)
     return text
 
 
-def isolability_table(found: Isolability) -> Table:
+def isolability_table(isolability: Isolability) -> Table:
     """Every effect: whether these tests would see it, and what it may be taken for; those that are named first."""
     order = list(_STATUS)
     rows = tuple(
-        (each.title, _answer(each, found), count_text(each.detectability), percent(each.absorbable))
-        for each in sorted(found.effects, key=lambda each: (order.index(each.status), -each.detectability))
+        (each.title, _answer(each, isolability), count_text(each.detectability), percent(each.absorbable))
+        for each in sorted(isolability.effects, key=lambda effect: (order.index(effect.status), -effect.detectability))
     )
     return Table(("effect", "these tests", "seen", "hidden"), rows, "What these tests could say of each effect", left=2)
 
 
-def _answer(each: EffectIsolability, found: Isolability) -> str:
-    if each.status != "ambiguous":
-        return _STATUS[each.status]
-    titles = {other.name: other.title for other in found.effects}
-    rivals = [titles[name] for name in each.rivals]
+def isolability_summary(answer: CampaignIsolability) -> str:
+    """The headline, then every effect."""
+    headline = f"{answer.campaign}: {in_words(answer.found.headline, answer.found)}"
+    return "\n\n".join([headline, isolability_table(answer.found).text(), HOW_TO_READ])
+
+
+def _answer(effect: EffectIsolability, isolability: Isolability) -> str:
+    if effect.status != "ambiguous":
+        return _STATUS[effect.status]
+    titles = {other.name: other.title for other in isolability.effects}
+    rivals = [titles[name] for name in effect.rivals]
     more = [f"{len(rivals) - _RIVALS} more"] if len(rivals) > _RIVALS else []
     return f"may be taken for {listed(rivals[:_RIVALS] + more)}"

@@ -52,7 +52,6 @@ class Section:
 
     Attributes
     ----------
-    title : str
     parts : tuple of str, Table, Picture or Gallery
         A text is one paragraph.
     """
@@ -67,7 +66,6 @@ class Page:
 
     Attributes
     ----------
-    title : str
     verdict : str
         Read first: its first 25 words at most, up to the end of a clause; the rest stands below.
     mood : {"good", "bad", "neutral"}

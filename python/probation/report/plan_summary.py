@@ -20,7 +20,7 @@ EXPECTED = "Expected of a fit of all tests together, if the law is right"
 def plan_verdict(plan: Plan) -> str:
     """How well the parameters would be known, and which effects could be named."""
     tests = "This test" if len(plan.tests) == 1 else f"These {len(plan.tests)} tests"
-    errors = [f"{SYMBOLS[name]} {_relative(each)}" for name, each in plan.parameters.items()]
+    errors = [f"{SYMBOLS[name]} {_relative(parameter)}" for name, parameter in plan.parameters.items()]
     effects = in_words(plan.isolability.headline, plan.isolability)
     return f"{tests} would give standard errors of {', '.join(errors)}. {effects}"
 
@@ -36,7 +36,7 @@ def plan_summary(plan: Plan) -> str:
 def parameter_table(plan: Plan) -> Table:
     """What a fit of all tests is expected to give: value and standard error of parameters and their product."""
     named = [
-        *((SYMBOLS[name], each) for name, each in zip(plan.names, plan.parameters.values(), strict=True)),
+        *((SYMBOLS[name], parameter) for name, parameter in zip(plan.names, plan.parameters.values(), strict=True)),
         ("·".join(SYMBOLS[name] for name in plan.law.parameter_names[:2]), plan.product),
     ]
     rows = []
@@ -52,7 +52,7 @@ def parameter_table(plan: Plan) -> Table:
 def correlations(plan: Plan) -> str:
     """Of the estimates, by pairs: "E_u–τ_max −0.9"; empty where there is no pair."""
     names = [SYMBOLS[name] for name in plan.names]
-    known = [at for at, each in enumerate(plan.parameters.values()) if each.se is not None]
+    known = [at for at, parameter in enumerate(plan.parameters.values()) if parameter.se is not None]
     return ", ".join(f"{names[i]}–{names[j]} {plan.correlation[i, j]:+.3f}" for i in known for j in known if j < i)
 
 
@@ -65,21 +65,25 @@ def tests_table(plan: Plan) -> Table:
     """The tests as they were planned."""
     rows = tuple(
         (
-            each.id,
-            each.history,
-            f"{each.samples}",
-            f"{each.duration:.4g}",
-            f"{each.largest_strain:.3g}",
-            f"{each.stress_noise:.3g}",
-            f"{each.strain_noise:.2g}" + ("" if each.smoothing == "raw" else f"\n{each.smoothing}"),
+            test.id,
+            test.history,
+            f"{test.samples}",
+            f"{test.duration:.4g}",
+            f"{test.largest_strain:.3g}",
+            f"{test.stress_noise:.3g}",
+            f"{test.strain_noise:.2g}" + ("" if test.smoothing == "raw" else f"\n{test.smoothing}"),
         )
-        for each in plan.tests
+        for test in plan.tests
     )
     headings = ("test", "history", "samples", "time [s]", "max. strain", "noise [MPa]", "of strain [–]")
     return Table(headings, rows, f"The tests, solved by {plan.scheme}", left=2)
 
 
-def _relative(each: Parameter) -> str:
-    if each.se is None or each.status == "not_identifiable":
+def _relative(parameter: Parameter) -> str:
+    if parameter.se is None or parameter.status == "not_identifiable":
         return "not identifiable"
-    return f"{percentage(each.se / abs(each.value))} %" if each.value else f"{each.se:.2g} {each.unit}"
+    return (
+        f"{percentage(parameter.se / abs(parameter.value))} %"
+        if parameter.value
+        else f"{parameter.se:.2g} {parameter.unit}"
+    )

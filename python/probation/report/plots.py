@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.report.diagnosis_words import short_ids
-from probation.report.figures import house_style, legend_outside, new_figure, number_logarithmic, thinned
+from probation.report.figures import house_style, legend_outside, new_figure, number_logarithmic, styled_figure, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ class Curve:
 
     Attributes
     ----------
-    name : str
     true_strain : ndarray, shape (n_times,) [-]
     measured : ndarray, shape (n_times,) [MPa]
     model : ndarray, shape (n_times,) [MPa]
@@ -104,27 +103,22 @@ def _residual(axes: Axes, curve: Curve, shade: str) -> None:
     axes.set_ylabel("residual [MPa]")
 
 
-def sensitivities(
-    x: FloatArray, sensitivity: FloatArray, names: Sequence[str], x_label: str = "true strain [–]"
-) -> Figure:
-    """Scaled sensitivities, parameter times derivative of the stress, over strain or time.
+def sensitivities(strain: FloatArray, sensitivity: FloatArray, names: Sequence[str]) -> Figure:
+    """Scaled sensitivities, parameter times derivative of the stress, over strain.
 
     Parameters
     ----------
-    x : ndarray, shape (n_times,)
+    strain : ndarray, shape (n_times,) [-]
     sensitivity : ndarray, shape (n_times, n_parameters) [MPa]
         Already multiplied by the parameters.
     names : sequence of str
-    x_label : str
-        With its unit.
     """
-    with house_style():
-        figure = new_figure(7.2, 3.4)
+    with styled_figure(7.2, 3.4) as figure:
         axes = figure.subplots()
         for at, name in enumerate(names):
-            axes.plot(*thinned(x, sensitivity[:, at]), color=series_colour(at), label=name)
+            axes.plot(*thinned(strain, sensitivity[:, at]), color=series_colour(at), label=name)
         axes.axhline(0.0, color=colour("muted"), lw=0.8)
-        axes.set(xlabel=x_label, ylabel="parameter × ∂σ/∂parameter [MPa]")
+        axes.set(xlabel="true strain [–]", ylabel="parameter × ∂σ/∂parameter [MPa]")
         axes.legend()
     return figure
 
@@ -136,8 +130,7 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
     ----------
     records : sequence of (name, true_strain [-], strain_rate [1/s]), both of shape (n_times,)
     """
-    with house_style():
-        figure = new_figure(7.2, 3.6)
+    with styled_figure(7.2, 3.6) as figure:
         axes = figure.subplots()
         for at, (name, strain, rate) in enumerate(records):
             axes.plot(*thinned(strain, rate), color=series_colour(at), label=name)
@@ -156,8 +149,7 @@ def strain_rates(records: Sequence[tuple[str, FloatArray, FloatArray]]) -> Figur
 def simulation_plot(simulation: Simulation) -> Figure:
     """Stress over strain, and both over time."""
     time, strain, stress = simulation.time, simulation.true_strain, simulation.true_stress
-    with house_style():
-        figure = new_figure(7.2, 4.4)
+    with styled_figure(7.2, 4.4) as figure:
         grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1))
         whole = figure.add_subplot(grid[:, 0])
         upper = figure.add_subplot(grid[0, 1])

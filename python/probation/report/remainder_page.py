@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.diagnosis.remainder_words import function_name
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.page import Section, picture
 from probation.report.style import colour
 from probation.report.table import Table
@@ -27,12 +27,12 @@ def remainder_table(left: Remainder) -> Table:
     """What the remainder is a function of, the most that explains first."""
     rows = tuple(
         (
-            function_name(each),
-            "a factor of the stress" if each.acts == "factor" else "a stress",
-            percent(each.explained),
-            each.judged_on,
+            function_name(dependence),
+            "a factor of the stress" if dependence.acts == "factor" else "a stress",
+            percent(dependence.explained),
+            dependence.judged_on,
         )
-        for each in left.depends_on
+        for dependence in left.depends_on
     )
     headings = ("a function of", "which is", "closes of what is left", "judged on … left out")
     return Table(headings, rows, "What is left depends on", left=2)
@@ -42,8 +42,7 @@ def remainder_figure(left: Remainder) -> Figure:
     """The remainder against the variable that explains most of it, and the function."""
     curve = left.curve
     assert curve is not None
-    with house_style():
-        figure = new_figure(5.3, 3.2)
+    with styled_figure(5.3, 3.2) as figure:
         axes = figure.subplots()
         axes.axhline(0.0, color=colour("muted"), lw=0.6)
         groups = [

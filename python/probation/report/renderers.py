@@ -13,17 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 RENDERERS: dict[str, dict[str, str]] = {
-    "records.record.Record": {
-        "card": "cards.record_card",
-        "line": "cards.record_line",
-    },
-    "records.campaign.Campaign": {
-        "card": "cards.campaign_card",
-        "line": "cards.campaign_line",
-    },
-    "law.modal.Law": {
-        "card": "cards.law_card",
-    },
+    "records.record.Record": {"card": "cards.record_card", "line": "cards.record_line"},
+    "records.campaign.Campaign": {"card": "cards.campaign_card", "line": "cards.campaign_line"},
+    "law.modal.Law": {"card": "cards.law_card"},
     "identify.result.Fit": {
         "card": "cards.fit_card",
         "line": "cards.fit_line",
@@ -32,9 +24,7 @@ RENDERERS: dict[str, dict[str, str]] = {
         "corner": "band_figures.corner_figure",
         "report": "fit_page.write_fit_page",
     },
-    "identify.band.StressBand": {
-        "plot": "band_figures.band_figure",
-    },
+    "identify.band.StressBand": {"plot": "band_figures.band_figure"},
     "certificate.result.Certificate": {
         "card": "cards.certificate_card",
         "line": "cards.certificate_line",
@@ -49,9 +39,7 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "companion_figure.companion_figure",
         "report": "companion_page.write_companion_page",
     },
-    "smoothing.answer.RecordExcitation": {
-        "plot": "excitation_figures.excitation_figure",
-    },
+    "smoothing.answer.RecordExcitation": {"plot": "excitation_figures.excitation_figure"},
     "smoothing.answer.ExcitationAnswer": {
         "summary": "excitation_summary.excitation_summary",
         "plot": "excitation_figures.answer_figure",
@@ -69,7 +57,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     },
     "schemes.result.CrossCheck": {
         "summary": "crosscheck_summary.crosscheck_summary",
-        "plot": "crosscheck_figure.crosscheck_figure",
+        "plot": "crosscheck_page.crosscheck_figure",
         "report": "crosscheck_page.write_crosscheck_page",
     },
     "identify.coverage.Coverage": {
@@ -84,7 +72,7 @@ RENDERERS: dict[str, dict[str, str]] = {
         "report": "diagnosis_page.write_diagnosis_page",
     },
     "diagnosis.isolability.CampaignIsolability": {
-        "summary": "isolability_summary.isolability_summary",
+        "summary": "isolability_table.isolability_summary",
         "plot": "isolability_figure.campaign_isolability_figure",
         "report": "isolability_page.write_isolability_page",
     },
@@ -92,28 +80,23 @@ RENDERERS: dict[str, dict[str, str]] = {
         "verdict": "plan_summary.plan_verdict",
         "summary": "plan_summary.plan_summary",
         "plot": "isolability_figure.plan_figure",
-        "report": "plan_page.write_plan_page",
+        "report": "isolability_page.write_plan_page",
     },
     "comparison.result.Comparison": {
         "summary": "comparison_summary.comparison_summary",
-        "plot": "comparison_figure.comparison_figure",
+        "plot": "comparison_page.comparison_figure",
         "report": "comparison_page.write_comparison_page",
     },
-    "records.preview.Preview": {
-        "summary": "preview_summary.preview_summary",
-        "plot": "preview_figure.preview_figure",
-    },
+    "records.preview.Preview": {"summary": "preview_summary.preview_summary", "plot": "preview_figure.preview_figure"},
     "records.initial.init_campaign.InitialCampaign": {
         "summary": "initial_summary.initial_summary",
         "plot": "initial_page.initial_figure",
         "report": "initial_page.write_initial_page",
     },
-    "exporting.result.Export": {
-        "summary": "export_summary.export_summary",
-    },
+    "exporting.result.Export": {"summary": "export_summary.export_summary"},
     "field.maps.FieldMaps": {
         "summary": "field_summary.field_summary",
-        "plot": "field_figure.field_figure",
+        "plot": "field_page.field_figure",
         "report": "field_page.write_field_page",
     },
 }
@@ -128,7 +111,6 @@ def renderer(result: type, what: str) -> Callable[..., Any]:
 
     Parameters
     ----------
-    result : type
     what : {"summary", "plot", "report", "verdict", "card", "line"}
     """
     for each in result.__mro__:

@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle
 
 from probation.report.diagnosis_tables import floor_name
 from probation.report.diagnosis_words import short_ids
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour
 from probation.wording import percent
 
@@ -34,34 +34,33 @@ _WIDE_ENOUGH = 5.0  # percent of a record whose region has room for a number ...
 _APART = 12.0  # ... and percent between two numbers, so that they do not touch on a telephone
 
 
-def residual_map(found: Diagnosis) -> Figure:
+def residual_map(diagnosis: Diagnosis) -> Figure:
     """Every record as a strip from its start to its end; regions that stand out are framed, with their share."""
-    curves = list(found.curves.values())
-    names = short_ids(found.curves)
-    with house_style():
-        figure = new_figure(7.2, 1.15 + 0.52 * len(curves))
+    curves = list(diagnosis.curves.values())
+    names = short_ids(diagnosis.curves)
+    with styled_figure(7.2, 1.15 + 0.52 * len(curves)) as figure:
         axes, scale = figure.subplots(2, 1, height_ratios=(0.52 * len(curves), 0.22))
-        for at, each in enumerate(curves):
-            _strip(axes, at, each, each.base, _BEFORE)
-            if each.explained is not None:
-                _strip(axes, at, each, each.explained, _AFTER)
-            end = "  held out" if each.role != "identify" else ""
-            axes.text(101.0, at, f"{each.time[-1] - each.time[0]:.4g} s{end}", va="center", fontsize=8)
-        place = {each.id: at for at, each in enumerate(curves)}
-        numbered: dict[str, list[float]] = {name: [] for name in found.curves}
-        for region in found.located:
-            _frame(axes, place[region.record], found.curves[region.record], region, numbered[region.record])
-        axes.set_yticks(range(len(curves)), [fill(names[each.id], 18) for each in curves])
+        for at, curve in enumerate(curves):
+            _strip(axes, at, curve, curve.base, _BEFORE)
+            if curve.explained is not None:
+                _strip(axes, at, curve, curve.explained, _AFTER)
+            end = "  held out" if curve.role != "identify" else ""
+            axes.text(101.0, at, f"{curve.time[-1] - curve.time[0]:.4g} s{end}", va="center", fontsize=8)
+        place = {curve.id: at for at, curve in enumerate(curves)}
+        numbered: dict[str, list[float]] = {name: [] for name in diagnosis.curves}
+        for region in diagnosis.located:
+            _frame(axes, place[region.record], diagnosis.curves[region.record], region, numbered[region.record])
+        axes.set_yticks(range(len(curves)), [fill(names[curve.id], 18) for curve in curves])
         axes.set(xlim=(0.0, 100.0), ylim=(len(curves) - 0.4, -0.6))
         axes.set(xlabel="part of the record's time [%]", ylabel="record")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        _scale(scale, floor_name(found))
+        _scale(scale, floor_name(diagnosis))
     return figure
 
 
-def levels_of(error: FloatArray, noise: FloatArray, cells: int = CELLS) -> list[int]:
+def levels_of(error: FloatArray, noise: FloatArray) -> list[int]:
     """Signed level of each part of a record: 0 within the noise, +4 or -4 beyond 30 times as much.
 
     Parameters
@@ -69,12 +68,11 @@ def levels_of(error: FloatArray, noise: FloatArray, cells: int = CELLS) -> list[
     error : ndarray, shape (n,) [MPa]
         Model minus measured.
     noise : ndarray, shape (n,) [MPa]
-    cells : int
     """
     ratio = error / np.maximum(noise, 1e-300)
-    parts = np.array_split(ratio, min(cells, len(ratio)))
+    parts = np.array_split(ratio, min(CELLS, len(ratio)))
     means = np.array([float(part.mean()) for part in parts])
-    return [int(each) for each in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
+    return [int(level) for level in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
 
 
 def _strip(axes: Axes, row: int, curves: RecordCurves, model: FloatArray, place: tuple[float, float]) -> None:
@@ -112,7 +110,7 @@ def _scale(axes: Axes, floor: str) -> None:
         shade, alpha = _shade(level) if level else (colour("data"), 0.12)
         axes.add_patch(Rectangle((level - 0.5, 0.0), 1.0, 1.0, facecolor=shade, alpha=alpha, lw=0))
     places = [at + 0.5 for at in range(-count, count)]
-    axes.set_xticks(places, [f"{each:g}" for each in (*reversed(LEVELS), *LEVELS)])
+    axes.set_xticks(places, [f"{level:g}" for level in (*reversed(LEVELS), *LEVELS)])
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
@@ -127,4 +125,4 @@ def _shade(level: int) -> tuple[str, float]:
 
 def _percent_of_time(curves: RecordCurves, at: list[int]) -> list[float]:
     time = curves.time
-    return [float(each) for each in 100.0 * (time[at] - time[0]) / max(float(time[-1] - time[0]), 1e-300)]
+    return [float(percent) for percent in 100.0 * (time[at] - time[0]) / max(float(time[-1] - time[0]), 1e-300)]

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.identify.bias import low_frequency
 from probation.inference.parameter import SYMBOLS
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import house_style, new_figure, styled_figure, thinned
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
 def residual_parts(record: RecordFit) -> Figure:
     """The fit residual over strain with its low-frequency part, whose largest value is marked."""
-    with house_style():
-        figure = new_figure(7.2, 2.6)
+    with styled_figure(7.2, 2.6) as figure:
         axes = figure.subplots()
         strain, low = record.true_strain, record.bias.low
         axes.plot(*thinned(strain, record.fit_residual), color=colour("data"), lw=0.6, label="model − measured")
@@ -66,9 +65,6 @@ def residual_and_strain_error(
     measured: FloatArray,
     model: FloatArray,
     strain_error: FloatArray,
-    *,
-    magnified: float = 4.0,
-    level: float = 40.0,
 ) -> Figure:
     """The paper's Figure 2: stress on the left axis; on the right the residual and the strain's distance to its ramp.
 
@@ -76,17 +72,13 @@ def residual_and_strain_error(
     ----------
     true_strain, measured, model : ndarray, shape (n_times,) [-], [MPa], [MPa]
     strain_error : ndarray, shape (n_times,) [-]
-        Measured strain minus the ramp that was asked for; drawn as tall as the residual's high frequencies, at `level`.
-    magnified : float
-        Of the residual on the right axis.
-    level : float
-        Where the strain error is drawn on the right axis.
+        Measured strain minus the ramp that was asked for; drawn as tall as the residual's high frequencies.
     """
+    magnified, level = 4.0, 40.0  # of the residual, and where the strain error is drawn, on the right axis [MPa]
     residual = magnified * (model - measured)
     fast = residual - low_frequency(residual)
     scale = float(np.std(fast) / max(float(np.std(strain_error)), 1e-300))
-    with house_style():
-        figure = new_figure(7.2, 4.4)
+    with styled_figure(7.2, 4.4) as figure:
         axes = figure.subplots()
         right = axes.twinx()
         axes.plot(*thinned(true_strain, measured, 400), ".", ms=5, mew=0, color=colour("data"), label="measured")

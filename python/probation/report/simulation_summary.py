@@ -11,31 +11,32 @@ if TYPE_CHECKING:
     from probation.simulation import Simulation
 
 
-def simulation_summary(found: Simulation, *, picture: bool = True) -> str:
+def simulation_summary(simulation: Simulation, *, picture: bool = True) -> str:
     """What came out, with a plot for the terminal unless `picture` is off."""
-    strain = f"true strain from {_number(found.true_strain.min())} to {_number(found.true_strain.max())}"
-    stress = f"true stress from {_number(found.true_stress.min())} to {_number(found.true_stress.max())} MPa"
-    outcome, imposed = (strain, stress) if found.stress_imposed else (stress, strain)
-    parameters = ", ".join(f"{key} {value:g}" for key, value in law_answer(found.law)["parameters"].items())
-    if found.stress_imposed:
-        curve = (found.time, found.true_strain, "time [s]", "true strain [–]")
+    strain = f"true strain from {_number(simulation.true_strain.min())} to {_number(simulation.true_strain.max())}"
+    stress = f"true stress from {_number(simulation.true_stress.min())} to {_number(simulation.true_stress.max())} MPa"
+    outcome, imposed = (strain, stress) if simulation.stress_imposed else (stress, strain)
+    parameters = ", ".join(f"{key} {value:g}" for key, value in law_answer(simulation.law)["parameters"].items())
+    if simulation.stress_imposed:
+        curve = (simulation.time, simulation.true_strain, "time [s]", "true strain [–]")
     else:
-        curve = (found.true_strain, found.true_stress, "true strain [–]", "true stress [MPa]")
+        curve = (simulation.true_strain, simulation.true_stress, "true strain [–]", "true stress [MPa]")
     lines = [
-        f"Simulated {found.name}: {outcome}.",
-        f"  {len(found.time)} instants over {_number(found.time[-1] - found.time[0])} s, {imposed}; {how(found)}",
-        f"  {parameters}{_companion(found)}",
+        f"Simulated {simulation.name}: {outcome}.",
+        f"  {len(simulation.time)} instants over {_number(simulation.time[-1] - simulation.time[0])} s, {imposed}; "
+        f"{how(simulation)}",
+        f"  {parameters}{_companion(simulation)}",
     ]
     return "\n".join([*lines, text_plot(*curve)] if picture else lines)
 
 
-def how(found: Simulation) -> str:
+def how(simulation: Simulation) -> str:
     """The scheme, for people."""
-    return f"scheme {found.scheme}" + (f", start {found.start}" if found.scheme == "be2" else "")
+    return f"scheme {simulation.scheme}" + (f", start {simulation.start}" if simulation.scheme == "be2" else "")
 
 
-def _companion(found: Simulation) -> str:
-    return "" if found.law.companion is None else f", companion relation {found.law.companion.form}"
+def _companion(simulation: Simulation) -> str:
+    return "" if simulation.law.companion is None else f", companion relation {simulation.law.companion.form}"
 
 
 def _number(value: float) -> str:

@@ -19,15 +19,15 @@ MOST = 4
 
 def skipped_lines(skipped: Sequence[Skipped], most: int | None = None) -> list[str]:
     """One phrase for everything that was left out; at most so many."""
-    lines = [_text(each) for each in skipped]
+    lines = [_text(entry) for entry in skipped]
     if most is None or len(lines) <= most:
         return lines
     return [*lines[:most], f"… and {len(lines) - most} more (--json and --report list them)"]
 
 
-def _text(each: Skipped) -> str:
-    if not each.effects:
-        return each.why
-    more = f" ({each.count} forms and places)" if each.count > 1 else ""
-    names = (MATERIAL.title if name == MATERIAL.name else title(name) for name in each.effects)
-    return f"{listed(list(names), 'and')}{more}: {each.why}"
+def _text(skipped: Skipped) -> str:
+    if not skipped.effects:
+        return skipped.why
+    more = f" ({skipped.count} forms and places)" if skipped.count > 1 else ""
+    names = (MATERIAL.title if name == MATERIAL.name else title(name) for name in skipped.effects)
+    return f"{listed(list(names), 'and')}{more}: {skipped.why}"

@@ -80,4 +80,4 @@ def series_colour(at: int) -> str:
 
 def css_variables(*, dark: bool) -> str:
     """The colours as declarations of CSS custom properties."""
-    return " ".join(f"--{name}: {each.dark if dark else each.light};" for name, each in COLOURS.items())
+    return " ".join(f"--{name}: {shade.dark if dark else shade.light};" for name, shade in COLOURS.items())

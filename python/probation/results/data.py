@@ -17,6 +17,7 @@ from collections.abc import Mapping, Set
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cached_property
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 import numpy as np
@@ -44,7 +45,7 @@ Value = TypeVar("Value")
 
 
 def named_in(table: str) -> Mapping[str, Any]:
-    """Metadata of a field that holds an entry of a table, such as "calibration.forms.FORMS", which knows its name."""
+    """Metadata of a field that holds a named entry of a table, such as "calibration.companion_forms.FORMS"."""
     return {"named_in": table}
 
 
@@ -58,7 +59,7 @@ class WithCurves:
     if not TYPE_CHECKING:  # or every attribute would seem to exist
 
         def __getattr__(self, name: str) -> Any:
-            if any(name == each.name and "curve" in each.metadata for each in fields(self)):
+            if any(name == declared.name and "curve" in declared.metadata for declared in fields(self)):
                 raise InputError(
                     f"{type(self).__name__}.{name}: found no curves, as it was read from JSON without them; "
                     "write it with to_json(curves=True), or compute it again"
@@ -138,18 +139,18 @@ def encoded(value: object, *, curves: bool = False) -> Any:
         return _fields_of(value, curves=curves)
     for types, written in _WRITTEN:
         if isinstance(value, types):
-            return written(value, lambda each: encoded(each, curves=curves))
+            return written(value, lambda inner: encoded(inner, curves=curves))
     raise TypeError(f"{type(value).__name__} has no form in JSON")
 
 
 def _written_mapping(value: Mapping[Any, Any], inner: Callable[[Any], Any]) -> dict[str, Any]:
     if "is" not in value and all(isinstance(key, str) for key in value):
-        return {key: inner(each) for key, each in value.items()}
-    return {"is": "mapping", "values": [[inner(key), inner(each)] for key, each in value.items()]}
+        return {key: inner(entry) for key, entry in value.items()}
+    return {"is": "mapping", "values": [[inner(key), inner(entry)] for key, entry in value.items()]}
 
 
 def _written_array(value: NDArray[Any], inner: Callable[[Any], Any]) -> dict[str, Any]:
-    values = [inner(each) for each in value.ravel().tolist()]
+    values = [inner(number) for number in value.ravel().tolist()]
     return {"is": "array", "type": value.dtype.name, "shape": list(value.shape), "values": values}
 
 
@@ -157,15 +158,16 @@ def _read_array(content: Mapping[str, Any]) -> NDArray[Any]:
     kind = np.dtype(content["type"])
     if kind.kind not in "biuf":
         raise TypeError(f"an array of {kind.name}")
-    return np.array([decoded(each) for each in content["values"]], dtype=kind).reshape(content["shape"])
+    return np.array([decoded(number) for number in content["values"]], dtype=kind).reshape(content["shape"])
 
 
 _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
     (float, lambda value, _: {"is": "number", "value": str(value)}),
-    (tuple, lambda value, inner: [inner(each) for each in value]),
-    (list, lambda value, inner: {"is": "list", "values": [inner(each) for each in value]}),
-    (Set, lambda value, inner: {"is": "set", "values": [inner(each) for each in sorted(value)]}),
+    (tuple, lambda value, inner: [inner(entry) for entry in value]),
+    (list, lambda value, inner: {"is": "list", "values": [inner(entry) for entry in value]}),
+    (Set, lambda value, inner: {"is": "set", "values": [inner(entry) for entry in sorted(value)]}),
     (slice, lambda value, inner: {"is": "slice", "values": [inner(value.start), inner(value.stop), inner(value.step)]}),
+    (Path, lambda value, _: {"is": "path", "value": str(value)}),
     (np.ndarray, _written_array),
     (Mapping, _written_mapping),
 )
@@ -173,11 +175,12 @@ _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
 
 _READ: dict[str, Callable[[Any], Any]] = {
     "number": lambda content: float(content["value"]),
-    "list": lambda content: [decoded(each) for each in content["values"]],
-    "set": lambda content: frozenset(decoded(each) for each in content["values"]),
-    "slice": lambda content: slice(*(decoded(each) for each in content["values"])),
+    "list": lambda content: [decoded(entry) for entry in content["values"]],
+    "set": lambda content: frozenset(decoded(entry) for entry in content["values"]),
+    "slice": lambda content: slice(*(decoded(bound) for bound in content["values"])),
+    "path": lambda content: Path(content["value"]),
     "array": _read_array,
-    "mapping": lambda content: {decoded(key): decoded(each) for key, each in content["values"]},
+    "mapping": lambda content: {decoded(key): decoded(entry) for key, entry in content["values"]},
 }
 """What `decoded` makes of each of them; any other name is that of a class."""
 
@@ -199,8 +202,8 @@ def _fields_of(value: Any, *, curves: bool) -> dict[str, Any]:
 
 def _kept(kind: type) -> list[str]:
     """Names of a class's numbers that are made of curves."""
-    names = {name: each for base in reversed(kind.__mro__) for name, each in vars(base).items()}
-    return [name for name, each in names.items() if isinstance(each, from_curves)]
+    names = {name: attribute for base in reversed(kind.__mro__) for name, attribute in vars(base).items()}
+    return [name for name, attribute in names.items() if isinstance(attribute, from_curves)]
 
 
 def decoded(value: Any) -> Any:
@@ -212,12 +215,12 @@ def decoded(value: Any) -> Any:
         If it was not written by `encoded`.
     """
     if isinstance(value, list):
-        return tuple(decoded(each) for each in value)
+        return tuple(decoded(entry) for entry in value)
     if not isinstance(value, dict):
         return value
     kind = value.get("is")
     if kind is None:
-        return {key: decoded(each) for key, each in value.items()}
+        return {key: decoded(entry) for key, entry in value.items()}
     if not isinstance(kind, str):
         raise TypeError(f"{kind!r} as a kind of value")
     return _READ[kind](value) if kind in _READ else _from_fields(_class_named(kind), value)
@@ -237,7 +240,9 @@ def _from_fields(kind: Any, content: Mapping[str, Any]) -> Any:
             raise KeyError(each.name)
     if missing:  # so that its own checks, which are about curves, cannot be made
         made = object.__new__(kind)
-        vars(made).update({each.name: _default(each) for each in fields(kind) if each.name not in missing}, **values)
+        vars(made).update(
+            {declared.name: _default(declared) for declared in fields(kind) if declared.name not in missing}, **values
+        )
     else:
         made = kind(**values)
     kept = [name for name in _kept(kind) if missing or name in content]

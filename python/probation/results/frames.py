@@ -60,10 +60,10 @@ def over_samples(parts: Mapping[str, Mapping[str, Any]]) -> Any:
     """
     names = next(iter(parts.values()))
     columns = {
-        name: ("sample", np.concatenate([np.broadcast_to(each[name], len(each["time_s"])) for each in parts.values()]))
+        name: ("sample", np.concatenate([np.broadcast_to(part[name], len(part["time_s"])) for part in parts.values()]))
         for name in names
     }
-    record = np.repeat(list(parts), [len(each["time_s"]) for each in parts.values()])
+    record = np.repeat(list(parts), [len(part["time_s"]) for part in parts.values()])
     coordinates = {"record": ("sample", record), "time_s": columns.pop("time_s")}
     return needed("xarray", "to_xarray").Dataset(columns, coords=coordinates)
 
@@ -76,5 +76,5 @@ def over_time(columns: Mapping[str, Any]) -> Any:
     InputError
         Where xarray is not installed.
     """
-    values = {name: ("time_s", each) for name, each in columns.items() if name != "time_s"}
+    values = {name: ("time_s", column) for name, column in columns.items() if name != "time_s"}
     return needed("xarray", "to_xarray").Dataset(values, coords={"time_s": columns["time_s"]})

@@ -29,7 +29,6 @@ class Candidate:
 
     Attributes
     ----------
-    name : str
     scheme : Scheme or None
         None for the closed form (7), which only a ramp has.
     """
@@ -103,26 +102,18 @@ _STATISTICS = (
     "restarts",
     "last_order",
 )
+_TOLERANCE = 1e-10  # of CVODE, relative, and absolute in MPa
 _LONGEST_TIMING = 0.01  # s, for repeating a solve; one is always done
 
 
-def solve(candidate: Candidate, law: Law, path: StrainPath, tolerance: float = 1e-10) -> Solve | None:
-    """Solve once and time it; None where the candidate does not apply.
-
-    Parameters
-    ----------
-    candidate : Candidate
-    law : Law
-    path : StrainPath
-    tolerance : float
-        Of CVODE, relative, and absolute in MPa.
-    """
+def solve(candidate: Candidate, law: Law, path: StrainPath) -> Solve | None:
+    """Solve once and time it; None where the candidate does not apply."""
     try:
         if candidate.scheme is None:
             return _closed_form(law, path)
         scheme = candidate.scheme
         if isinstance(scheme, CVODE):
-            scheme = replace(scheme, relative_tolerance=tolerance, absolute_tolerance=tolerance)
+            scheme = replace(scheme, relative_tolerance=_TOLERANCE, absolute_tolerance=_TOLERANCE)
         solver = make_solver(
             StrainHistory(
                 path.time, path.true_strain, strain_rate=path.strain_rate, jumps=None if path.smooth else "auto"

@@ -28,16 +28,11 @@ class Case:
 
     Attributes
     ----------
-    name : str
-    law : Law
-    path : StrainPath
     reference : ndarray, shape (n_times,) [MPa]
     reference_name : str
         For people.
     smooth : SmoothHistory or None
         Where to observe the order; None: not for this record.
-    smooth_name : str
-    data_sha256 : str
     """
 
     name: str

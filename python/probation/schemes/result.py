@@ -23,7 +23,6 @@ class SchemeCheck:
 
     Attributes
     ----------
-    name : str
     scheme : str or None
         None for eq. (7).
     start : str or None
@@ -57,13 +56,10 @@ class RecordCheck:
 
     Attributes
     ----------
-    record : str
-    samples : int
     reference : str
         What errors are against, for people.
     schemes : tuple of SchemeCheck
     steps : StepStudy or None
-    data_sha256 : str
     """
 
     record: str
@@ -95,16 +91,16 @@ class CrossCheck(Result, Stored):
     @property
     def agreement_MPa(self) -> float:
         """Largest error of any scheme that did not fail [MPa]."""
-        return _largest(each for record in self.records for each in record.schemes)
+        return _largest(scheme for record in self.records for scheme in record.schemes)
 
     @property
     def verdict(self) -> str:
         """One sentence."""
-        checks = [each for record in self.records for each in record.schemes]
-        failed = sorted({each.name for each in checks if each.failure})
+        checks = [scheme for record in self.records for scheme in record.schemes]
+        failed = sorted({check.name for check in checks if check.failure})
         who = "All schemes agree" if not failed else f"All schemes but {' and '.join(failed)}, which failed, agree"
         sentence = f"{who} within {short(self.agreement_MPa)} MPa"
-        without = _largest(each for each in checks if each.name != PAPERS_START)
+        without = _largest(check for check in checks if check.name != PAPERS_START)
         if without < 0.9 * self.agreement_MPa:
             sentence += f"; leaving out be2 with the paper's start, within {short(without)} MPa"
         return sentence + "."
@@ -121,7 +117,7 @@ class CrossCheck(Result, Stored):
                     "data_sha256": record.data_sha256,
                     "samples": record.samples,
                     "reference": record.reference,
-                    "schemes": [vars(each) for each in record.schemes],
+                    "schemes": [vars(scheme) for scheme in record.schemes],
                     "steps": None if record.steps is None else _steps_answer(record.steps),
                 }
                 for record in self.records
@@ -139,7 +135,7 @@ def _steps_answer(steps: StepStudy) -> dict[str, object]:
 
 
 def _largest(checks: Iterable[SchemeCheck]) -> float:
-    return max((each.largest_error_MPa for each in checks if not each.failure), default=math.nan)
+    return max((check.largest_error_MPa for check in checks if not check.failure), default=math.nan)
 
 
 def short(value: float) -> str:

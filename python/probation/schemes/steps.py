@@ -56,9 +56,6 @@ def study_steps(
 
     Parameters
     ----------
-    law : Law
-    history : SmoothHistory
-    name : str
     advance : callable
         Called with what is done next.
     """
@@ -84,7 +81,7 @@ def study_steps(
         step=history.duration / np.array(counts, dtype=np.float64),
         largest_error_MPa={each: np.array(values) for each, values in errors.items()},
         time_us={each: np.array(values) for each, values in times.items()},
-        order={each: np.nan if each == "cvode" else observed_order(np.array(errors[each])) for each in errors},
+        order={scheme: np.nan if scheme == "cvode" else observed_order(np.array(errors[scheme])) for scheme in errors},
     )
 
 

@@ -4,68 +4,38 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from probation.settings.setting import setting
+from probation.settings.setting import chosen
 
 
 @dataclass(frozen=True)
 class CompanionSettings:
     """The calibration of companion relations."""
 
-    fewest_rates: int = setting(
-        3,
-        "Different rates from which on one can be left out.",
-        unit="rates",
-        origin="chosen",
-        used_in="calibration/calibrate.py",
+    fewest_rates: int = chosen(3, "rates", "Different rates from which on one can be left out.")
+    modulus_scatter: float = chosen(0.05, "-", "Scatter of E_u between records from which on it is reported.")
+    constant_level: float = chosen(
+        0.05, "probability", "p-value from which on the relaxation times of all rates are taken to agree."
     )
-    modulus_scatter: float = setting(
-        0.05,
-        "Scatter of E_u between records from which on it is reported.",
-        unit="-",
-        origin="chosen",
-        used_in="calibration/calibrate.py",
+    negligible_dependence: float = chosen(
+        0.01, "-", "Largest distance of ln tau_max from the mean with which no relation is needed."
     )
-    constant_level: float = setting(
-        0.05,
-        "p-value from which on the relaxation times of all rates are taken to agree.",
-        unit="probability",
-        origin="chosen",
-        used_in="calibration/constant_time.py",
+    enough_samples: int = chosen(
+        1000, "samples", "Samples of a record to which it is thinned for the comparison of relations."
     )
-    negligible_dependence: float = setting(
-        0.01,
-        "Largest distance of ln tau_max from the mean with which no relation is needed.",
-        unit="-",
-        origin="chosen",
-        used_in="calibration/constant_time.py",
+    same_rate: float = chosen(
+        1.1, "-", "Ratio of neighbouring rates up to which they count as one: replicates of a test."
     )
-    enough_samples: int = setting(
-        1000,
-        "Samples of a record to which it is thinned for the comparison of relations.",
-        unit="samples",
-        origin="chosen",
-        used_in="calibration/direct.py",
+    warned_spread: float = chosen(
+        1.1, "-", "95th over 5th percentile of the rate of a record from which on a warning is given."
     )
-    same_rate: float = setting(
-        1.1,
-        "Ratio of neighbouring rates up to which they count as one: replicates of a test.",
-        unit="-",
-        origin="chosen",
-        used_in="calibration/rate_table.py",
+    nearly_constant: float = chosen(
+        1.5, "-", "The same from which on a constant tau_max of the record is no relaxation time at one rate."
     )
-    warned_spread: float = setting(
-        1.1,
-        "95th over 5th percentile of the rate of a record from which on a warning is given.",
-        unit="-",
-        origin="chosen",
-        used_in="calibration/record_fits.py",
+    apart_level: float = chosen(
+        0.05, "probability", "Level of the F test by which a form predicts rates that were left out worse than another."
     )
-    nearly_constant: float = setting(
-        1.5,
-        "The same from which on a constant tau_max of the record is no relaxation time at one rate.",
-        unit="-",
-        origin="chosen",
-        used_in="calibration/calibrate.py",
+    searched_alpha: tuple[float, float] = chosen(
+        (1e-2, 1e2), "-", "Range of a record's own alpha: beyond a hundredfold error a relation predicts nothing."
     )
 
 

@@ -4,381 +4,172 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from probation.settings.setting import setting
+from probation.settings.setting import calibrated, chosen
 
 
 @dataclass(frozen=True)
 class EvidenceSettings:
     """Prior probabilities, evidence, and what is reported of explanations."""
 
-    no_effect: float = setting(
-        0.45,
-        "Prior probability that no effect is needed.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    one_effect: float = setting(
-        0.33,
-        "Prior probability of one effect of the catalogue.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    two_effects: float = setting(
-        0.12,
-        "Prior probability of two effects of the catalogue.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    three_effects: float = setting(
-        0.01,
-        "Prior probability of three effects of the catalogue.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    unknown_effect: float = setting(
+    no_effect: float = chosen(0.45, "probability", "Prior probability that no effect is needed.")
+    one_effect: float = chosen(0.33, "probability", "Prior probability of one effect of the catalogue.")
+    two_effects: float = chosen(0.12, "probability", "Prior probability of two effects of the catalogue.")
+    three_effects: float = chosen(0.01, "probability", "Prior probability of three effects of the catalogue.")
+    unknown_effect: float = calibrated(
         0.08,
+        "probability",
         "Prior probability of an effect outside the catalogue.",
-        unit="probability",
-        origin="calibrated",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/probabilities.py",
     )
-    unknown_with_known: float = setting(
+    unknown_with_known: float = calibrated(
         0.01,
+        "probability",
         "Prior probability of an effect outside the catalogue jointly with one of it.",
-        unit="probability",
-        origin="calibrated",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/probabilities.py",
     )
-    evidence_power: float = setting(
+    evidence_power: float = calibrated(
         0.4,
-        (
-            "Power of the evidence, which believes in its forms and its noise more than these deserve: "
-            "the one by which the probabilities of causes come true, found on sealed campaigns of the "
-            "split that is for it."
-        ),
-        unit="-",
-        origin="calibrated",
+        "-",
+        "Power of the evidence, which believes in its forms and its noise more than these deserve: the one by which "
+        "the probabilities of causes come true, found on sealed campaigns of the split that is for it.",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/calibration.py",
     )
-    undeclared_gap_power: float = setting(
+    undeclared_gap_power: float = calibrated(
         0.2,
-        (
-            "Of gaps that are not declared, P(p-value of the gap test < p) = p to this power, found on the same "
-            "campaigns; without a gap it is p."
-        ),
-        unit="-",
-        origin="calibrated",
+        "-",
+        "Of gaps that are not declared, P(p-value of the gap test < p) = p to this power, found on the same "
+        "campaigns; without a gap it is p.",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/probabilities.py",
     )
-    again_in_another_record: float = setting(
+    again_in_another_record: float = chosen(
         0.03,
-        (
-            "Prior probability of an effect in another record, too, in another form or size, over that of "
-            "its being in one."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
+        "-",
+        "Prior probability of an effect in another record, too, in another form or size, over that of its being in "
+        "one.",
     )
-    left_to_an_unknown: float = setting(
+    left_to_an_unknown: float = chosen(
         0.9,
-        ("Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it."),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
+        "-",
+        "Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it.",
     )
-    about_as_probable: float = setting(
+    about_as_probable: float = chosen(
         12.0,
-        ("Log evidence within which forms of one effect are discriminated by how well they fit as they are."),
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
+        "log evidence",
+        "Log evidence within which forms of one effect are discriminated by how well they fit as they are.",
     )
-    unseen_second_effect: float = setting(
+    unseen_second_effect: float = calibrated(
         0.2,
-        (
-            "Evidence, to its power, for a second effect that is too weak to show, over that without it: "
-            "its freedom costs little and gains nothing. So what was probable beforehand of two effects "
-            "stays so, shared out to those that were not tried."
-        ),
-        unit="-",
-        origin="calibrated",
+        "-",
+        "Evidence, to its power, for a second effect that is too weak to show, over that without it: its freedom "
+        "costs little and gains nothing. So what was probable beforehand of two effects stays so, shared out to "
+        "those that were not tried.",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/probabilities.py",
     )
-    noted_with_others: float = setting(
+    noted_with_others: float = chosen(
         0.05,
-        ("Probability from which on a single effect is reported with others that may act jointly, unseen."),
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
+        "probability",
+        "Probability from which on a single effect is reported with others that may act jointly, unseen.",
     )
-    credible_set: float = setting(
-        0.95,
-        "Probability that an answer set holds.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    discrepancy_softness: tuple[float, ...] = setting(
+    credible_set: float = chosen(0.95, "probability", "Probability that an answer set holds.")
+    discrepancy_softness: tuple[float, ...] = chosen(
         (2.0, 1.0),
-        ("The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each."),
-        unit="-",
-        origin="chosen",
-        used_in="inference/discrepancy.py",
+        "-",
+        "The spectrum of a discrepancy falls with the order of its waves to these powers, half of its energy each.",
     )
-    roughest_discrepancy: int = setting(
-        24,
-        "Half periods per record up to which a discrepancy is looked for.",
-        unit="half periods",
-        origin="chosen",
-        used_in="inference/discrepancy.py",
+    roughest_discrepancy: int = chosen(
+        24, "half periods", "Half periods per record up to which a discrepancy is looked for."
     )
-    common_discrepancy: int = setting(
+    common_discrepancy: int = chosen(
         12,
+        "half periods",
         "Half periods over the strain up to which one that is the same in all records is looked for.",
-        unit="half periods",
-        origin="chosen",
-        used_in="inference/discrepancy.py",
     )
-    form_errors: tuple[float, ...] = setting(
+    form_errors: tuple[float, ...] = chosen(
         (0.0, 0.04, 0.08, 0.16, 0.32),
-        (
-            "Relative errors of an effect's form along its own coordinate that are allowed for: standard deviations "
-            "of the coefficients of its freedom."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="inference/evidence.py",
+        "-",
+        "Relative errors of an effect's form along its own coordinate that are allowed for: standard deviations of "
+        "the coefficients of its freedom.",
     )
-    form_error_weights: tuple[float, ...] = setting(
-        (0.4, 0.2, 0.2, 0.12, 0.08),
-        "How probable these errors of a form are beforehand.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/evidence.py",
+    form_error_weights: tuple[float, ...] = chosen(
+        (0.4, 0.2, 0.2, 0.12, 0.08), "probability", "How probable these errors of a form are beforehand."
     )
-    form_waves: int = setting(
-        4,
-        "Polynomials along an effect's own coordinate by which its form may be wrong.",
-        unit="polynomials",
-        origin="chosen",
-        used_in="inference/form_error.py",
+    form_waves: int = chosen(
+        4, "polynomials", "Polynomials along an effect's own coordinate by which its form may be wrong."
     )
-    form_rest: float = setting(
-        0.25,
-        "Error of a form that is no function of its own coordinate, record by record, over that along it.",
-        unit="-",
-        origin="chosen",
-        used_in="inference/evidence.py",
+    form_rest: float = chosen(
+        0.25, "-", "Error of a form that is no function of its own coordinate, record by record, over that along it."
     )
-    rig_form_error: float = setting(
-        0.25,
-        "Error of the form of a rig's fault over that of a material's effect, which has no formula.",
-        unit="-",
-        origin="chosen",
-        used_in="inference/form_error.py",
+    rig_form_error: float = chosen(
+        0.25, "-", "Error of the form of a rig's fault over that of a material's effect, which has no formula."
     )
-    unknown_range: tuple[float, float] = setting(
+    unknown_range: tuple[float, float] = chosen(
         (10.0**0.5, 10.0**8.5),
+        "noise variance",
         "Energy of an unknown effect in one record, least and largest; log-uniform.",
-        unit="noise variance",
-        origin="chosen",
-        used_in="inference/unknown.py",
     )
-    unknown_of_the_strain: float = setting(
-        0.2,
-        "Prior share of an unknown effect that is one function of the strain.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
+    unknown_of_the_strain: float = chosen(
+        0.2, "probability", "Prior share of an unknown effect that is one function of the strain."
     )
-    unknown_periodic: float = setting(
-        0.1,
-        "Prior share of one that is periodic in the strain.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    unknown_of_the_specimen: float = setting(
-        0.2,
-        "Prior share of other parameters in each record.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    unknown_in_all: float = setting(
-        0.2,
-        "Prior share of one size in all records.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    unknown_in_one: float = setting(
-        0.2,
-        "Prior share of one record only.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    unknown_in_each: float = setting(
-        0.1,
-        "Prior share of a size of its own in each record.",
-        unit="probability",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    unknown_records_tried: int = setting(
-        2,
-        "Records that are tried alone, those with the most left.",
-        unit="records",
-        origin="chosen",
-        used_in="inference/unknown.py",
-    )
-    fewest_to_leave_out: int = setting(
-        3,
-        "Records below which none can be left out.",
-        unit="records",
-        origin="chosen",
-        used_in="diagnosis/checks.py",
-    )
-    disagreement_level: float = setting(
+    unknown_periodic: float = chosen(0.1, "probability", "Prior share of one that is periodic in the strain.")
+    unknown_of_the_specimen: float = chosen(0.2, "probability", "Prior share of other parameters in each record.")
+    unknown_in_all: float = chosen(0.2, "probability", "Prior share of one size in all records.")
+    unknown_in_one: float = chosen(0.2, "probability", "Prior share of one record only.")
+    unknown_in_each: float = chosen(0.1, "probability", "Prior share of a size of its own in each record.")
+    unknown_records_tried: int = chosen(2, "records", "Records that are tried alone, those with the most left.")
+    fewest_to_leave_out: int = chosen(3, "records", "Records below which none can be left out.")
+    disagreement_level: float = chosen(
         0.001,
-        (
-            "Below this p-value, and with the amplitude scattering by `disagreement_scatter`, records are "
-            "said to want different ones."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/checks.py",
+        "-",
+        "Below this p-value, and with the amplitude scattering by `disagreement_scatter`, records are said to want "
+        "different ones.",
     )
-    disagreement_scatter: float = setting(
-        0.25,
-        "Relative scatter of the amplitude from which on records are said to want different ones.",
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/checks.py",
+    disagreement_scatter: float = chosen(
+        0.25, "-", "Relative scatter of the amplitude from which on records are said to want different ones."
     )
-    uninformed: float = setting(
-        0.9,
-        "A standard error above so much of the prior's means that the data add nothing.",
-        unit="prior deviations",
-        origin="chosen",
-        used_in="diagnosis/explain.py",
+    uninformed: float = chosen(
+        0.9, "prior deviations", "A standard error above so much of the prior's means that the data add nothing."
     )
-    held_out_misfit: float = setting(
+    held_out_misfit: float = chosen(
         4.0,
-        (
-            "Standard deviations by which a record's misfit exceeds what an explanation, were it right, "
-            "would make of it."
-        ),
-        unit="standard deviations",
-        origin="chosen",
-        used_in="diagnosis/held_out.py",
+        "standard deviations",
+        "Standard deviations by which a record's misfit exceeds what an explanation, were it right, would make of it.",
     )
-    held_out_penalty: float = setting(
+    held_out_penalty: float = chosen(
         0.01,
-        ("Part of its probability that an explanation keeps which makes the prediction of a held-out record worse."),
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/held_out.py",
+        "probability",
+        "Part of its probability that an explanation keeps which makes the prediction of a held-out record worse.",
     )
-    tolerated_form_error: float = setting(
-        0.2,
-        ("Relative error of an effect's form along its own coordinate that the test of what is left lets pass."),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/remaining.py",
+    tolerated_form_error: float = chosen(
+        0.2, "-", "Relative error of an effect's form along its own coordinate that the test of what is left lets pass."
     )
-    reported_remainder: float = setting(
+    reported_remainder: float = chosen(
         0.25,
-        ("Part of what evidence lets pass beyond which a gap is reported as left: it is real, whatever its cause."),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/remaining.py",
+        "-",
+        "Part of what evidence lets pass beyond which a gap is reported as left: it is real, whatever its cause.",
     )
-    most_left: float = setting(
+    most_left: float = calibrated(
         1.5,
-        (
-            "Misfit after an explanation, over the noise and over what any smooth correction leaves, "
-            "beyond which it explains too little, however its form may be wrong. Right explanations of "
-            "sealed campaigns leave 0.9 to 1.2 times the noise."
-        ),
-        unit="-",
-        origin="calibrated",
+        "-",
+        "Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it "
+        "explains too little, however its form may be wrong. Right explanations of sealed campaigns leave 0.9 to "
+        "1.2 times the noise.",
         source="docs/blind-results.md: calibrate, seed 43",
-        used_in="diagnosis/remaining.py",
     )
-    share_worth_naming: float = setting(
-        0.01,
-        "Part of the gap below which an effect is not named beside those that close the rest.",
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/attribution.py",
+    share_worth_naming: float = chosen(
+        0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
     )
-    probability_worth_naming: float = setting(
-        0.01,
-        "Probability from which on an effect is listed that is not in the best explanation.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/attribution.py",
+    probability_worth_naming: float = chosen(
+        0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
     )
-    negligible_form_error: float = setting(
-        1e-3,
-        "Mean relative error of a form below which it is taken for exact.",
-        unit="-",
-        origin="chosen",
-        used_in="inference/evidence.py",
-    )
-    least_p_value: float = setting(
-        1e-12,
-        "Smaller p-values are reported as this.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/probabilities.py",
-    )
-    held_out_draws: int = setting(
-        400,
-        "Draws of the parameters with which a held-out record is predicted.",
-        unit="draws",
-        origin="chosen",
-        used_in="diagnosis/held_out.py",
-    )
-    closure_draws: int = setting(
-        1000,
-        "Bootstrap draws of the interval of the explained fraction.",
-        unit="draws",
-        origin="chosen",
-        used_in="diagnosis/closure.py",
-    )
-    fewest_resampled: int = setting(
-        6,
-        "Records from which on that bootstrap resamples whole records.",
-        unit="records",
-        origin="chosen",
-        used_in="diagnosis/closure.py",
-    )
-    closure_blocks: int = setting(
-        8,
-        "Contiguous parts that are resampled instead where there is one record.",
-        unit="parts",
-        origin="chosen",
-        used_in="diagnosis/closure.py",
-    )
-    closure_coverage: float = setting(
-        0.9,
-        "Coverage of the interval of the explained fraction.",
-        unit="probability",
-        origin="chosen",
-        used_in="diagnosis/closure.py",
+    negligible_form_error: float = chosen(1e-3, "-", "Mean relative error of a form below which it is taken for exact.")
+    least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
+    held_out_draws: int = chosen(400, "draws", "Draws of the parameters with which a held-out record is predicted.")
+    closure_draws: int = chosen(1000, "draws", "Bootstrap draws of the interval of the explained fraction.")
+    fewest_resampled: int = chosen(6, "records", "Records from which on that bootstrap resamples whole records.")
+    closure_blocks: int = chosen(8, "parts", "Contiguous parts that are resampled instead where there is one record.")
+    closure_coverage: float = chosen(0.9, "probability", "Coverage of the interval of the explained fraction.")
+    same_amplitude: float = chosen(
+        0.01, "probability", "p-value below which an amplitude is said to differ from record to record."
     )
 
 

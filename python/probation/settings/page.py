@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from collections import defaultdict
 from dataclasses import fields
+from pathlib import Path
 from typing import Any
 
 from probation.settings.calibrated import CALIBRATED
@@ -13,6 +16,8 @@ from probation.settings.design import DESIGN
 from probation.settings.detection import DETECTION
 from probation.settings.effects import EFFECTS
 from probation.settings.evidence import EVIDENCE
+from probation.settings.field import FIELD
+from probation.settings.identification import IDENTIFICATION
 from probation.settings.noise import NOISE
 from probation.settings.reading import READING
 from probation.settings.remainder import REMAINDER
@@ -33,6 +38,8 @@ GROUPS: dict[str, Any] = {
     "comparison": COMPARISON,
     "certificate": CERTIFICATE,
     "companion": COMPANION,
+    "identification": IDENTIFICATION,
+    "field": FIELD,
 }
 """By the file in ``probation/settings``."""
 
@@ -51,17 +58,29 @@ Origin: *derived* from an argument, *calibrated* on data (which, it says), or *c
 
 def settings_page() -> str:
     """The page as Markdown."""
-    parts = [_INTRODUCTION]
+    parts, modules = [_INTRODUCTION], modules_by_setting()
     for name, group in GROUPS.items():
         rows = [
             f"| `{field.name}` | {_value(getattr(group, field.name))} | {field.metadata['unit']} | "
-            f"{field.metadata['meaning']} | {_origin(field.metadata)} | `{field.metadata['used_in']}` |"
+            f"{field.metadata['meaning']} | {_origin(field.metadata)} | "
+            f"{', '.join(f'`{module}`' for module in modules[f'{name.upper()}.{field.name}'])} |"
             for field in fields(group)
         ]
         doc = type(group).__doc__ or ""
         heading = "| setting | value | unit | meaning | origin | used in |\n|---|---|---|---|---|---|"
         parts.append("\n".join([f"## `{name}`\n\n{doc}\n", heading, *rows, ""]))
     return "\n".join(parts)
+
+
+def modules_by_setting() -> dict[str, list[str]]:
+    """By group and name, as they stand in the sources: the modules of the library that use a setting."""
+    package = Path(__file__).parents[1]
+    setting = re.compile(rf"\b(?:{'|'.join(GROUPS).upper()})\.[a-z_0-9]+")
+    modules = defaultdict(list)
+    for path in sorted(package.rglob("*.py")):
+        for name in sorted(set(setting.findall(path.read_text(encoding="utf-8")))):
+            modules[name].append(path.relative_to(package).as_posix())
+    return modules
 
 
 def _value(value: float | tuple[Any, ...]) -> str:

@@ -4,83 +4,51 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from probation.settings.setting import setting
+from probation.settings.setting import chosen
 
 
 @dataclass(frozen=True)
 class ReadingSettings:
     """What a record is taken for when it is read."""
 
-    clock_overlap: float = setting(
-        0.5,
-        "Time that two records of different clocks have in common at least.",
-        unit="shorter record",
-        origin="chosen",
-        used_in="records/clock.py",
+    clock_overlap: float = chosen(
+        0.5, "shorter record", "Time that two records of different clocks have in common at least."
     )
-    clock_unknown: float = setting(
-        0.25,
-        "Uncertainty of a shift between clocks from which on it counts as unknown.",
-        unit="shorter record",
-        origin="chosen",
-        used_in="records/clock.py",
+    clock_unknown: float = chosen(
+        0.25, "shorter record", "Uncertainty of a shift between clocks from which on it counts as unknown."
     )
-    clock_rival: float = setting(
+    clock_rival: float = chosen(
         25.0,
+        "-",
         "Rise of the squared residual, in its variances, below which another shift than the best one may be right.",
-        unit="-",
-        origin="chosen",
-        used_in="records/clock.py",
     )
-    clock_onset: float = setting(
-        0.3,
-        "Part of the largest value up to which the onset of a signal is looked for.",
-        unit="largest value",
-        origin="chosen",
-        used_in="records/clock.py",
+    clock_onset: float = chosen(
+        0.3, "largest value", "Part of the largest value up to which the onset of a signal is looked for."
     )
-    far_start: float = setting(
-        0.02,
-        "Strain or stress of the first sample from which on a record does not start at zero.",
-        unit="largest value",
-        origin="chosen",
-        used_in="records/start.py",
+    clock_proposed: float = chosen(
+        3.0, "least rest", "Rest of the rates at a shift below which the strain decides on that shift."
     )
-    start_noise: float = setting(
-        5.0,
-        "The same, over the noise: less occurs by chance in a campaign of many records.",
-        unit="standard deviations",
-        origin="chosen",
-        used_in="records/start.py",
+    clock_unstrained: float = chosen(
+        0.05, "largest strain", "Strain of a camera's first frame below which the specimen is at rest in it."
     )
-    start_bend: float = setting(
-        0.5,
-        "Part of the time missing before the first sample by which the bend of the stress may falsify it.",
-        unit="-",
-        origin="chosen",
-        used_in="records/start.py",
+    clock_exact: float = chosen(1e-6, "largest strain", "Least noise of a strain file.")
+    clock_between: float = chosen(0.1, "distance of samples", "Least uncertainty of a shift between clocks.")
+    log_missing: float = chosen(
+        0.1, "duration", "Time of a record that a temperature log may leave out; the temperature is held there."
     )
-    steady_rate: float = setting(
-        0.1,
-        "Relative scatter of a rate below which it is constant.",
-        unit="-",
-        origin="chosen",
-        used_in="records/initial/control.py",
+    start_reach: float = chosen(4.0, "first strain", "Strain up to which the strain rate at a record's start is taken.")
+    far_start: float = chosen(
+        0.02, "largest value", "Strain or stress of the first sample from which on a record does not start at zero."
     )
-    still_rate: float = setting(
-        0.05,
-        "Rate below which a record is held.",
-        unit="fastest rate",
-        origin="chosen",
-        used_in="records/initial/control.py",
+    start_noise: float = chosen(
+        5.0, "standard deviations", "The same, over the noise: less occurs by chance in a campaign of many records."
     )
-    held_share: float = setting(
-        0.5,
-        "Time at rest from which on a test is a hold.",
-        unit="duration",
-        origin="chosen",
-        used_in="records/initial/control.py",
+    start_bend: float = chosen(
+        0.5, "-", "Part of the time missing before the first sample by which the bend of the stress may falsify it."
     )
+    steady_rate: float = chosen(0.1, "-", "Relative scatter of a rate below which it is constant.")
+    still_rate: float = chosen(0.05, "fastest rate", "Rate below which a record is held.")
+    held_share: float = chosen(0.5, "duration", "Time at rest from which on a test is a hold.")
 
 
 READING = ReadingSettings()

@@ -4,227 +4,91 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from probation.settings.setting import setting
+from probation.settings.setting import chosen
 
 
 @dataclass(frozen=True)
 class SearchSettings:
     """Which explanations are tried."""
 
-    first_steps: int = setting(
-        4,
-        "Gauss-Newton steps of a refit before it is compared with the others.",
-        unit="steps",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    in_the_race: float = setting(
+    first_steps: int = chosen(4, "steps", "Gauss-Newton steps of a refit before it is compared with the others.")
+    in_the_race: float = chosen(
         6.0,
-        (
-            "A cause stays in the race while what it leaves of the gap is below so many times the best "
-            "one's, plus the slack."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+        "-",
+        "A cause stays in the race while what it leaves of the gap is below so many times the best one's, plus the "
+        "slack.",
     )
-    slack: float = setting(
-        30.0,
-        "The slack of the race.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    worth_polishing: float = setting(
+    slack: float = chosen(30.0, "log evidence", "The slack of the race.")
+    worth_polishing: float = chosen(
         10.0,
-        (
-            "A cause in the race is refitted further while its log evidence falls short of a perfect one's by less "
-            "than so many times the best one's, plus the slack; of a strong gap that no single effect explains."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+        "-",
+        "A cause in the race is refitted further while its log evidence falls short of a perfect one's by less than "
+        "so many times the best one's, plus the slack; of a strong gap that no single effect explains.",
     )
-    race_gain: float = setting(
-        14.0,
-        "A cause is raced if its linearised gain is within so much of the best one's.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    race_gain: float = chosen(
+        14.0, "log evidence", "A cause is raced if its linearised gain is within so much of the best one's."
     )
-    race_fraction: float = setting(
-        0.02,
-        "For a strong gap, if it is this part of the best one's.",
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    race_fraction: float = chosen(0.02, "-", "For a strong gap, if it is this part of the best one's.")
+    strong_gap: float = chosen(
+        100.0, "log evidence", "Linearised gain, or misfit beyond its expectation, from which on a gap is strong."
     )
-    strong_gap: float = setting(
-        100.0,
-        "Linearised gain, or misfit beyond its expectation, from which on a gap is strong.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    steps_apart: int = setting(
+    steps_apart: int = chosen(
         2,
-        (
-            "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
-            "shows whether their deviations hold a strong gap."
-        ),
-        unit="steps",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+        "steps",
+        "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
+        "shows whether their deviations hold a strong gap.",
     )
-    line_or_step_level: float = setting(
-        0.01,
-        ("p-value of a line or a step, over all records, below which causes that make them are sought there."),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    line_or_step_level: float = chosen(
+        0.01, "-", "p-value of a line or a step, over all records, below which causes that make them are sought there."
     )
-    soft_step_level: float = setting(
-        0.1,
-        "p-value up to which step effects are tried where they gain more than the best smooth effect.",
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    soft_step_level: float = chosen(
+        0.1, "-", "p-value up to which step effects are tried where they gain more than the best smooth effect."
     )
-    soft_step_lead: float = setting(
-        30.0,
-        "Linearised gain above that of the best smooth effect that a soft step needs.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    soft_step_lead: float = chosen(
+        30.0, "log evidence", "Linearised gain above that of the best smooth effect that a soft step needs."
     )
-    soft_step_ratio: float = setting(
+    soft_step_ratio: float = chosen(
         2.0,
-        (
-            "Ratio of that gain to the best smooth effect's at which a step effect is tried whatever the "
-            "tests on steps say."
-        ),
-        unit="-",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+        "-",
+        "Ratio of that gain to the best smooth effect's at which a step effect is tried whatever the tests on steps "
+        "say.",
     )
-    starts: int = setting(
-        3,
-        "Starts per form and place that a cause in the running is given.",
-        unit="starts",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    starts: int = chosen(3, "starts", "Starts per form and place that a cause in the running is given.")
+    places: int = chosen(2, "records", "Records in which a rig's fault is tried alone, those with the best score.")
+    extended_explanations: int = chosen(3, "explanations", "Best explanations that are added to.")
+    additions: int = chosen(6, "effects", "Additions that each of them is given.")
+    with_unknown: int = chosen(
+        5, "hypotheses", "Leading hypotheses with which an unknown effect is looked for jointly."
     )
-    places: int = setting(
-        2,
-        "Records in which a rig's fault is tried alone, those with the best score.",
-        unit="records",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    fewer_with_unknown: int = chosen(
+        2, "hypotheses", "The best of one and of two effects that are among them in any case."
     )
-    extended_explanations: int = setting(
-        3,
-        "Best explanations that are added to.",
-        unit="explanations",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    hopeless: float = chosen(
+        15.0, "log evidence", "Log evidence behind the best one from which on a hypothesis is not looked at again."
     )
-    additions: int = setting(
-        6,
-        "Additions that each of them is given.",
-        unit="effects",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+    reconsidered: int = chosen(
+        16, "hypotheses", "Hypotheses that are judged again once the noise is estimated jointly with the best one."
     )
-    with_unknown: int = setting(
-        5,
-        "Leading hypotheses with which an unknown effect is looked for jointly.",
-        unit="hypotheses",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    fewer_with_unknown: int = setting(
-        2,
-        "The best of one and of two effects that are among them in any case.",
-        unit="hypotheses",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    hopeless: float = setting(
-        15.0,
-        "Log evidence behind the best one from which on a hypothesis is not looked at again.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    reconsidered: int = setting(
-        16,
-        "Hypotheses that are judged again once the noise is estimated jointly with the best one.",
-        unit="hypotheses",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    worth_refitting: float = setting(
-        10.0,
-        "Linearised gain from which on an addition is refitted.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    most_effects: int = setting(
-        3,
-        "Effects of one explanation at most.",
-        unit="effects",
-        origin="chosen",
-        used_in="diagnosis/search.py",
-    )
-    unknown_lead: float = setting(
+    worth_refitting: float = chosen(10.0, "log evidence", "Linearised gain from which on an addition is refitted.")
+    most_effects: int = chosen(3, "effects", "Effects of one explanation at most.")
+    unknown_lead: float = chosen(
         3.0,
-        ("Log evidence by which an explanation with an unknown effect must lead for the search to go on."),
-        unit="log evidence",
-        origin="chosen",
-        used_in="diagnosis/search.py",
+        "log evidence",
+        "Log evidence by which an explanation with an unknown effect must lead for the search to go on.",
     )
-    largest_start: float = setting(
-        2.0,
-        "Prior scales within which searches begin.",
-        unit="prior scales",
-        origin="chosen",
-        used_in="inference/candidate.py",
+    largest_start: float = chosen(2.0, "prior scales", "Prior scales within which searches begin.")
+    settled: float = chosen(
+        0.02, "log evidence", "A refit ends where a step would lower the objective by less than this."
     )
-    settled: float = setting(
-        0.02,
-        "A refit ends where a step would lower the objective by less than this.",
-        unit="log evidence",
-        origin="chosen",
-        used_in="inference/refit.py",
+    sharp_steps: int = chosen(
+        6, "steps", "Gauss-Newton steps of an effect with a frequency or an instant where there is no gap."
     )
-    sharp_steps: int = setting(
-        6,
-        "Gauss-Newton steps of an effect with a frequency or an instant where there is no gap.",
-        unit="steps",
-        origin="chosen",
-        used_in="diagnosis/linear.py",
+    sharp_places: int = chosen(
+        3, "places", "Forms and places of such an effect that are refitted, those with the best score."
     )
-    sharp_places: int = setting(
-        3,
-        "Forms and places of such an effect that are refitted, those with the best score.",
-        unit="places",
-        origin="chosen",
-        used_in="diagnosis/linear.py",
-    )
-    budget_of_search: float = setting(
-        0.6,
-        "Part of the budget after which no further hypothesis is begun.",
-        unit="budget",
-        origin="chosen",
-        used_in="diagnosis/budget.py",
-    )
-    budget_of_design: float = setting(
-        0.75,
-        "Part of the budget after which isolability and the next test are not begun.",
-        unit="budget",
-        origin="chosen",
-        used_in="diagnosis/diagnose.py",
+    budget_of_search: float = chosen(0.6, "budget", "Part of the budget after which no further hypothesis is begun.")
+    budget_of_design: float = chosen(
+        0.75, "budget", "Part of the budget after which isolability and the next test are not begun."
     )
 
 

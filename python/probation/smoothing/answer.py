@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
 from probation._arrays import FloatArray
-from probation.answers import json_answer
 from probation.errors import InputError
+from probation.results.data import CURVE, Stored, WithCurves, from_curves
 from probation.results.rendering import Plotted, Result
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import differences
@@ -30,24 +30,22 @@ CSV_HEADER = "time_s,true_strain,strain_rate_per_s,true_strain_se,strain_rate_se
 
 
 @dataclass(frozen=True, eq=False)
-class RecordExcitation(Plotted):
+class RecordExcitation(Plotted, WithCurves):
     """One record's smoothed strain history, with what was measured.
 
     `plot` draws strain, residual, and the rate with its band.
 
     Attributes
     ----------
-    record : Record
-    excitation : Excitation
     necking : NeckingFit or None
         The two steps of the paper's procedure, for the methods that take them.
     """
 
-    record: Record
-    excitation: Excitation
-    necking: NeckingFit | None = None
+    record: Record = field(metadata=CURVE)
+    excitation: Excitation = field(metadata=CURVE)
+    necking: NeckingFit | None = field(default=None, metadata=CURVE)
 
-    @property
+    @from_curves
     def id(self) -> str:
         """The record's."""
         return self.record.id
@@ -96,9 +94,72 @@ class RecordExcitation(Plotted):
         moving = rate > SMOOTHING.near_zero * rate.max()
         return np.asarray(self.excitation.rate_se[moving] / rate[moving])
 
+    @from_curves
+    def facts(self) -> dict[str, Any]:
+        """The answer as Python objects: what is known, as numbers."""
+        excitation, warnings = self.excitation, self._warnings()
+        rate, rate_se, strain = excitation.rate, excitation.rate_se, excitation.true_strain
+        facts: dict[str, Any] = {
+            "verdict": self._verdict(),
+            "method": excitation.method,
+            "differentiator": excitation.differentiator,
+            "samples": len(self.time),
+            "degrees_of_freedom": excitation.freedom,
+            "strain_noise": excitation.strain_noise,
+            "strain_noise_given": self.record.noise.strain is not None,
+            "noise_inflation": excitation.noise_inflation,
+            "rate_jumps_s": [float(self.time[jump]) for jump in excitation.jumps],
+            "true_strain": {"first": float(strain[0]), "last": float(strain[-1])},
+            "median_se_of_strain": float(np.median(excitation.strain_se)),
+            "strain_rate_per_s": {
+                "smallest": float(rate.min()),
+                "largest": float(rate.max()),
+                "first": float(rate[0]),
+                "se_of_first": float(rate_se[0]),
+                "last": float(rate[-1]),
+                "se_of_last": float(rate_se[-1]),
+            },
+            "rate_is_that_of_the_scheme": excitation.strain_rate is None,
+            "relative_se_of_rate": dict(zip(("median", "p95", "largest"), spread(self.relative_error), strict=True)),
+            "integrated_rate_minus_measured_strain": float(np.abs(self.integrated - self.measured).max()),
+            "data_sha256": self.record.sha256,
+            "warnings": list(warnings),
+        }
+        if self.necking is not None:
+            facts["two_steps"] = {
+                name: {
+                    "a_per_s": steps.history.a,
+                    "b": steps.history.b,
+                    "c": steps.history.c,
+                    "d": steps.history.d,
+                    "offset": steps.offset,
+                    "sines_Hz": steps.sines.frequencies.tolist(),
+                    "rms_after_step_1": float(np.std(steps.first_residual)),
+                    "rms_after_step_2": float(np.std(steps.final_residual)),
+                }
+                for name, steps in (("strain", self.necking.strain), ("rate", self.necking.rate))
+            }
+            facts["two_steps"]["rate"]["integrated_minus_measured_strain"] = self.necking.largest_drift
+        return facts
+
     @property
     def verdict(self) -> str:
         """One line: the rate, how well it is known, its jumps."""
+        return str(self.facts["verdict"])
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader should know."""
+        return tuple(self.facts["warnings"])
+
+    def to_csv(self) -> str:
+        """Columns `CSV_HEADER`, every digit kept."""
+        excitation = self.excitation
+        columns = (self.time, excitation.true_strain, excitation.rate, excitation.strain_se, excitation.rate_se)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return "\n".join([CSV_HEADER, *(",".join(repr(value) for value in row) for row in rows)]) + "\n"
+
+    def _verdict(self) -> str:
         rate, error = self.excitation.rate, self.excitation.rate_se
         known = rate[error <= SMOOTHING.uncertain * float(np.median(error))]  # a start's few samples are known poorly
         low, high = float(known.min()), float(known.max())
@@ -116,9 +177,7 @@ class RecordExcitation(Plotted):
         count = f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}" if jumps else "no jumps"
         return f"{self.id}: {said}, {accuracy}; {count}" + (f" at {', '.join(jumps)} s" if jumps else "")
 
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What a reader should know."""
+    def _warnings(self) -> list[str]:
         excitation = self.excitation
         warnings = list(self.record.warnings)
         if excitation.noise_inflation > SMOOTHING.correlated:
@@ -128,51 +187,13 @@ class RecordExcitation(Plotted):
             )
         if missed := self._missed():
             warnings.append(missed)
-        if excitation.strain_rate is None and self.relative_error.size and np.median(self.relative_error) > 0.05:
+        if (
+            excitation.strain_rate is None
+            and self.relative_error.size
+            and np.median(self.relative_error) > SMOOTHING.mostly_noise
+        ):
             warnings.append("the differences of the strain are mostly noise: another method smooths it")
-        return tuple(warnings)
-
-    def content(self) -> dict[str, object]:
-        """What goes into JSON."""
-        excitation = self.excitation
-        found: dict[str, object] = {
-            "verdict": self.verdict,
-            "method": excitation.method,
-            "differentiator": excitation.differentiator,
-            "samples": len(self.time),
-            "degrees_of_freedom": excitation.freedom,
-            "strain_noise": excitation.strain_noise,
-            "strain_noise_given": self.record.noise.strain is not None,
-            "noise_inflation": excitation.noise_inflation,
-            "rate_jumps_s": [float(self.time[jump]) for jump in excitation.jumps],
-            "strain_rate_per_s": {"smallest": float(excitation.rate.min()), "largest": float(excitation.rate.max())},
-            "relative_se_of_rate": dict(zip(("median", "p95", "largest"), spread(self.relative_error), strict=True)),
-            "integrated_rate_minus_measured_strain": float(np.abs(self.integrated - self.measured).max()),
-            "data_sha256": self.record.sha256,
-            "warnings": list(self.warnings),
-        }
-        if self.necking is not None:
-            found["two_steps"] = {
-                name: {
-                    "a_per_s": steps.history.a,
-                    "b": steps.history.b,
-                    "c": steps.history.c,
-                    "d": steps.history.d,
-                    "offset": steps.offset,
-                    "sines_Hz": steps.sines.frequencies,
-                    "rms_after_step_1": float(np.std(steps.first_residual)),
-                    "rms_after_step_2": float(np.std(steps.final_residual)),
-                }
-                for name, steps in (("strain", self.necking.strain), ("rate", self.necking.rate))
-            }
-        return found
-
-    def to_csv(self) -> str:
-        """Columns `CSV_HEADER`, every digit kept."""
-        excitation = self.excitation
-        columns = (self.time, excitation.true_strain, excitation.rate, excitation.strain_se, excitation.rate_se)
-        rows = zip(*(each.tolist() for each in columns), strict=True)
-        return "\n".join([CSV_HEADER, *(",".join(repr(value) for value in row) for row in rows)]) + "\n"
+        return warnings
 
     def _missed(self) -> str:
         """Where the used strain misses the measured one by far more than noise, such as the run-up of a machine."""
@@ -189,7 +210,7 @@ class RecordExcitation(Plotted):
 
 
 @dataclass(frozen=True, eq=False)
-class ExcitationAnswer(Result):
+class ExcitationAnswer(Result, Stored):
     """The excitation of some records.
 
     `plot` draws strain, residual, and the rate with its band, of one record; with several it raises InputError.
@@ -201,13 +222,14 @@ class ExcitationAnswer(Result):
     records : tuple of RecordExcitation
     """
 
+    SCHEMA = "probation.excitation/1"
+
     source: str
     records: tuple[RecordExcitation, ...]
 
-    def to_json(self) -> str:
-        """As JSON, schema "probation.excitation/1"."""
-        content = {"source": self.source, "records": {each.id: each.content() for each in self.records}}
-        return json_answer("probation.excitation/1", content)
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as Python objects."""
+        return {"source": self.source, "records": {record.id: record.facts for record in self.records}}
 
     def to_csv(self) -> str:
         """Strain and rate with their standard errors at the samples.
@@ -233,7 +255,7 @@ class ExcitationAnswer(Result):
             If there are several.
         """
         if len(self.records) > 1:
-            names = ", ".join(each.id for each in self.records)
+            names = ", ".join(record.id for record in self.records)
             raise InputError(f"{self.source}: found the records {names}, expected one for {what}; choose by its id")
         return self.records[0]
 

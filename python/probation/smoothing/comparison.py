@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from probation.answers import json_answer
 from probation.errors import InputError
 from probation.normal import TWO_SIDED_95
 from probation.records.record import Record
-from probation.results.reading import answer_in
+from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
 from probation.smoothing.excitation import excite
 from probation.smoothing.known_histories import KNOWN_HISTORIES
@@ -20,8 +19,6 @@ from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-
-SCHEMA = "probation.excitation-comparison/1"
 
 NOISES = (2e-5, 1e-4, 3e-4, 1e-3)
 """Standard deviations of the strain noise [-]."""
@@ -52,7 +49,7 @@ class Closeness:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Summarised, Plotted):
+class Comparison(Summarised, Plotted, Stored):
     """All methods on histories whose rate is known.
 
     `plot` draws the errors over the noise, one panel per history.
@@ -67,6 +64,8 @@ class Comparison(Summarised, Plotted):
     seed : int
     """
 
+    SCHEMA = "probation.excitation-comparison/1"
+
     results: dict[Key, Closeness | str]
     noises: tuple[float, ...]
     methods: tuple[str, ...]
@@ -76,7 +75,9 @@ class Comparison(Summarised, Plotted):
     @property
     def verdict(self) -> str:
         """How the default does on the case that has an aim, and on all."""
-        own = [(key, each) for key, each in self.results.items() if key[2] == DEFAULT and isinstance(each, Closeness)]
+        own = [
+            (key, result) for key, result in self.results.items() if key[2] == DEFAULT and isinstance(result, Closeness)
+        ]
         if not own:
             return f"The default, {DEFAULT}, was not among the methods."
         first = min(self.noises)
@@ -94,45 +95,20 @@ class Comparison(Summarised, Plotted):
     def errors_over_noise(self, history: str, method: str) -> tuple[list[float], list[float]]:
         """Noises [-] and p95 [%] where the method applies."""
         found = [(noise, self.results[history, noise, method]) for noise in self.noises]
-        known = [(noise, 100.0 * each.p95) for noise, each in found if isinstance(each, Closeness)]
+        known = [(noise, 100.0 * closeness.p95) for noise, closeness in found if isinstance(closeness, Closeness)]
         return [noise for noise, _ in known], [error for _, error in known]
 
-    def to_json(self) -> str:
-        """The comparison as JSON, schema "probation.excitation-comparison/1"."""
+    def to_dict(self) -> dict[str, Any]:
+        """The comparison as Python objects."""
         rows = []
-        for (history, noise, method), each in self.results.items():
-            row: dict[str, object] = {"history": history, "strain_noise": noise, "method": method}
-            if isinstance(each, str):
-                row["not_applicable"] = each
+        for (history, noise, method), result in self.results.items():
+            row: dict[str, Any] = {"history": history, "strain_noise": noise, "method": method}
+            if isinstance(result, str):
+                row["not_applicable"] = result
             else:
-                row |= {"p95": each.p95, "median": each.median, "coverage95": each.coverage}
+                row |= {"p95": result.p95, "median": result.median, "coverage95": result.coverage}
             rows.append(row)
-        content = {"default": DEFAULT, "verdict": self.verdict, "draws": self.draws, "seed": self.seed, "results": rows}
-        return json_answer(SCHEMA, content)
-
-    @classmethod
-    def from_json(cls, text: str) -> Comparison:
-        """The comparison that `to_json` wrote.
-
-        Parameters
-        ----------
-        text : str
-
-        Raises
-        ------
-        InputError
-            If the text is not what `to_json` writes.
-        """
-        with answer_in(text, SCHEMA) as answer:
-            results = {
-                (row["history"], row["strain_noise"], row["method"]): row["not_applicable"]
-                if "not_applicable" in row
-                else Closeness(row["p95"], row["median"], row["coverage95"])
-                for row in answer["results"]
-            }
-            noises = tuple(dict.fromkeys(noise for _, noise, _ in results))
-            methods = tuple(dict.fromkeys(method for _, _, method in results))
-            return cls(results, noises, methods, answer["draws"], answer["seed"])
+        return {"default": DEFAULT, "verdict": self.verdict, "draws": self.draws, "seed": self.seed, "results": rows}
 
 
 def compare(

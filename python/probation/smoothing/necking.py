@@ -134,7 +134,6 @@ class NeckingFit:
 
     Attributes
     ----------
-    strain : TwoSteps
     rate : TwoSteps
         Through the measured strain's differences.
     differentiator : str
@@ -301,7 +300,7 @@ def _fit_formula(
     size = float(np.ptp(weights * measured))
     best = sorted(starts, key=lambda x: float(np.sum(residual(x) ** 2)))[:REFINED]
     limits = ([-np.inf, -8.0, -12.0], [np.inf, 8.0, 30.0])
-    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda each: each.cost)
+    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda fitted: fitted.cost)
     size *= max(float(np.median(np.abs(found.fun))), 1e-12)  # a second time, outliers held at bay
     loss: Literal["soft_l1", "linear"] = "soft_l1" if signal == "strain" else "linear"
     found = least_squares(
@@ -320,7 +319,7 @@ def _fit_formula(
 
 def _starts(duration: float) -> list[FloatArray]:
     """The paper's experiments at this duration, and around them."""
-    base = [each.slowed(duration / each.duration) for each in NECKING_SETS.values()]
+    base = [necking.slowed(duration / necking.duration) for necking in NECKING_SETS.values()]
     return [
         _unbounded(_with(each, a=each.a * sharper, d=each.d * deeper))
         for each, sharper, deeper in product(base, (0.5, 1.0, 2.0, 4.0), (0.1, 0.4, 1.0, 3.0))

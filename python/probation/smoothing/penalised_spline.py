@@ -129,8 +129,8 @@ class Basis:
 class Score:
     """Generalised cross-validation (Craven & Wahba 1979) of a penalised spline, over the logarithm of its penalty.
 
-    Every degree of freedom counts `cost` times: `PRUDENCE` for white noise, more for correlated noise, which hides the
-    cost of following it.
+    Every degree of freedom counts `cost` times: `SMOOTHING.prudence` for white noise, more for correlated noise, which
+    hides the cost of following it.
     """
 
     def __init__(self, basis: Basis, values: FloatArray, cost: float) -> None:

@@ -33,7 +33,7 @@ def smooth_savitzky_golay(time: FloatArray, true_strain: FloatArray) -> Smoothed
     tried = [LocalCubics(time, true_strain, window) for window in sorted({2 * int(size / 2) + 1 for size in sizes})]
     grown = 1.0
     for _ in range(ROUNDS):
-        found = tried[int(np.argmin([each.score(SMOOTHING.prudence * grown) for each in tried]))]
+        found = tried[int(np.argmin([fitted.score(SMOOTHING.prudence * grown) for fitted in tried]))]
         before, grown = grown, max(grown, inflation(true_strain - found.strain))
         if grown < 1.02 * before:
             break

@@ -38,7 +38,6 @@ def smooth_segments(
 
     Parameters
     ----------
-    smoother : Smoother
     time : ndarray, shape (n_times,) [s]
     true_strain : ndarray, shape (n_times,) [-]
     jumps : sequence of int
@@ -181,7 +180,7 @@ def _operators(segments: Sequence[_Segment], borders: Sequence[int], shares: Seq
 def _errors(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
     """Of independent errors: those of the segments one after the other, then those of the samples at the jumps."""
     made = [(segment.smoothed.errors or segment.smoothed.operators)() for segment in segments]
-    ends = np.cumsum([0, *(each.strain.shape[1] for each in made)]).tolist()
+    ends = np.cumsum([0, *(part.strain.shape[1] for part in made)]).tolist()
     columns = [slice(first, last) for first, last in pairwise(ends)]
     return _joined(made, columns, range(ends[-1], ends[-1] + len(shares)), ends[-1] + len(shares), borders, shares)
 

@@ -181,7 +181,7 @@ def _jumps_in_windows(
     # A slow part of the record may bend without a jump: its slopes are small against the record's own rate.
     speed = np.median(np.abs(np.concatenate([slopes.before, slopes.after])))
     stands_out = (
-        (change > SMOOTHING.least_jump * np.maximum(steepest, 0.2 * speed))
+        (change > SMOOTHING.least_jump * np.maximum(steepest, SMOOTHING.least_part_of_speed * speed))
         & (change > SMOOTHING.jump_significance * slopes.standard_error)
         & (change == maximum_filter1d(change, window))
     )

@@ -104,7 +104,7 @@ def _criteria(found: Sequence[_Fit]) -> list[float]:
     last = found[-1].rest
     count = len(last)
     neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
-    innovations = (each.rest[1:] - neighbours * each.rest[:-1] for each in found)
+    innovations = (sines.rest[1:] - neighbours * sines.rest[:-1] for sines in found)
     return [
         count * float(np.log(max(float(rest @ rest), 1e-300))) + 3 * number * float(np.log(count))
         for number, rest in enumerate(innovations)
@@ -116,7 +116,7 @@ def _blocks(t: FloatArray, values: FloatArray, weight: FloatArray) -> tuple[Floa
     size = max(len(t) // BLOCKS, 1)
     first = np.arange(0, len(t), size)
     total = np.add.reduceat(weight**2, first)
-    times, means = (np.add.reduceat(weight**2 * each, first) / total for each in (t, values))
+    times, means = (np.add.reduceat(weight**2 * samples, first) / total for samples in (t, values))
     return times, means, np.sqrt(total)
 
 

@@ -71,7 +71,6 @@ class WithTransient:
 
     Attributes
     ----------
-    lags : Transient
     left : ndarray, shape (n_times, n_lags)
         (I - S) B.
     gain : ndarray, shape (n_lags, n_times)
@@ -93,7 +92,6 @@ class WithTransient:
 
         Parameters
         ----------
-        lags : Transient
         smooth : callable
             S, of columns.
         values : ndarray, shape (n_times,)

@@ -37,9 +37,9 @@ def spent_seeds(path: Path = SEEDS_FILE) -> dict[int, Mapping[str, object]]:
         If the file holds something else.
     """
     entries = read_object(path).get("test")
-    if not isinstance(entries, list) or not all(isinstance(each, dict) and "seed" in each for each in entries):
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) and "seed" in entry for entry in entries):
         raise InputError(f"{path}: found no list 'test' of objects with a seed")
-    return {cast("int", each["seed"]): each for each in entries}
+    return {cast("int", entry["seed"]): entry for entry in entries}
 
 
 def check_seed(seed: int, path: Path = SEEDS_FILE) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from probation.commands.analysis_options import whole_number
 from probation.commands.delivery import Output, add_delivery, deliver, output_file, output_folder, outputs_with_report
 from probation.commands.progress import shown
 from probation.commands.streams import put
@@ -29,9 +30,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="the paper's tables and figures again", description=_DESCRIPTION)
     parser.add_argument("--list", action="store_true", help="list the tables and figures by name, and do nothing else")
     parser.add_argument("--only", metavar="NAME", action="append", default=[], help="this one; may be repeated")
-    parser.add_argument("--seed", metavar="N", type=_whole(0), default=0, help="of all draws and synthetic noise")
+    parser.add_argument("--seed", metavar="N", type=whole_number(0), default=0, help="of all draws and synthetic noise")
     parser.add_argument(
-        "--draws", metavar="N", type=_whole(1), default=100, help="how many draws of noise or bias (100)"
+        "--draws", metavar="N", type=whole_number(1), default=100, help="how many draws of noise or bias (100)"
     )
     add_delivery(parser)
     parser.add_argument("--out", metavar="DIR", type=output_folder, help="save every figure into this folder, as PNG")
@@ -55,12 +56,3 @@ def run(options: argparse.Namespace) -> int:
 
     deliver(answer.summary(), [*outputs_with_report(answer, options), Output("figures", options.out, save_figures)])
     return 0
-
-
-def _whole(least: int):  # type: ignore[no-untyped-def] # argparse's own types
-    def read(text: str) -> int:
-        if not text.isdecimal() or int(text) < least:
-            raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number of at least {least}")
-        return int(text)
-
-    return read

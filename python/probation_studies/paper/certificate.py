@@ -28,10 +28,10 @@ LARGEST_BIAS = {"experiment-1": 1.5, "experiment-2": 2.5, "experiment-3": 3.4}
 def exhibit(settings: Settings) -> Exhibit:
     """Certify the law on the synthetic data: identified on experiment 1, the others predicted with nothing adjusted."""
     plain, biased = certified(settings.seed, False), certified(settings.seed, True)
-    worst = {name: each.max_MPa for name, each in plain.predictions.items()}
+    worst = {name: prediction.max_MPa for name, prediction in plain.predictions.items()}
     hardening = biased.parameters["hardening_modulus"]
-    widest = max(100.0 * (each.total_se or 0.0) / each.value for each in hardening.by_record.values())
-    failing = [name for name, each in plain.parameters.items() if not each.passes]
+    widest = max(100.0 * (estimate.total_se or 0.0) / estimate.value for estimate in hardening.by_record.values())
+    failing = [name for name, parameter in plain.parameters.items() if not parameter.passes]
     excused = [name for name in failing if biased.parameters[name].passes]
     saved = (
         "a bias of the paper's size excuses α, and cannot excuse G"

@@ -171,31 +171,33 @@ class Exhibit:
 
     def count(self, verdict: Verdict) -> int:
         """How many comparisons have that verdict."""
-        return sum(each.verdict == verdict for each in self.comparisons)
+        return sum(comparison.verdict == verdict for comparison in self.comparisons)
 
     def comparison_table(self) -> Table:
         """The paper's numbers beside ours."""
         rows = tuple(
             (
-                each.quantity,
-                each.verdict,
-                ("≤ " if each.relation == "≤" else "") + number(each.paper),
-                number(each.ours) if each.spread is None else plus_minus(each.ours, each.spread),
-                each.unit or "–",
+                comparison.quantity,
+                comparison.verdict,
+                ("≤ " if comparison.relation == "≤" else "") + number(comparison.paper),
+                number(comparison.ours)
+                if comparison.spread is None
+                else plus_minus(comparison.ours, comparison.spread),
+                comparison.unit or "–",
                 "within"
-                if each.relation == "≤" and each.difference <= 0.0
-                else f"{100.0 * each.difference + 0.0:+.1f} %".replace("-0.0", "+0.0"),
+                if comparison.relation == "≤" and comparison.difference <= 0.0
+                else f"{100.0 * comparison.difference + 0.0:+.1f} %".replace("-0.0", "+0.0"),
             )
-            for each in self.comparisons
+            for comparison in self.comparisons
         )
         return Table(("number", "verdict", "paper", "ours", "unit", "difference"), rows, left=2)
 
     def reasons(self) -> tuple[str, ...]:
         """Why numbers differ, one sentence per reason with the numbers that it explains."""
         explained: dict[str, list[str]] = {}
-        for each in self.comparisons:
-            if each.verdict == "differs":
-                explained.setdefault(each.because, []).append(each.quantity)
+        for comparison in self.comparisons:
+            if comparison.verdict == "differs":
+                explained.setdefault(comparison.because, []).append(comparison.quantity)
         return tuple(
             f"{'; '.join(quantities)} {'differs' if len(quantities) == 1 else 'differ'}"
             + (f": because {because}." if because else ", and we do not know why.")
@@ -208,7 +210,7 @@ class Exhibit:
             "title": self.title,
             "says": self.says,
             "explanation": self.explanation,
-            "comparisons": [each.to_json() for each in self.comparisons],
+            "comparisons": [comparison.to_json() for comparison in self.comparisons],
             **self.answer,
         }
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from probation.law.spectrum import Spectrum
 from probation.published.experiments import necking_history
 from probation.published.numbers import CONSTANT_TIME_MODULUS, CONSTANT_TIME_ONSET
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.plots import Curve, stress_strain_with_residuals
 from probation.report.style import colour, series_colour
 from probation.report.table import Table
@@ -142,8 +142,7 @@ def _start_for(number: Grip, searched: CostOverTime, stress: float) -> float:
 
 
 def _cost_figure(searched: Mapping[Grip, CostOverTime]) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 3.6)
+    with styled_figure(7.2, 3.6) as figure:
         axes = figure.subplots()
         for at, (number, each) in enumerate(searched.items()):
             shade = series_colour(at)

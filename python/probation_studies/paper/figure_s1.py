@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.certificate.hardening import HardeningRegression, regress_hardening
 from probation.law.kinematics import haward_thackray_strain
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import styled_figure, thinned
 from probation.report.style import colour
 from probation.settings.certificate import CERTIFICATE
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
@@ -65,8 +65,7 @@ def exhibit(settings: Settings) -> Exhibit:
 
 
 def _figure(twins: Mapping[Grip, Twin], found: Mapping[Grip, HardeningRegression]) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 3.4)
+    with styled_figure(7.2, 3.4) as figure:
         for axes, number in zip(figure.subplots(1, 2, sharey=True), GRIPS, strict=True):
             each, line = twins[number], found[number]
             measure = haward_thackray_strain(each.true_strain)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.calibration.forms import FORMS
+from probation.calibration.companion_forms import FORMS
 from probation.calibration.regression import regress
 from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.identify.fit import fit
@@ -14,7 +14,7 @@ from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINT
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.published.numbers import EXPONENTIAL_R_SQUARED, WEISSENBERG_R_SQUARED
 from probation.records.campaign import Campaign
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour, series_colour
 from probation.report.table import Table
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
@@ -35,8 +35,8 @@ _WHY_INTERCEPT = (
 def exhibit(settings: Settings) -> Exhibit:
     """Regress both relations on Table 2, and ask Tables 3 and 4 which of (11) they were made with."""
     eq_11, eq_12 = regress(FORMS["weissenberg"], TABLE_2), regress(FORMS["exponential"], TABLE_2)
-    slope, intercept = (float(each) for each in eq_11.parameters)
-    coefficient, exponent = (float(each) for each in eq_12.parameters)
+    slope, intercept = (float(parameter) for parameter in eq_11.parameters)
+    coefficient, exponent = (float(parameter) for parameter in eq_12.parameters)
     comparisons = [
         compare("(11), slope", WEISSENBERG_AS_PRINTED.slope, slope),
         compare("(11), intercept", WEISSENBERG_AS_PRINTED.intercept, intercept, because=_WHY_INTERCEPT),
@@ -102,8 +102,7 @@ def _alpha(number: Grip, settings: Settings, slope: float, intercept: float) -> 
 
 
 def _figure(drawn: dict[str, Companion]) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 3.6)
+    with styled_figure(7.2, 3.6) as figure:
         times, numbers = figure.subplots(1, 2)
         rates = np.geomspace(3e-5, 2e-2, 200)
         points = {"color": colour("data"), "fmt": "o", "ms": 4.5, "capsize": 2.5, "lw": 1.0, "zorder": 3}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.published.experiments import SAMPLES, necking_history
-from probation.report.figures import house_style, new_figure, thinned
+from probation.report.figures import styled_figure, thinned
 from probation.report.style import colour
 from probation.smoothing.necking import fit_necking
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
@@ -139,8 +139,7 @@ def _drawings(found: NeckingFit) -> tuple[Drawing, ...]:
 
 
 def _figure_s3(strain: TwoSteps) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 4.2)
+    with styled_figure(7.2, 4.2) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[2.2, 1.0])
         above.plot(
             *thinned(strain.time, strain.measured, 300), ".", ms=4, mew=0, color=colour("data"), label="measured"
@@ -162,8 +161,7 @@ def _over_time(
     names: tuple[str, str],
     first: FloatArray | None = None,
 ) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 2.7)
+    with styled_figure(7.2, 2.7) as figure:
         axes = figure.subplots()
         axes.plot(*thinned(time, measured, 900), color=colour("data"), lw=0.6, label=names[0])
         if first is not None:

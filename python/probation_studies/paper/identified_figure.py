@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.report.figures import house_style, legend_outside, new_figure, thinned
+from probation.report.figures import legend_outside, styled_figure, thinned
 from probation.report.style import colour, series_colour
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation_studies.paper.grip_tests import PUBLISHED, fit_residual, identified, twin
@@ -83,8 +83,7 @@ def _figure(
     exact: tuple[FloatArray, Mapping[int, FloatArray]],
     biased: tuple[FloatArray, Mapping[int, FloatArray]],
 ) -> Figure:
-    with house_style():
-        figure = new_figure(7.2, 4.0)
+    with styled_figure(7.2, 4.0) as figure:
         left, right = figure.subplots(1, 2, sharey=True)
         _draw(left, strain, *exact)
         _draw(right, strain, *biased)

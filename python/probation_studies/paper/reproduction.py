@@ -46,12 +46,14 @@ class Reproduction:
 
     def count(self, verdict: Verdict) -> int:
         """How many numbers have that verdict."""
-        return sum(each.verdict == verdict for each in self.comparisons)
+        return sum(comparison.verdict == verdict for comparison in self.comparisons)
 
     @property
     def unexplained(self) -> tuple[Comparison, ...]:
         """Numbers that differ and nobody knows why."""
-        return tuple(each for each in self.comparisons if each.verdict == "differs" and not each.because)
+        return tuple(
+            comparison for comparison in self.comparisons if comparison.verdict == "differs" and not comparison.because
+        )
 
     @property
     def verdict(self) -> str:

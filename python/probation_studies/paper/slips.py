@@ -350,7 +350,7 @@ def _at_peaks(relation: Weissenberg) -> str:
     """(12) over (11) at the peak rates of experiments 2 and 3."""
     peaks = [PEAK_RATE * table.grip_speed / TABLE_4.grip_speed for table in (TABLE_3, TABLE_4)]
     ratios = EXPONENTIAL_AS_PRINTED.relaxation_time(peaks) / relation.relaxation_time(peaks)
-    return " and ".join(f"{each:.3f}" for each in ratios)
+    return " and ".join(f"{ratio:.3f}" for ratio in ratios)
 
 
 def _alpha_drift(identification: int) -> float:

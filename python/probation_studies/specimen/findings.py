@@ -193,7 +193,7 @@ def blame_table(judged: Judged) -> Table:
 
 def _judged(campaign: Campaign, seed: int) -> Judged:
     records = tuple(
-        replace(each, role="identify" if each.id == _IDENTIFIED else "held-out") for each in campaign.records
+        replace(record, role="identify" if record.id == _IDENTIFIED else "held-out") for record in campaign.records
     )
     return Judged(campaign, certify(replace(campaign, records=records)), diagnose(campaign, seed=seed, design=False))
 

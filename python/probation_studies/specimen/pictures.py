@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from probation.published.experiments import experiment
-from probation.report.figures import house_style, new_figure, save_figure, thinned
+from probation.report.figures import save_figure, styled_figure, thinned
 from probation.report.style import series_colour
 
 if TYPE_CHECKING:
@@ -25,8 +25,7 @@ def draw_specimen(specimen: Specimen, path: str | PathLike[str]) -> None:
     path : path-like
         PNG, SVG or PDF, by the ending.
     """
-    with house_style():
-        figure = new_figure(10.0, 4.0)
+    with styled_figure(10.0, 4.0) as figure:
         rates, gaps = figure.subplots(1, 2)
         _rates(rates, specimen)
         _gaps(gaps, specimen)

@@ -117,10 +117,14 @@ def _compared(run: Callable[[Path, Law, Path, float], tuple[Comparison, ...]]) -
         ccx, law = find_ccx(given.ccx), _law(given)
         with _folder(given) as folder:
             comparisons = run(ccx, law, folder, given.bulk_modulus)
-        for each in comparisons:
-            limit = "" if each.limit is None else f"limit {each.limit:g}{'' if each.holds else '  MISSED'}"
-            print(f"{each.name:58s} {each.found:.2g}  {limit}".rstrip())
-        return 0 if all(each.holds for each in comparisons) else 1
+        for comparison in comparisons:
+            limit = (
+                ""
+                if comparison.limit is None
+                else f"limit {comparison.limit:g}{'' if comparison.holds else '  MISSED'}"
+            )
+            print(f"{comparison.name:58s} {comparison.found:.2g}  {limit}".rstrip())
+        return 0 if all(comparison.holds for comparison in comparisons) else 1
 
     return command
 

@@ -26,7 +26,7 @@ def number(value: float) -> str:
 
 def nodes(points: FloatArray) -> str:
     """Nodes 1, 2, … at those places, shape (nodes, 3) [mm]."""
-    rows = (f"{at},{','.join(number(each) for each in point)}" for at, point in enumerate(points, start=1))
+    rows = (f"{at},{','.join(number(coordinate) for coordinate in point)}" for at, point in enumerate(points, start=1))
     return "\n".join(("*NODE, NSET=ALL", *rows))
 
 
@@ -34,14 +34,14 @@ def elements(kind: str, connectivity: Iterable[Sequence[int]]) -> str:
     """Elements 1, 2, … in the set BODY; a line holds 10 numbers and goes on after a comma."""
     rows = []
     for at, corners in enumerate(connectivity, start=1):
-        numbers = [str(each) for each in (at, *corners)]
+        numbers = [str(node) for node in (at, *corners)]
         rows.append(",\n".join(",".join(numbers[k : k + 10]) for k in range(0, len(numbers), 10)))
     return "\n".join((f"*ELEMENT, TYPE={kind}, ELSET=BODY", *rows))
 
 
 def node_set(name: str, members: Iterable[int]) -> str:
     """A set of nodes; the name in capitals."""
-    return "\n".join((f"*NSET, NSET={name}", *(f"{each}," for each in members)))
+    return "\n".join((f"*NSET, NSET={name}", *(f"{member}," for member in members)))
 
 
 def material(constants: MaterialConstants, state_size: int) -> str:
@@ -58,7 +58,7 @@ def material(constants: MaterialConstants, state_size: int) -> str:
             f"constants: found {len(values)}, expected at most {MOST_CONSTANTS}, for CalculiX passes no more; "
             "compile a kernel or a table of your own in with -DPROBATION_CONSTANTS"
         )
-    rows = [",".join(number(each) for each in values[k : k + 8]) for k in range(0, len(values), 8)]
+    rows = [",".join(number(value) for value in values[k : k + 8]) for k in range(0, len(values), 8)]
     lines = [
         "*MATERIAL, NAME=@PROBATION_DNLR",
         f"*USER MATERIAL, CONSTANTS={len(values)}",

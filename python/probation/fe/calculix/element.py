@@ -65,8 +65,6 @@ def stretch_element(ccx: Path, law: Law, folder: Path, bulk_modulus: float = 1e6
 
     Parameters
     ----------
-    ccx : Path
-    law : Law
     folder : Path
         Where the files of the run go.
     bulk_modulus : float

@@ -108,14 +108,10 @@ def neck(
 
     Parameters
     ----------
-    ccx : Path
-    law : Law
     folder : Path
         Where the files of the run go.
-    dumbbell : Dumbbell
     bulk_modulus : float [MPa]
     rate_filter : float [-]
-    threads : int
 
     Raises
     ------

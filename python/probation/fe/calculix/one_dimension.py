@@ -38,7 +38,6 @@ def pull_bar(point: MaterialPoint, increments: Sequence[tuple[float, float]], bu
 
     Parameters
     ----------
-    point : MaterialPoint
     increments : sequence of (float, float)
         Of true strain along the bar [-] and of time [s].
     bulk_modulus : float

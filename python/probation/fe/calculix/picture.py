@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from probation.published.experiments import experiment_1, experiment_2, experiment_3
-from probation.report.figures import house_style, new_figure, save_figure, thinned
+from probation.report.figures import save_figure, styled_figure, thinned
 from probation.report.style import series_colour
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ def draw(necking: NeckingRun, file: Path) -> None:
     InputError
         For another ending, or where the file cannot be written.
     """
-    with house_style():
-        figure = new_figure(10.0, 7.4)
+    with styled_figure(10.0, 7.4) as figure:
         upper, lower = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 1.0)))
         left, right = upper.subplots(1, 2)
         _force(left, necking)
@@ -83,8 +82,8 @@ def _shapes(figure: Any, necking: NeckingRun) -> None:
     )
     for column, (title, colours, values_at) in enumerate(columns):
         values = {name: values_at(at) for name, at in instants.items()}
-        lowest = min(0.0, *(each.min() for each in values.values()))
-        limits = (lowest, max(each.max() for each in values.values()))
+        lowest = min(0.0, *(value.min() for value in values.values()))
+        limits = (lowest, max(value.max() for value in values.values()))
         for row, (name, at) in enumerate(instants.items()):
             each = axes[row, column]
             drawn = _elements(each, necking.face[at], values[name], colours, limits)

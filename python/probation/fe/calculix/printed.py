@@ -64,7 +64,7 @@ def read_printed(file: Path) -> dict[tuple[str, str], Printed]:
             rows.setdefault(key, [])
             continue
         try:
-            row = [float(each) for each in line.split()]
+            row = [float(number) for number in line.split()]
         except ValueError:
             row = []
         if key is None or len(row) != (3 if key[0] == "total force" else 4):
@@ -72,7 +72,7 @@ def read_printed(file: Path) -> dict[tuple[str, str], Printed]:
         rows[key].append(row)
     if not times:
         raise InputError(f"{file}: nothing was printed")
-    return {each: _printed(file, each, times[each], rows[each]) for each in times}
+    return {time: _printed(file, time, times[time], rows[time]) for time in times}
 
 
 def _printed(file: Path, key: tuple[str, str], times: list[float], rows: list[list[float]]) -> Printed:

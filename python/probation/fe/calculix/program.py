@@ -42,11 +42,11 @@ def find_ccx(given: Path | None = None) -> Path:
             if not can_load_routines(Path(found)):
                 raise InputError(f"{name} is {asked}: a ccx built without external behaviours; {HOW}")
             return Path(found).resolve()
-    candidates = [Path(each) for each in (shutil.which("ccx"), BUILT) if each]
+    candidates = [Path(place) for place in (shutil.which("ccx"), BUILT) if place]
     for candidate in candidates:
         if can_load_routines(candidate):
             return candidate.resolve()
-    stock = [str(each) for each in candidates if each.is_file()]
+    stock = [str(candidate) for candidate in candidates if candidate.is_file()]
     found_instead = f" ({', '.join(stock)} was built without)" if stock else ""
     raise InputError(f"no ccx with external behaviours{found_instead}: {HOW}")
 

@@ -64,10 +64,6 @@ def make_example(
         Of the noise, and of which pixels are lost.
     processes, executor, progress
         As in `identify_field`.
-
-    Returns
-    -------
-    field, truth : Path
     """
     if size < 4 or times < 20 or seed < 0:
         raise InputError(f"found size {size}, times {times}, seed {seed}; expected at least 4, 20 and 0")
@@ -95,7 +91,7 @@ def make_block(path: str, grid: BlockGrid, times: int, seed: int, block: Block) 
     """Histories of a block: drawn, integrated, measured."""
     at = grid.slices(block)
     across = specimen.positions(grid.shape[0])
-    y, x = (each.ravel() for each in np.meshgrid(across[at[0]], across[at[1]], indexing="ij"))
+    y, x = (positions.ravel() for positions in np.meshgrid(across[at[0]], across[at[1]], indexing="ij"))
     there = np.flatnonzero(specimen.inside(y, x))
     strain, stress = np.full((2, len(y), times), np.nan, dtype=np.float32)
     substeps = math.ceil(specimen.DURATION / (times - 1) / LONGEST_STEP)

@@ -37,7 +37,6 @@ class InitialCampaign(Result):
     ----------
     campaign : Campaign
         As `Campaign.load` reads it from its folder.
-    folder : Path
     reads : dict of str to str
         By record: file, profile, and which column is which.
     """
@@ -162,7 +161,7 @@ class _Target:
             return Path(within).as_posix()
         stem, ending = path.name.partition(".")[0] or "record", "".join(path.suffixes)
         name, number = path.name, 2
-        taken = {FILE_NAME, PAGE_NAME, *(each.casefold() for each in self._sources)}
+        taken = {FILE_NAME, PAGE_NAME, *(name.casefold() for name in self._sources)}
         while name.casefold() in taken or not self._is_free(name, path):
             name, number = f"{stem}-{number}{ending}", number + 1
         self._sources[name] = path

@@ -16,7 +16,6 @@ class Entry:
 
     Attributes
     ----------
-    record : Record
     file : str
         As campaign.toml names it.
     keys : dict of str to object

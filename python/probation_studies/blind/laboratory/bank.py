@@ -234,15 +234,15 @@ class Bank:
 
     def added(self, k: int, causes: Sequence[Sequence[Acting]]) -> list[FloatArray]:
         """What sets of causes add to the recorded stress of a record, on the samples' grid."""
-        solving = [j for j, each in enumerate(causes) if any(acting.cause.solves for acting in each)]
+        solving = [j for j, cause in enumerate(causes) if any(acting.cause.solves for acting in cause)]
         stress = dict(zip(solving, recorded_stress([(self.bench.trial(k), causes[j]) for j in solving]), strict=True))
         plain = self.bench.trial(k)
         answers = []
-        for j, each in enumerate(causes):
+        for j, cause in enumerate(causes):
             found = stress.get(j)
             if found is None:
                 found = self.base[k]
-                for acting in each:
+                for acting in cause:
                     assert acting.cause.record is not None
                     found = acting.cause.record(plain, acting.amplitude, acting.shape, found)
             answers.append(found - self.base[k])

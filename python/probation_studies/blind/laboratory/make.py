@@ -255,7 +255,7 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
 
 def _by_record(bench: Bench, samples: Sequence[FloatArray]) -> dict[str, float]:
     """Root mean squares by record."""
-    return {name: float(np.sqrt(np.mean(each**2))) for name, each in zip(bench.ids, samples, strict=True)}
+    return {name: float(np.sqrt(np.mean(sample**2))) for name, sample in zip(bench.ids, samples, strict=True)}
 
 
 def _signal_of(bank: Bank, planted: Planted) -> Signal:

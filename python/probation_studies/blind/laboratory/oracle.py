@@ -68,7 +68,7 @@ class _Member:
 
 def explanation(signals: Sequence[Signal]) -> Names:
     """Names of an explanation, sorted; what has none in the catalogue is unknown."""
-    return tuple(sorted({each.cause.answer for each in signals}))
+    return tuple(sorted({signal.cause.answer for signal in signals}))
 
 
 def consult(
@@ -86,7 +86,7 @@ def consult(
     acting : sequence of Signal
         Those of the bank that are true.
     """
-    columns = np.stack([each.column / each.norm for each in signals], axis=1)
+    columns = np.stack([signal.column / signal.norm for signal in signals], axis=1)
     gram = columns.T @ columns
     root = np.linalg.cholesky(gram + 1e-9 * np.eye(len(gram)))
     seen = columns.T @ observed
@@ -99,7 +99,7 @@ def consult(
         evidence = member.log_prior + _log_evidence(gram, scores, member)
         explanations.setdefault(member.names, []).append(evidence)
     names = list(explanations)
-    log_weight = np.stack([np.logaddexp.reduce(explanations[each], axis=0) for each in names])
+    log_weight = np.stack([np.logaddexp.reduce(explanations[name], axis=0) for name in names])
     best = np.argmax(log_weight[:, 1:], axis=0)
     right = float(np.mean([names[k] == truth for k in best]))
     weight = np.exp(log_weight[:, 0] - log_weight[:, 0].max())
@@ -136,8 +136,8 @@ def _members(
 ) -> list[_Member]:
     """Every shape alone, all shapes of a placed cause together, and pairs of the most telling placed causes."""
     placed: dict[tuple[str, tuple[int, ...]], list[int]] = {}
-    for k, each in enumerate(signals):
-        placed.setdefault(each.where, []).append(k)
+    for k, signal in enumerate(signals):
+        placed.setdefault(signal.where, []).append(k)
     known = {where[0] for where, held in placed.items() if not signals[held[0]].cause.outside}
     outside = {where[0] for where, held in placed.items() if signals[held[0]].cause.outside}
     share = np.log(1.0 - _PRIOR_OF_NONE - _PRIOR_OF_PAIRS - _PRIOR_OF_UNKNOWN) - np.log(max(len(known), 1))

@@ -117,10 +117,10 @@ def _columns(
 def likeness(signals: Sequence[Signal], planted: Planted) -> dict[str, float]:
     """Largest cosine with the signals of every other cause, most alike first."""
     found: dict[str, float] = {}
-    for each in signals:
-        if each.cause.name != planted.acting.cause.name:
-            cosine = abs(float(each.column @ planted.column)) / (each.norm * planted.detectability)
-            found[each.cause.name] = max(found.get(each.cause.name, 0.0), cosine)
+    for signal in signals:
+        if signal.cause.name != planted.acting.cause.name:
+            cosine = abs(float(signal.column @ planted.column)) / (signal.norm * planted.detectability)
+            found[signal.cause.name] = max(found.get(signal.cause.name, 0.0), cosine)
     return dict(sorted(found.items(), key=lambda item: -item[1]))
 
 
@@ -136,9 +136,9 @@ def left_by_others(signals: Sequence[Signal], column: FloatArray, but: Sequence[
         Left by one, left by two, and the name of that one.
     """
     placed: dict[tuple[str, tuple[int, ...]], list[FloatArray]] = {}
-    for each in signals:
-        if not each.cause.outside and each.cause.name not in but:
-            placed.setdefault(each.where, []).append(3.0 * each.column)
+    for signal in signals:
+        if not signal.cause.outside and signal.cause.name not in but:
+            placed.setdefault(signal.where, []).append(3.0 * signal.column)
     spans = {where: np.stack(columns, axis=1) for where, columns in placed.items()}
     alone = sorted((_left([span], column), where) for where, span in spans.items())
     nearest = [where for _, where in alone[:_NEAREST]]

@@ -111,10 +111,10 @@ def _nuisance_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[Fl
 
     The direction that is most alike is taken down to what is allowed, and again until all are.
     """
-    drifts = [each.drift.copy() for each in noises]
+    drifts = [noise.drift.copy() for noise in noises]
     if not any(np.any(each) for each in drifts):
         return drifts, 0.0
-    directions = np.stack([each.column / each.norm for each in bank.signals if not each.cause.outside], axis=1)
+    directions = np.stack([signal.column / signal.norm for signal in bank.signals if not signal.cause.outside], axis=1)
     alike = directions.T @ bank.column({k: drifts[k] for k in bank.bench.identified})
     cosines = directions.T @ directions
     taken = np.zeros_like(alike)
@@ -161,4 +161,4 @@ def _converted(samples: FloatArray, quantum: float) -> FloatArray:
 
 def _as_written(samples: FloatArray) -> FloatArray:
     """Twelve digits, as in the file."""
-    return np.array([float(f"{each:.12g}") for each in samples])
+    return np.array([float(f"{sample:.12g}") for sample in samples])

@@ -231,20 +231,20 @@ class Acting:
 def recorded_stress(trials: Sequence[tuple[Trial, Sequence[Acting]]]) -> list[FloatArray]:
     """Recorded true stress (n,) [MPa] of each trial under its causes; all on one time grid, each trial used once."""
     for trial, causes in trials:
-        for each in causes:
-            if each.cause.strain:
-                each.cause.strain(trial, each.amplitude, each.shape)
+        for cause in causes:
+            if cause.cause.strain:
+                cause.cause.strain(trial, cause.amplitude, cause.shape)
         trial.measure()
-        for each in causes:
-            if each.cause.change:
-                each.cause.change(trial, each.amplitude, each.shape)
+        for cause in causes:
+            if cause.cause.change:
+                cause.cause.change(trial, cause.amplitude, cause.shape)
     stresses = _solved([trial for trial, _ in trials])
     answers = []
     for (trial, causes), specimen_stress in zip(trials, stresses, strict=True):
         stress = specimen_stress * np.exp(trial.nominal - trial.strain)  # made with the recorded strain
-        for each in causes:
-            if each.cause.record:
-                stress = each.cause.record(trial, each.amplitude, each.shape, stress)
+        for cause in causes:
+            if cause.cause.record:
+                stress = cause.cause.record(trial, cause.amplitude, cause.shape, stress)
         answers.append(stress)
     return answers
 

@@ -99,7 +99,7 @@ class Aim:
         return self._text(self.value) + ("" if self.interval is None else f" ({self._text(*self.interval)})")
 
     def _text(self, *values: float) -> str:
-        numbers = "\u00a0to\u00a0".join(f"{100.0 * each:.1f}" if self.percent else f"{each:.3f}" for each in values)
+        numbers = "\u00a0to\u00a0".join(f"{100.0 * value:.1f}" if self.percent else f"{value:.3f}" for value in values)
         return numbers.replace("-", "−") + ("\u00a0%" if self.percent else "")
 
 

@@ -159,7 +159,7 @@ def _region(each: Mapping[str, object]) -> Region:
 
 
 def _with_errors(parameters: Mapping[str, Mapping[str, object]]) -> dict[str, tuple[float, float]]:
-    known = {name: each for name, each in parameters.items() if each.get("se") is not None}
+    known = {name: parameter for name, parameter in parameters.items() if parameter.get("se") is not None}
     return {name: (_number(each["value"]), _number(each["se"])) for name, each in known.items()}
 
 

@@ -86,7 +86,7 @@ class Case:
     @property
     def left(self) -> float:
         """Detectability that the nearest cause of the catalogue leaves of what acts; 0 of nothing."""
-        return min((float(cast("float", each["left_by_best_other"])) for each in self.causes), default=0.0)
+        return min((float(cast("float", cause["left_by_best_other"])) for cause in self.causes), default=0.0)
 
     @property
     def oracle(self) -> Mapping[str, object]:
@@ -131,7 +131,7 @@ class Case:
     def durations(self) -> dict[str, float]:
         """Of the records [s]."""
         records = cast("Mapping[str, Mapping[str, object]]", self.truth["records"])
-        return {name: float(cast("float", each["duration_s"])) for name, each in records.items()}
+        return {name: float(cast("float", record["duration_s"])) for name, record in records.items()}
 
     @property
     def windows(self) -> tuple[Region, ...]:
@@ -146,7 +146,7 @@ class Case:
     @property
     def localised(self) -> bool:
         """Whether all that acts shows in a part of the record."""
-        return bool(self.causes) and all(bool(each["localised"]) for each in self.causes)
+        return bool(self.causes) and all(bool(cause["localised"]) for cause in self.causes)
 
 
 def oracle_answer(truth: Truth) -> Answer:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from probation.report.figures import house_style, new_figure
+from probation.report.figures import styled_figure
 from probation.report.style import colour, series_colour
 from probation_studies.blind.scores.confusion import RIGHT_PAIR
 
@@ -27,11 +27,10 @@ def power_figure(board: Mapping[str, object]) -> Figure:
     detection = cast("Mapping[str, Mapping[str, object]]", board["detection"])
     groups = cast("Mapping[str, Mapping[str, object]]", board["by_detectability"])
     named = {name: cast("Mapping[str, object]", group["top1"]) for name, group in groups.items()}
-    with house_style():
-        figure = new_figure(7.2, 3.8)
+    with styled_figure(7.2, 3.8) as figure:
         axes = figure.subplots()
         for at, (label, rates) in enumerate((("gap found", detection), ("cause named", named))):
-            known = {name: each for name, each in rates.items() if each["n"]}
+            known = {name: rate for name, rate in rates.items() if rate["n"]}
             place = np.array([float(name) for name in known]) * 1.03 ** (2 * at - 1)
             value = np.array([cast("float", each["rate"]) for each in known.values()])
             ends = np.array([cast("list[float]", each["interval95"]) for each in known.values()]).reshape(-1, 2)
@@ -59,8 +58,7 @@ def reliability_figure(board: Mapping[str, object]) -> Figure:
     """How often the best explanation is right over how probable it was said to be."""
     curve = cast("Mapping[str, object]", board["reliability"])
     bins = cast("list[Mapping[str, object]]", curve["bins"])
-    with house_style():
-        figure = new_figure(7.2, 3.8)
+    with styled_figure(7.2, 3.8) as figure:
         axes = figure.subplots()
         axes.plot([0.0, 1.0], [0.0, 1.0], color=colour("muted"), lw=0.8)
         for each in bins:
@@ -85,8 +83,7 @@ def confusion_figure(board: Mapping[str, object]) -> Figure:
     matrix = cast("Mapping[str, object]", board["confusion_matrix"])
     rows, columns = cast("list[str]", matrix["truths"]), cast("list[str]", matrix["answers"])
     counts = np.array(cast("list[list[int]]", matrix["counts"])).reshape(len(rows), len(columns))
-    with house_style():
-        figure = new_figure(7.2, 2.0 + 0.215 * len(rows))
+    with styled_figure(7.2, 2.0 + 0.215 * len(rows)) as figure:
         axes = figure.subplots()
         for (row, column), count in np.ndenumerate(counts):
             right = columns[column] == (RIGHT_PAIR if rows[row] == "several" else rows[row])

@@ -35,17 +35,17 @@ def nearest_signature(folder: Path) -> dict[str, object]:
     wanted = -base.whitened.residual  # model minus data: what is missing in the model
     signals = [each for each in effect_signals(base.model, base.parameters, effects())[0] if each.usual]
     scored: list[Scored] = []
-    white = base.whitener.columns(np.stack([each.stress for each in signals], axis=1))
+    white = base.whitener.columns(np.stack([signal.stress for signal in signals], axis=1))
     parts = dict(zip((view.id for view in base.model.views), base.whitened.slices, strict=True))
-    for each, column in zip(signals, white.T, strict=True):
-        for records, signature in _placed(each, column, parts):
+    for signal, column in zip(signals, white.T, strict=True):
+        for records, signature in _placed(signal, column, parts):
             left = without(signature, base.whitened.span)
             size = float(np.linalg.norm(left))
             if size < 1e-4 * float(np.linalg.norm(signature)) or size == 0.0:
                 continue
             along = float(left @ wanted) / size
-            along = max(along, 0.0) if each.one_sided else abs(along)
-            scored.append((each.cause.effect.name, 0.5 * along**2, records))
+            along = max(along, 0.0) if signal.one_sided else abs(along)
+            scored.append((signal.cause.effect.name, 0.5 * along**2, records))
     return answer(found, scored)
 
 

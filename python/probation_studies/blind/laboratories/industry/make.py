@@ -166,10 +166,10 @@ def _draw_causes(random: np.random.Generator, stratum: str) -> list[Cause]:
 
 
 def _draw_series(random: np.random.Generator, stratum: str, causes: Sequence[Cause]) -> _Series:
-    names = {each.name for each in causes}
+    names = {cause.name for cause in causes}
     clip_on = bool(names & _CLIP_ON) or (not names & _CROSSHEAD and random.random() < 0.6)
     replicates = stratum == "replicates" or (stratum != "none" and random.random() < 0.5)
-    needs = frozenset(each.needs for each in causes if each.needs)
+    needs = frozenset(cause.needs for cause in causes if cause.needs)
     design = draw_design(random, needs, clip_on=clip_on, replicates=replicates)
     conditions = [each for each in design.conditions for _ in range(each.repeats)]
     order = random.permutation(len(conditions))
@@ -274,7 +274,7 @@ def _bank(sight: Sight, design: Design) -> list[Column]:
                     break
             placings = [tuple(range(count)), *(((k,) for k in range(count)) if cause.rig and count > 1 else ())]
             for places in placings:
-                seen = sight.seen([each if k in places else np.zeros(0) for k, each in enumerate(by_record)])
+                seen = sight.seen([estimate if k in places else np.zeros(0) for k, estimate in enumerate(by_record)])
                 norm = float(np.linalg.norm(seen))
                 if np.isfinite(norm) and norm > _UNSEEN:
                     columns.append(Column(cause.name, effect(cause.name), places, seen / norm))
@@ -316,8 +316,8 @@ def _finish(
         "detectability": float(np.linalg.norm(clean)),
         "base": _base(design.law),
         "noise_MPa": {
-            each: float(series.instruments.force_white * np.sqrt(np.mean((1.0 + programme.travel) ** 2)))
-            for each, programme in zip(ids, series.programmes, strict=True)
+            record_id: float(series.instruments.force_white * np.sqrt(np.mean((1.0 + programme.travel) ** 2)))
+            for record_id, programme in zip(ids, series.programmes, strict=True)
         },
         "noise": {
             "force_MPa": series.instruments.force_white,
@@ -480,4 +480,4 @@ def _record(
                 noise=stated,
             )
         )
-    return tuple(records), [each.id for each in records]
+    return tuple(records), [record.id for record in records]

@@ -143,5 +143,5 @@ def _normal(x: float) -> float:
 
 def left_by(columns: Sequence[Column], clean: FloatArray) -> float:
     """Norm that is left of a signal when these columns have taken their part."""
-    basis, _ = np.linalg.qr(np.stack([each.signal for each in columns], axis=1))
+    basis, _ = np.linalg.qr(np.stack([column.signal for column in columns], axis=1))
     return float(np.linalg.norm(clean - basis @ (basis.T @ clean)))

@@ -99,7 +99,7 @@ class Sight:
         ]
         covariance = block_diag(*blocks)
         tangents = [self._tangents(view) for view in self.views]
-        ends = np.cumsum([0, *(len(each) for each in blocks)])
+        ends = np.cumsum([0, *(len(block) for block in blocks)])
         self.rows = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         if scatter is not None:
             for rows, each in zip(self.rows, tangents, strict=True):
@@ -125,14 +125,14 @@ class Sight:
             (stress(replace(law, hardening=law.hardening * (1 + step))) - base) / step,
             base,
         ]
-        return np.stack([view.means(each) for each in columns], axis=1)
+        return np.stack([view.means(column) for column in columns], axis=1)
 
     def seen(self, by_record: Sequence[FloatArray]) -> FloatArray:
         """Block means of all records (zero where an array is empty), whitened and without the base law's tangents."""
         whole = np.zeros(self.rows[-1].stop)
-        for rows, each in zip(self.rows, by_record, strict=True):
-            if len(each):
-                whole[rows] = each
+        for rows, estimate in zip(self.rows, by_record, strict=True):
+            if len(estimate):
+                whole[rows] = estimate
         white = self._white(whole)
         return np.asarray(white - self._taken @ (self._taken.T @ white))
 

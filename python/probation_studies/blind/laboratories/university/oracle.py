@@ -113,16 +113,19 @@ def _posterior(candidates: Sequence[Candidate], unit: FloatArray, scores: FloatA
     """Explanations and their probabilities, (n_scores, n_explanations), from signals of norm 1."""
     n = len(candidates)
     precision = 1.0 / _USUAL**2
-    inside = len({each.kind for each in candidates if not each.outside})
-    beyond = max(len({each.kind for each in candidates if each.outside}), 1)
+    inside = len({candidate.kind for candidate in candidates if not candidate.outside})
+    beyond = max(len({candidate.kind for candidate in candidates if candidate.outside}), 1)
     prior = np.array(
-        [each.share * (_PRIOR_OUTSIDE / beyond if each.outside else _PRIOR_SINGLE / inside) for each in candidates]
+        [
+            candidate.share * (_PRIOR_OUTSIDE / beyond if candidate.outside else _PRIOR_SINGLE / inside)
+            for candidate in candidates
+        ]
     )
     single = 0.5 * scores**2 / (1.0 + precision) + 0.5 * np.log(precision / (1.0 + precision)) + np.log(prior)
     first, second = np.triu_indices(n, 1)
-    kinds = np.array([each.kind for each in candidates])
+    kinds = np.array([candidate.kind for candidate in candidates])
     apart = kinds[first] != kinds[second]
-    beyond_any = np.array([each.outside for each in candidates])
+    beyond_any = np.array([candidate.outside for candidate in candidates])
     apart &= ~(beyond_any[first] | beyond_any[second])
     first, second = first[apart], second[apart]
     cosine, own = unit[first, second], 1.0 + precision
@@ -136,7 +139,7 @@ def _posterior(candidates: Sequence[Candidate], unit: FloatArray, scores: FloatA
     evidence -= evidence.max(axis=1, keepdims=True)
     probability = np.exp(evidence)
     probability /= probability.sum(axis=1, keepdims=True)
-    names: list[Names] = [(), *((each.effect,) for each in candidates)]
+    names: list[Names] = [(), *((candidate.effect,) for candidate in candidates)]
     names += [
         tuple(sorted({candidates[i].effect, candidates[j].effect}))
         for i, j in zip(first.tolist(), second.tolist(), strict=True)

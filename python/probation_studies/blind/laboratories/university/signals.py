@@ -100,8 +100,8 @@ class Bench:
 
         `blocks` holds for every record the whitened columns, (n, n_columns).
         """
-        inside = np.array([each.T @ each for each in blocks])
-        across = np.array([each.T @ jac for each, jac in zip(blocks, self.tangents, strict=True)])
+        inside = np.array([block.T @ block for block in blocks])
+        across = np.array([block.T @ jac for block, jac in zip(blocks, self.tangents, strict=True)])
         return Products(inside, across, self.inverse)
 
     def detectability(self, added_stress: Sequence[FloatArray | None]) -> float:

@@ -1,0 +1,34 @@
+"""Where a search for the law begins, and which values it is doubted at: the constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from probation.settings.setting import chosen
+
+
+@dataclass(frozen=True)
+class IdentificationSettings:
+    """Where a search for the law begins, and which values it is doubted at."""
+
+    likely_moduli: tuple[float, float] = chosen(
+        (1e-3, 1e6), "MPa", "Unrelaxed moduli that are not warned of, from the softest gel to diamond."
+    )
+    samples_of_first_slope: int = chosen(20, "samples", "First samples whose steepest secant bounds E_u from below.")
+    least_part_of_strain: float = chosen(
+        0.1, "largest strain", "Strain of these samples below which a secant is not taken."
+    )
+    modulus_over_first_slope: float = chosen(1.3, "-", "E_u over that secant.")
+    far_modulus: float = chosen(
+        3.0,
+        "-",
+        "Factor between a fitted E_u and the one of the first slope from which on the search begins there, too.",
+    )
+    early_part_of_strain_noise: float = chosen(
+        0.3,
+        "-",
+        "Part of what makes strain noise matter from which on it is drawn again on a record too long for a matrix.",
+    )
+
+
+IDENTIFICATION = IdentificationSettings()
