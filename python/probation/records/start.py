@@ -109,7 +109,7 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     zero with the stress: a prestress, a force that is off, or a start at a strain that was held.
     """
     time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
-    beyond = np.flatnonzero(np.abs(stress) > _AHEAD * abs(stress[0]))
+    beyond = np.flatnonzero(np.abs(stress) > READING.start_reach * abs(stress[0]))
     count = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
     force_noise, strain_noise = scatter(time, stress), scatter(time, strain)
     loading, first = np.polyfit(time[:count], stress[:count], 1)
