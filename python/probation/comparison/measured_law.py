@@ -147,7 +147,7 @@ class MeasuredLaw(WrappedLaw):
         total = np.zeros(len(view))
         for each in references:
             for part, branch in _paired(view, each):
-                total[part] += np.interp(progress(view, part), branch.progress, branch.missing)
+                total[part] += np.interp(_way(view, part, branch), branch.progress, branch.missing)
         return total / len(references)
 
     def sharp(self, view: RecordView) -> NDArray[np.bool_]:
@@ -183,12 +183,24 @@ class MeasuredLaw(WrappedLaw):
             columns = []
             for part, branch in _paired(view, each):
                 own = np.zeros((len(view), branch.frame.shape[1]))
-                here = progress(view, part)
+                here = _way(view, part, branch)
                 for index, curve in enumerate(branch.frame.T):
                     own[part, index] = np.interp(here, branch.progress, curve)
                 columns.append(own)
             found.append(np.hstack(columns))
         return found
+
+
+def _way(view: RecordView, part: slice, branch: Branch) -> FloatArray:
+    """How far the specimen has come on a branch; a test begins where its reference began, at rest; shape (n_part,).
+
+    At the first instant the law's stress does not answer to the strain yet. What it leaves does, where it is too stiff,
+    and a force that acts back on the strain then need not exist.
+    """
+    way = progress(view, part)
+    if part.start == 0:
+        way[0] = branch.progress[0]
+    return way
 
 
 def _paired(view: RecordView, reference: Sequence[Branch]) -> list[tuple[slice, Branch]]:
