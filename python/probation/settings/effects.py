@@ -46,6 +46,14 @@ class EffectsSettings:
         origin="chosen",
         used_in="effects/large_faults.py",
     )
+    first_rise: tuple[float, float] = setting(
+        (0.02, 0.1),
+        "Parts of the largest force between which its first rise is a straight line, extended back to where it began.",
+        unit="largest force",
+        origin="chosen",
+        source="ASTM D638, annex A1",
+        used_in="effects/large_faults.py",
+    )
     rate_decades: float = setting(
         2.0,
         "Decades around the reference rate beyond which the rate, as a coordinate, is constant.",
