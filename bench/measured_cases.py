@@ -175,10 +175,7 @@ def repeated(material: str, first: tuple[int, ...], second: tuple[int, ...]) -> 
     """Specimens of a measured campaign against others in the same test."""
     whole = measured.measured(material)
     before = replace(whole, records=tuple(whole.records[k] for k in first))
-    others = (
-        replace(whole.records[k], id=known.id, specimen_id=whole.records[k].id)
-        for k, known in zip(second, before.records, strict=True)
-    )
+    others = (replace(whole.records[k], id=known.id) for k, known in zip(second, before.records, strict=True))
     return compared(f"{material}, repeats", "nothing but the specimen", before, replace(whole, records=tuple(others)))
 
 

@@ -31,7 +31,7 @@ def made_up(seed, *, lacks=True):
         wave = 1.0 + 0.03 * np.sin(9.0 * strain) if lacks else 1.0
         stress = law.stress(time, strain, scheme="sa3") * wave + 0.02 * rng.standard_normal(301)
         records.append(Record(name, time, strain, stress, control="strain-rate"))
-    return Campaign("march", tuple(records))
+    return Campaign("march", tuple(records), **ALIKE)
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +83,7 @@ def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0, g
         force = np.concatenate([0.0 * early, force])
         stress = force * (1.0 + travel) + 0.04 * rng.standard_normal(len(time))
         records.append(Record(name, time, np.log1p(travel), stress, specimen_id=specimen_id))
-    return Campaign("rig", tuple(records))
+    return Campaign("rig", tuple(records), **({} if specimen_id else ALIKE))
 
 
 @pytest.fixture(scope="module")
@@ -171,6 +171,33 @@ def test_other_specimens_may_differ_and_the_same_one_may_not():
     assert other.verdict == "nothing_changed"
     assert other.scatter.source == "assumed"
     assert "specimens differ" in other.summary()
+
+
+def test_specimens_of_which_nothing_is_said_may_differ_unless_a_campaign_states_that_they_are_alike():
+    later, before = of_a_rig(2, factor=1.03), of_a_rig(1)
+    assert compare(later, before, threads=1).verdict == "changed"
+    unsaid = [replace(each, specimens=Specimens()) for each in (later, before)]
+    assert compare(*unsaid, threads=1).verdict == "nothing_changed"
+    assert compare(unsaid[0], before, threads=1).verdict == "changed"
+
+
+def rate_independent(seed, wave, *, gain=0.0):
+    """A specimen whose stress follows its strain alone, which is seen where it runs ahead of the mean or lags."""
+    rng = np.random.default_rng(seed)
+    time = np.linspace(0.0, 400.0, 401)
+    strain = 1e-3 * (time + 6.0 * np.sin(wave * time))
+    curve = 20.0 * (1.0 - np.exp(-strain / 0.01)) * (1.0 + 0.8 * strain)
+    stress = (1.0 + gain) * curve + 0.03 * rng.standard_normal(401)
+    return Campaign("film", (Record("pull", time, strain, stress, control="displacement-rate"),))
+
+
+def test_another_course_of_the_rate_is_no_change_though_the_law_says_that_it_matters():
+    """The law answers to a fifth of the rate by 5 MPa of 25, the material by nothing; 10 % of force are one."""
+    reference = Reference.of(rate_independent(1, 0.02))
+    assert compare(rate_independent(2, 0.03), reference, threads=1).verdict == "nothing_changed"
+    found = compare(rate_independent(2, 0.03, gain=0.1), reference, threads=1)
+    assert found.verdict == "changed"
+    assert ("force_gain",) in [each.effects for each in found.answer_set], found.summary()
 
 
 def test_a_gain_in_all_records_is_told_as_such_and_not_in_one(march):
