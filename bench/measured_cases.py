@@ -171,15 +171,37 @@ def gross(material: str, fault: str, size: float) -> Row:
     return compared(f"{material}, a gross fault", f"{fault} {size:g} in {name}", before, after)
 
 
+def gross_in_another(material: str, fault: str, size: float) -> Row:
+    """The same in the second specimen of a test, against the first."""
+    whole = measured.measured(material)
+    first, second = whole.records[:2]
+    other = replace(whole, records=(replace(second, id=first.id),))
+    after = measured.injected(other, Injection(first.id, fault, size, 1))
+    case = f"{material}, a gross fault in another specimen"
+    return compared(case, f"{fault} {size:g}", replace(whole, records=(first,)), after)
+
+
 def repeated(material: str, first: tuple[int, ...], second: tuple[int, ...]) -> Row:
     """Specimens of a measured campaign against others in the same test."""
     whole = measured.measured(material)
     before = replace(whole, records=tuple(whole.records[k] for k in first))
-    others = (
-        replace(whole.records[k], id=known.id, specimen_id=whole.records[k].id)
-        for k, known in zip(second, before.records, strict=True)
-    )
-    return compared(f"{material}, repeats", "nothing but the specimen", before, replace(whole, records=tuple(others)))
+    others = (replace(whole.records[k], id=known.id) for k, known in zip(second, before.records, strict=True))
+    case = f"{material}, specimens {_numbers(second)} against {_numbers(first)}"
+    return compared(case, "nothing but the specimen", before, replace(whole, records=tuple(others)))
+
+
+def _numbers(places: tuple[int, ...]) -> str:
+    return " and ".join(str(place + 1) for place in places)
+
+
+def second_run(samples: int = 400) -> Row:
+    """VHB 4910 at 0.03 1/s to a stretch of 2, once more."""
+    both = []
+    for name in ("0d03_2d0_1", "0d03_2d0_2"):
+        run = Campaign.from_files([DATA / "vhb4910" / f"{name}.csv"], control="displacement-rate", name=name)
+        run = measured.thinned(run, max(len(run.records[0]) // samples, 1))
+        both.append(replace(run, records=(replace(run.records[0], id="run", specimen_id=name),)))
+    return compared("vhb, second run against the first", "nothing but the specimen, or its rest", *both)
 
 
 CASES: dict[str, Callable[[], Row]] = {
@@ -199,8 +221,19 @@ CASES: dict[str, Callable[[], Row]] = {
     "etfe-slack": lambda: gross("etfe", "slack", 0.1),
     "etfe-compliance": lambda: gross("etfe", "machine_compliance", 2e-3),
     "vhb-gain": lambda: gross("vhb", "force_gain", -0.4),
+    "etfe-drift": lambda: gross("etfe", "force_drift", 10.0),
     "vhb-slack": lambda: gross("vhb", "slack", 0.2),
+    "vhb-compliance": lambda: gross("vhb", "machine_compliance", 3.0),
+    "vhb-offset": lambda: gross("vhb", "force_offset", 0.03),
+    "etfe-other-gain": lambda: gross_in_another("etfe", "force_gain", 0.4),
+    "etfe-other-offset": lambda: gross_in_another("etfe", "force_offset", 3.0),
+    "etfe-other-slack": lambda: gross_in_another("etfe", "slack", 0.1),
+    "etfe-other-compliance": lambda: gross_in_another("etfe", "machine_compliance", 2e-3),
     "etfe-repeat": lambda: repeated("etfe", (0, 1), (1, 2)),
+    "etfe-1-2": lambda: repeated("etfe", (0,), (1,)),
+    "etfe-2-3": lambda: repeated("etfe", (1,), (2,)),
+    "etfe-1-3": lambda: repeated("etfe", (0,), (2,)),
+    "vhb-repeat": second_run,
 }
 
 

@@ -59,9 +59,10 @@ EFFECT = {"slack": "strain_offset"}
 
 
 def measured(material, every=None):
-    """The campaign of a material, thinned."""
+    """The campaign of a material, thinned; each record names its specimen, so that another of that name is the same."""
     files, usual = FILES[material]
     whole = Campaign.from_files([DATA / name for name in files], control="displacement-rate", name=material)
+    whole = replace(whole, records=tuple(replace(each, specimen_id=each.id) for each in whole.records))
     return thinned(whole, every or usual)
 
 

@@ -8,12 +8,16 @@ import pytest
 
 import probation
 from campaigns import measured
-from probation import Campaign, InputError, Law, Record, Reference, compare
+from probation import Campaign, InputError, Law, Record, Reference, Specimens, compare
 from probation.cli import main
+from probation.comparison.measured_law import MeasuredLaw
 from probation.comparison.result import Comparison
+from probation.effects.record_view import views_of
 from probation_studies.blind.inject import Injection
 
 GRID = {"slow": 0.002, "fast": 0.02}
+ALIKE = {"specimens": Specimens("none")}
+"""Virtual specimens are alike but for noise."""
 
 
 def made_up(seed, *, lacks=True):
@@ -27,7 +31,7 @@ def made_up(seed, *, lacks=True):
         wave = 1.0 + 0.03 * np.sin(9.0 * strain) if lacks else 1.0
         stress = law.stress(time, strain, scheme="sa3") * wave + 0.02 * rng.standard_normal(301)
         records.append(Record(name, time, strain, stress, control="strain-rate"))
-    return Campaign("march", tuple(records))
+    return Campaign("march", tuple(records), **ALIKE)
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +83,7 @@ def of_a_rig(seed, *, slack=0.0, compliance=0.0, specimen_id=None, factor=1.0, g
         force = np.concatenate([0.0 * early, force])
         stress = force * (1.0 + travel) + 0.04 * rng.standard_normal(len(time))
         records.append(Record(name, time, np.log1p(travel), stress, specimen_id=specimen_id))
-    return Campaign("rig", tuple(records))
+    return Campaign("rig", tuple(records), **({} if specimen_id else ALIKE))
 
 
 @pytest.fixture(scope="module")
@@ -95,6 +99,46 @@ def test_a_rig_that_shows_twice_the_strain_has_slack_and_a_positive_compliance()
     sizes = {each.name: each.value for each in found.best.parameters}
     assert sizes["slack_strain"] == pytest.approx(0.21, rel=0.03)
     assert sizes["compliance_per_MPa"] == pytest.approx(0.0061, rel=0.03)
+
+
+def stiff_at_first(seed, *, slack=0.0, compliance=0.0):
+    """A polymer whose onset is rounder than the law has it, with slow noise and some of the strain."""
+    rng = np.random.default_rng(seed)
+    time = np.linspace(0.0, 400.0, 400)
+    elongation = 0.8 * time / time[-1]
+    stress = LAW.stress(time, np.log1p(elongation), "exact") * (1.0 - np.exp(-elongation / 0.01))
+    force = stress / (1.0 + elongation)
+    early = np.arange(round(slack / elongation[1]))
+    time = np.concatenate([early * time[1], len(early) * time[1] + time])
+    travel = np.concatenate([early * elongation[1], slack + elongation + compliance * force])
+    force = np.concatenate([0.0 * early, force])
+    noise = np.zeros(len(time))
+    for index, drawn in enumerate(0.026 * rng.standard_normal(len(time))):
+        noise[index] = 0.9 * noise[index - 1] + drawn if index else 0.0
+    travel[1:] += 1e-4 * rng.standard_normal(len(travel) - 1)
+    stress = (force + noise) * (1.0 + travel)
+    return Campaign("film", (Record("pull", time, np.log1p(travel), stress, control="displacement-rate"),), **ALIKE)
+
+
+def test_a_test_begins_where_its_reference_began():
+    """What a law leaves falls steeply there, and a force that acts back on the strain need not exist if it followed."""
+    reference = Reference.of(stiff_at_first(1))
+    law = MeasuredLaw(reference.law, {"pull": [reference.branches["pull"]]})
+    view = views_of(stiff_at_first(1), scheme=reference.scheme)[0]
+    moved = view.driven(view.true_strain + 1e-3)
+    change = law.carried_over(moved) - law.carried_over(view)
+    assert change[0] == 0.0
+    assert change[1] < -0.1
+
+
+@pytest.mark.parametrize(("effect", "fault"), [("machine_compliance", "compliance"), ("strain_offset", "slack")])
+def test_a_gross_fault_of_the_travel_is_named_alone_though_the_law_is_too_stiff_at_the_onset(effect, fault):
+    """A frame as soft as the onset, a slack of an eighth of the travel: ends of searches, and signs of slopes."""
+    size = {"compliance": 2e-3, "slack": 0.1}[fault]
+    found = compare(stiff_at_first(2, **{fault: size}), Reference.of(stiff_at_first(1)), threads=1)
+    assert found.best.effects == (effect,), found.summary()
+    assert found.best.probability > 0.9
+    assert found.best.parameters[0].value == pytest.approx(size, rel=0.02)
 
 
 def test_signs_that_physics_forbids_are_no_change(sound):
@@ -127,6 +171,33 @@ def test_other_specimens_may_differ_and_the_same_one_may_not():
     assert other.verdict == "nothing_changed"
     assert other.scatter.source == "assumed"
     assert "specimens differ" in other.summary()
+
+
+def test_specimens_of_which_nothing_is_said_may_differ_unless_a_campaign_states_that_they_are_alike():
+    later, before = of_a_rig(2, factor=1.03), of_a_rig(1)
+    assert compare(later, before, threads=1).verdict == "changed"
+    unsaid = [replace(each, specimens=Specimens()) for each in (later, before)]
+    assert compare(*unsaid, threads=1).verdict == "nothing_changed"
+    assert compare(unsaid[0], before, threads=1).verdict == "changed"
+
+
+def rate_independent(seed, wave, *, gain=0.0):
+    """A specimen whose stress follows its strain alone, which is seen where it runs ahead of the mean or lags."""
+    rng = np.random.default_rng(seed)
+    time = np.linspace(0.0, 400.0, 401)
+    strain = 1e-3 * (time + 6.0 * np.sin(wave * time))
+    curve = 20.0 * (1.0 - np.exp(-strain / 0.01)) * (1.0 + 0.8 * strain)
+    stress = (1.0 + gain) * curve + 0.03 * rng.standard_normal(401)
+    return Campaign("film", (Record("pull", time, strain, stress, control="displacement-rate"),))
+
+
+def test_another_course_of_the_rate_is_no_change_though_the_law_says_that_it_matters():
+    """The law answers to a fifth of the rate by 5 MPa of 25, the material by nothing; 10 % of force are one."""
+    reference = Reference.of(rate_independent(1, 0.02))
+    assert compare(rate_independent(2, 0.03), reference, threads=1).verdict == "nothing_changed"
+    found = compare(rate_independent(2, 0.03, gain=0.1), reference, threads=1)
+    assert found.verdict == "changed"
+    assert ("force_gain",) in [each.effects for each in found.answer_set], found.summary()
 
 
 def test_a_gain_in_all_records_is_told_as_such_and_not_in_one(march):
@@ -188,6 +259,17 @@ def test_faults_put_into_measured_records_are_told(material):
         told = measured.told(compare(measured.injected(campaign, done), reference, threads=1), campaign, done)
         assert told["named"], (done, told)
         assert told["covered"], (done, told)
+
+
+@pytest.mark.skipif(not measured.DATA.is_dir(), reason="the measured records are not beside the checkout")
+@pytest.mark.parametrize(("fault", "size"), [("machine_compliance", 2e-3), ("slack", 0.1)])
+def test_a_gross_fault_of_the_travel_put_into_a_measured_film_is_named_alone(fault, size):
+    campaign = measured.measured("etfe")
+    done = Injection(campaign.records[0].id, fault, size, seed=1)
+    found = compare(measured.injected(campaign, done), Reference.of(campaign), threads=1)
+    told = measured.told(found, campaign, done)
+    assert told["named"], found.summary()
+    assert told["value"] == pytest.approx(size, rel=0.01)
 
 
 def test_compare_is_public():

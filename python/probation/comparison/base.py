@@ -10,7 +10,7 @@ import numpy as np
 from probation.comparison.measured_law import MeasuredLaw
 from probation.comparison.noise import change_noise, missed_by_smoother, own_residual, record_noises
 from probation.effects.record_view import views_of
-from probation.inference.base_fit import BaseFit
+from probation.inference.base_fit import BaseFit, residuals_at
 from probation.inference.deviations import deviation_columns
 from probation.inference.model import CampaignModel
 from probation.inference.problem import Problem
@@ -44,18 +44,12 @@ class _Pair:
     view: RecordView
     excitation: Excitation
     noises: tuple[NoiseModel, ...]
-    specimens: frozenset[str | None]
-
-    @property
-    def differs(self) -> bool:
-        """Whether it is of a specimen that is none of the references'."""
-        known = self.record.specimen_id is not None and None not in self.specimens
-        return known and self.record.specimen_id not in self.specimens
+    specimens: frozenset[str]
 
     @property
     def spread(self) -> float:
         """Standard deviation of the difference of specimens, over that of one: the references scatter, too."""
-        return float(np.sqrt(1.0 + 1.0 / len(self.specimens))) if self.differs else 0.0
+        return float(np.sqrt(1.0 + 1.0 / len(self.specimens))) if _differs(self.record, self.specimens) else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +69,29 @@ class _Noises:
         )
 
 
-def measured_base(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> BaseFit:
-    """The base fit of a law that has nothing to fit: what the references measured.
+def _specimens_of(reference: Reference, names: Sequence[str]) -> frozenset[str]:
+    """The specimens of reference records: of each its own, where nothing is said."""
+    return frozenset(reference.campaign.record(name).specimen_id or f"of {name}" for name in names)
 
-    Specimens may differ (docs/diagnosis-method.md, section 10) where a record and its references name other ones.
+
+def _differs(record: Record, specimens: frozenset[str]) -> bool:
+    """Whether a record may be of a specimen that is none of these: where nothing is said, it is another."""
+    return record.specimen_id is None or record.specimen_id not in specimens
+
+
+def _specimens(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> Specimens:
+    """How far specimens differ: as one of the campaigns states; not at all, where all are the references' own."""
+    if not any(_differs(campaign.record(name), _specimens_of(reference, others)) for name, others in together.items()):
+        return ALIKE
+    both = (campaign.specimens, reference.campaign.specimens)
+    return next((each for each in both if each.scatter != "estimate"), Specimens())
+
+
+def measured_base(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> BaseFit:
+    """The base fit of what the references measured: nothing to fit but how wrong the law's answer to the rate is.
+
+    Specimens may differ (docs/diagnosis-method.md, section 10) except where a record and its reference name the same
+    one, or a campaign states that they are alike.
 
     Parameters
     ----------
@@ -88,8 +101,11 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
     together : dict of str to tuple of str
         Reference records of each record.
     """
+    specimens = _specimens(campaign, reference, together)
     law = MeasuredLaw(
-        reference.law, {name: [reference.branches[other] for other in others] for name, others in together.items()}
+        reference.law,
+        {name: [reference.branches[other] for other in others] for name, others in together.items()},
+        errs=not specimens.alike,
     )
     excitations = {record.id: excite(record) for record in campaign.records}
     views = views_of(campaign, excitations=excitations, scheme=reference.scheme)
@@ -100,7 +116,7 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
             view,
             excitations[record.id],
             tuple(reference.noises[other] for other in together[record.id]),
-            frozenset(reference.campaign.record(other).specimen_id for other in together[record.id]),
+            _specimens_of(reference, together[record.id]),
         )
         for record, view in zip(campaign.records, model.views, strict=True)
     )
@@ -114,20 +130,21 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
     residuals = [residual_of(view, raw[part], slopes[part]) for view, part in model.parts]
     noises = noises_of(residuals)
     alike = Whitened.of(residuals, noises)
-    specimens = campaign.specimens if any(pair.differs for pair in pairs) else ALIKE
     columns = [] if specimens.alike else deviation_columns(model, law.start)
     scatter = scatter_of(specimens, law, residuals, noises, columns)
     if scatter.any:
         residuals = with_scatter(residuals, columns, scatter)
         noises = noises_of(residuals)
+    found = refit(Problem(model, Whitener(noises)), law.start)
     return BaseFit(
         law=law,
         views=model.views,
-        refit=refit(Problem(model, Whitener(noises)), law.start, most_steps=0),
-        whitened=Whitened.of(residuals, noises),
+        refit=found,
+        whitened=Whitened.of(residuals_at(residuals, found), noises),
         specimens=specimens,
         scatter=scatter,
         alike=alike,
         noises_of=noises_of,
+        other_starts=(law.start,) if law.errs else (),
         periodic=False,  # teeth of a spindle are in both campaigns, at other strains
     )

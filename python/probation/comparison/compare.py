@@ -37,12 +37,6 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
-SPECIMENS = (
-    "by how much specimens differ is not allowed for: of other specimens, the answer may be theirs (a specimen_id of "
-    "every record, in both campaigns, says which are other ones)"
-)
-
-
 @shows_progress
 def compare(
     campaign: Campaign,
@@ -60,9 +54,9 @@ def compare(
 
     A diagnosis (`probation.diagnose`) whose base is not a fitted law but what the reference measured: what the law
     leaves unexplained there is carried over to the other campaign at the same point of every specimen's way. Search,
-    priors and probabilities are the same. Specimens may differ where both campaigns name other ones (`specimen_id`);
-    elsewhere they are taken as the same. A fault of one sign (slack, compliance) that the reference's rig has, and this
-    one has not, is found by exchanging the campaigns.
+    priors and probabilities are the same. Specimens may differ, except where both campaigns name the same one
+    (`specimen_id`) or one of them states that specimens are alike (``scatter = "none"``). A fault of one sign (slack,
+    compliance) that the reference's rig has, and this one has not, is found by exchanging the campaigns.
 
     Parameters
     ----------
@@ -148,7 +142,7 @@ def compare(
         },
         skipped=skipping.entries(causes.found),
         scatter=causes.base.scatter,
-        warnings=thinned if causes.base.scatter.any else (*thinned, SPECIMENS),
+        warnings=thinned,
     )
 
 
@@ -173,6 +167,7 @@ def _sizes(hypothesis: Hypothesis) -> tuple[ChangedParameter, ...]:
     own = np.where(found.coordinates.log, 0.0, COMPARISON.size_error * x)
     deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0) + own**2)
     everywhere = tuple(view.id for view in found.model.views)
+    first = found.model.base_count
     named = [(cause, parameter) for cause in hypothesis.causes for parameter in cause.form.parameters]
     return tuple(
         ChangedParameter(
@@ -186,5 +181,7 @@ def _sizes(hypothesis: Hypothesis) -> tuple[ChangedParameter, ...]:
                 min(parameter.from_search(at + TWO_SIDED_95 * spread), parameter.upper),
             ),
         )
-        for (cause, parameter), value, at, spread in zip(named, found.parameters.tolist(), x, deviation, strict=True)
+        for (cause, parameter), value, at, spread in zip(
+            named, found.parameters[first:].tolist(), x[first:], deviation[first:], strict=True
+        )
     )

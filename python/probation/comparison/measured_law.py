@@ -36,6 +36,9 @@ BEYOND = 1e-9
 
 TINY = 1e-300
 
+FARTHEST = 3.0
+"""Standard deviations up to which the law's answer to another history may err."""
+
 BEYOND_ORDERS = 3
 """A constant, a line and a parabola."""
 
@@ -59,6 +62,8 @@ class Branch:
         Orthonormal curves that the smoothing follows: the reference's own noise along them stays in `missing`.
     sharp : ndarray of bool, shape (n,)
         Where the reference has what such curves cannot follow.
+    stress : ndarray, shape (n,) [MPa]
+        The law's, under the reference's own history.
     """
 
     progress: FloatArray
@@ -66,6 +71,7 @@ class Branch:
     direction: float
     frame: FloatArray
     sharp: NDArray[np.bool_]
+    stress: FloatArray
 
 
 def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.bool_]) -> tuple[Branch, ...]:
@@ -85,7 +91,14 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
         kept = sharp[part].copy()
         kept[: COMPARISON.branch_ends] = kept[-COMPARISON.branch_ends :] = True
         found.append(
-            Branch(progress(view, part), np.where(kept, left[part], smooth), direction(view, part), frame, sharp[part])
+            Branch(
+                progress(view, part),
+                np.where(kept, left[part], smooth),
+                direction(view, part),
+                frame,
+                sharp[part],
+                view.data[part] - left[part],
+            )
         )
     return tuple(found)
 
@@ -116,30 +129,82 @@ class MeasuredLaw(WrappedLaw):
         With nothing to identify.
     references : dict of str to sequence of (Branch, ...)
         By record id: the branches of each reference of that record.
+    errs : bool
+        Whether the law's answer to another history may be wrong.
 
     Notes
     -----
-    Beyond the end of a reference its last value is kept.
+    Beyond the end of a reference its last value is kept. At the same point of the way histories differ in their rates
+    only, and how a material answers to these is what a law may have wrong altogether. If it errs, what it says of that
+    difference has a factor 1 - k; k, the same in all records, has a normal prior of standard deviation 1.
     """
 
-    def __init__(self, law: GapLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]]) -> None:
+    def __init__(
+        self, law: GapLaw, references: Mapping[str, Sequence[tuple[Branch, ...]]], *, errs: bool = False
+    ) -> None:
         super().__init__(law)
         self.references = dict(references)
+        self.errs = errs
 
     def around(self, law: GapLaw) -> MeasuredLaw:
         """The same around another law."""
-        return MeasuredLaw(law, self.references)
+        return MeasuredLaw(law, self.references, errs=self.errs)
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """The law's, and the error of its answer to another history."""
+        return (*self.law.parameter_names, *(("answer_error",) if self.errs else ()))
+
+    @property
+    def start(self) -> FloatArray:
+        """The law's, and no error; shape (n_parameters,)."""
+        return np.append(self.law.start, np.zeros(int(self.errs)))
+
+    @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper bounds, each of shape (n_parameters,)."""
+        lower, upper = self.law.bounds
+        own = np.full(int(self.errs), FARTHEST)
+        return np.append(lower, -own), np.append(upper, own)
+
+    @property
+    def scales(self) -> FloatArray:
+        """Standard deviations of the parameters' normal priors about 0, shape (n_parameters,)."""
+        return np.append(np.full(len(self.law.parameter_names), np.inf), np.ones(int(self.errs)))
 
     def stress(self, view: RecordView, parameters: FloatArray, modification: Modification | None = None) -> FloatArray:
         """True stress along a record, shape (n,) [MPa]; as in `GapLaw`."""
-        return np.asarray(self.law.stress(view, parameters, modification) + self.carried_over(view))
+        inner, errors = np.split(parameters, [len(self.law.parameter_names)])
+        stress = self.law.stress(view, inner, modification)
+        return np.asarray(stress + self.carried_over(view) - self._answers(view, inner, modification, stress) @ errors)
 
     def sensitivity(
         self, view: RecordView, parameters: FloatArray, modification: Modification | None = None
     ) -> tuple[FloatArray, FloatArray]:
-        """True stress (n,) [MPa] and the law's derivatives; as in `GapLaw`."""
-        stress, slopes = self.law.sensitivity(view, parameters, modification)
-        return stress + self.carried_over(view), slopes
+        """True stress (n,) [MPa] and the derivatives (n, n_parameters); as in `GapLaw`."""
+        inner, errors = np.split(parameters, [len(self.law.parameter_names)])
+        stress, slopes = self.law.sensitivity(view, inner, modification)
+        answers = self._answers(view, inner, modification, stress)
+        return stress + self.carried_over(view) - answers @ errors, np.hstack([slopes, -answers])
+
+    def _answers(
+        self, view: RecordView, inner: FloatArray, modification: Modification | None, stress: FloatArray
+    ) -> FloatArray:
+        """The law's answer to what differs from the references' histories, shape (n, 1); (n, 0) if it does not err."""
+        if not self.errs:
+            return np.zeros((len(view), 0))
+        return self._answer(view, stress if modification is None else self.law.stress(view, inner))[:, None]
+
+    def _answer(self, view: RecordView, stress: FloatArray) -> FloatArray:
+        """A stress of the law less its stress at the same points of the references; none beyond their ends; (n,)."""
+        references = self.references[view.id]
+        total = np.zeros(len(view))
+        for each in references:
+            for part, branch in _paired(view, each):
+                way = _way(view, part, branch)
+                inside = way <= branch.progress[-1] * (1.0 + BEYOND)
+                total[part] += inside * (stress[part] - np.interp(way, branch.progress, branch.stress))
+        return total / len(references)
 
     def carried_over(self, view: RecordView) -> FloatArray:
         """What the law left on the references, at the same points of the way; their mean, shape (n,) [MPa]."""
@@ -147,7 +212,7 @@ class MeasuredLaw(WrappedLaw):
         total = np.zeros(len(view))
         for each in references:
             for part, branch in _paired(view, each):
-                total[part] += np.interp(progress(view, part), branch.progress, branch.missing)
+                total[part] += np.interp(_way(view, part, branch), branch.progress, branch.missing)
         return total / len(references)
 
     def sharp(self, view: RecordView) -> NDArray[np.bool_]:
@@ -183,12 +248,24 @@ class MeasuredLaw(WrappedLaw):
             columns = []
             for part, branch in _paired(view, each):
                 own = np.zeros((len(view), branch.frame.shape[1]))
-                here = progress(view, part)
+                here = _way(view, part, branch)
                 for index, curve in enumerate(branch.frame.T):
                     own[part, index] = np.interp(here, branch.progress, curve)
                 columns.append(own)
             found.append(np.hstack(columns))
         return found
+
+
+def _way(view: RecordView, part: slice, branch: Branch) -> FloatArray:
+    """How far the specimen has come on a branch; a test begins where its reference began, at rest; shape (n_part,).
+
+    At the first instant the law's stress does not answer to the strain yet. What it leaves does, where it is too stiff,
+    and a force that acts back on the strain then need not exist.
+    """
+    way = progress(view, part)
+    if part.start == 0:
+        way[0] = branch.progress[0]
+    return way
 
 
 def _paired(view: RecordView, reference: Sequence[Branch]) -> list[tuple[slice, Branch]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import compress, product
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ from probation.inference.form_error import form_freedom
 from probation.inference.refit import MOST_STEPS, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.span import span_of
+from probation.noise.span import span_of, without
 from probation.parallel import in_parallel
 from probation.settings.search import SEARCH
 
@@ -133,9 +133,10 @@ class Search:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
     def _singles(self, columns: WhitenedColumns) -> None:
-        candidates = self._credible(
-            columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian)), self.base.refit
-        )
+        found = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+        for start in self.base.other_starts:
+            found += self._candidates_at(start)
+        candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
         begun = self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.first_steps)
         running, behind = self._in_the_running(begun)
@@ -146,6 +147,20 @@ class Search:
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
+
+    def _candidates_at(self, start: FloatArray) -> list[Candidate]:
+        """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""
+        model, base = self.base.model, self.base.refit
+        try:
+            residual, slopes = self.base.problem.residual_and_jacobian(start)
+        except UNSOLVABLE:
+            return []
+        columns = screen(model, start, self.effects, residual=model.residual(start), threads=self.threads)
+        white = WhitenedColumns.of(columns, self.base.whitener, len(residual))
+        span = span_of(slopes)
+        more, least = without(residual, span), without(base.residual, span_of(base.jacobian))
+        worse = float(more @ more - least @ least)
+        return [replace(each, base=start, gain=each.gain - worse) for each in white.candidates(residual, span)]
 
     def _in_the_running(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
         """Which of unfinished refits may lead, by what they leave and by their evidence, and which are far behind.
@@ -281,7 +296,8 @@ class Search:
             except UNSOLVABLE as error:
                 self.skipping.hypothesis(causes, error)
                 continue
-            jobs += [(model, np.concatenate([start, candidate.values])) for start in (before.parameters, *other_starts)]
+            begun = (before.parameters, *other_starts) if candidate.base is None else (candidate.base,)
+            jobs += [(model, np.concatenate([start, candidate.values])) for start in begun]
         return self._solved(jobs, steps)
 
     def _further(self, refits: Sequence[Refit], steps: int) -> list[Refit]:

@@ -60,6 +60,9 @@ class EffectParameter:
         Where searches begin; the centre if left out.
     period : float
         The effect repeats itself with this period of the parameter (a phase); 0 if it does not.
+    resolution : float
+        Smallest difference of values that samples resolve, where the effect has an edge that moves from sample to
+        sample: the misfit has a tooth at each of them, and a derivative is a difference over more than a tooth.
     """
 
     name: str
@@ -72,6 +75,7 @@ class EffectParameter:
     log: bool = False
     starts: tuple[float, ...] = ()
     period: float = 0.0
+    resolution: float = 0.0
 
     def __post_init__(self) -> None:
         if not _SNAKE_CASE.fullmatch(self.name):
@@ -100,7 +104,8 @@ class EffectParameter:
         """Step of a difference quotient around a value: small against the prior, large against rounding."""
         if self.log:
             return 1e-5 * value
-        return 1e-4 * self.scale if np.isfinite(self.scale) else 1e-5 * (self.upper - self.lower)
+        smooth = 1e-4 * self.scale if np.isfinite(self.scale) else 1e-5 * (self.upper - self.lower)
+        return max(smooth, self.resolution)
 
     def log_prior(self, value: float) -> float:
         """Log density of the prior in the search coordinate, -inf outside the bounds."""

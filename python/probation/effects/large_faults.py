@@ -40,12 +40,16 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 
 
 class _Size(NamedTuple):
-    """Largest nominal stress [MPa], elongation [-], elongation over nominal stress [1/MPa], I_1 - 3 of any record."""
+    """Largest nominal stress [MPa], elongation [-], elongation over nominal stress [1/MPa], I_1 - 3 of any record.
+
+    And the mean elongation from sample to sample [-].
+    """
 
     force: float
     elongation: float
     per_force: float
     invariant: float
+    per_sample: float
 
     @classmethod
     def of(cls, views: Sequence[RecordView]) -> _Size:
@@ -53,7 +57,8 @@ class _Size(NamedTuple):
         elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
         ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
         invariant = max(float(np.max(view.first_invariant)) for view in views)
-        return cls(max(forces), max(elongations), max(ratios, default=0.0), invariant)
+        steps = [float(np.mean(np.abs(np.diff(np.expm1(view.sampled(view.true_strain)))))) for view in views]
+        return cls(max(forces), max(elongations), max(ratios, default=0.0), invariant, max(steps))
 
 
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
@@ -108,7 +113,27 @@ def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
 
 
 def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    return (_of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation),)
+    # Slack ends between two samples, where the force begins to rise.
+    large = _of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation)
+    fixed = large.shapes_at(())
+
+    def starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+        del residuals
+        begun = float(np.clip(np.median([_force_begins(view) for view in views]), 0.0, large.amplitude.upper))
+        return [(begun,), *fixed] if begun > 0.0 else fixed
+
+    return (replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),)
+
+
+def _force_begins(view: RecordView) -> float:
+    """Elongation to which the first rise of the force is extended back: toe compensation, ASTM D638, annex A1."""
+    force = np.abs(view.data / view.sampled(view.stretch))
+    elongation = np.expm1(view.sampled(view.true_strain))
+    low, high = (int(np.argmax(force >= part * np.max(force))) for part in EFFECTS.first_rise)
+    if not high > low:
+        return float(elongation[low])
+    slope, begun = np.polyfit(force[low : high + 1], elongation[low : high + 1], 1)
+    return float(begun) if slope > 0.0 else float(elongation[low])
 
 
 def _of_travel(form: Form, whole: float) -> Form:

@@ -84,7 +84,7 @@ class BaseFit:
     alike : Whitened
         The same as it would be if specimens were alike.
     other_starts : tuple of ndarray, shape (n_base,)
-        Where refits with causes may begin, too: a law that lacks an effect may fit best far from where it is right.
+        Where causes are looked for, too: a law that lacks an effect may fit best far from where it is right.
     signals : tuple of Column
         Of the effects that are considered, by `inference.screen`.
     reference : ndarray, shape (n_base,), optional
@@ -292,7 +292,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         if held and _moved_far(plain, found, scattered, scatter):
             noises = fitted_noises(scattered)
             found = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
-            residuals = _at(scattered, found)
+            residuals = residuals_at(scattered, found)
     parameters = found.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
@@ -365,7 +365,7 @@ def _settled(
         found = refit(Problem(model, Whitener(noises)), parameters, most_steps=12)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
-        residuals = _at(residuals, found)
+        residuals = residuals_at(residuals, found)
         if moved.size == 0 or float(moved.max()) < 1e-5:
             break
     return found, noises, list(residuals)
@@ -380,7 +380,7 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     explained : Refit
         With the causes, on the same records.
     """
-    records = _at(base.whitened.records, explained)
+    records = residuals_at(base.whitened.records, explained)
     if base.scatter.any:
         columns = deviation_columns(explained.model, explained.parameters)
         scatter = scatter_of(base.specimens, base.law, records, base.whitened.noises, columns)
@@ -390,10 +390,10 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
     steps = 0 if base.scatter.any else 12
     found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
-    return replace(base, refit=found, whitened=Whitened.of(_at(records, found), noises))
+    return replace(base, refit=found, whitened=Whitened.of(residuals_at(records, found), noises))
 
 
-def _at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidual]:
+def residuals_at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidual]:
     """The same records at another fit, in the units of the data."""
     raw, jacobian = found.model.residual_and_jacobian(found.parameters)
     parts = [part for _, part in found.model.parts]

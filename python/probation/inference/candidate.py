@@ -32,11 +32,14 @@ class Candidate:
         Of its parameters: the amplitude that the linearised model wants, and the shapes.
     gain : float
         By how much the linearised objective falls.
+    base : ndarray, shape (n_base,), optional
+        The law's parameters where it was found; those of the fit that is extended, if left out.
     """
 
     cause: Cause
     values: tuple[float, ...]
     gain: float
+    base: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)

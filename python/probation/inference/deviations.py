@@ -32,7 +32,7 @@ _STEP = 1e-6
 
 def deviation_names(law: GapLaw) -> tuple[str, ...]:
     """What specimens may differ in: the law's parameters, held ones too, the section and the start of the strain."""
-    return (*_whole(law, law.start)[0].parameter_names, AREA, START)
+    return (*_material(law, law.start)[0], AREA, START)
 
 
 def kind_of_deviation(name: str) -> str:
@@ -59,7 +59,8 @@ def deviation_columns(model: CampaignModel, parameters: FloatArray) -> list[Floa
     stress = residual + whole.data
     late = CampaignModel(whole.law, [view.driven(_late(view.true_strain, view.stride)) for view in whole.views])
     shifted = late.with_causes(whole.causes).residual(values) - residual
-    columns = np.column_stack([slopes[:, : len(base)] * np.abs(base), stress, shifted / _STEP])
+    count = len(_material(law, base)[0])
+    columns = np.column_stack([slopes[:, :count] * np.abs(base[:count]), stress, shifted / _STEP])
     return [columns[rows] for _, rows in model.parts]
 
 
@@ -68,11 +69,21 @@ def _late(true_strain: FloatArray, stride: int) -> FloatArray:
     return true_strain - _STEP * np.minimum(np.arange(len(true_strain)) / stride, 1.0)
 
 
+def _material(law: GapLaw, parameters: FloatArray) -> tuple[tuple[str, ...], FloatArray]:
+    """Names and values of all parameters of the material, held or not; without those of a law around its law."""
+    while isinstance(law, WrappedLaw):
+        parameters = parameters[: len(law.law.parameter_names)]
+        law = law.law
+    whole, values = _whole(law, parameters)
+    return whole.parameter_names, values
+
+
 def _whole(law: GapLaw, parameters: FloatArray) -> tuple[GapLaw, FloatArray]:
     """The law with no parameter held, and all its parameters: specimens differ in what is held, too."""
     if isinstance(law, WrappedLaw):
-        inner, values = _whole(law.law, parameters)
-        return law.around(inner), values
+        count = len(law.law.parameter_names)
+        inner, values = _whole(law.law, parameters[:count])
+        return law.around(inner), np.append(values, parameters[count:])
     if isinstance(law, DnlrLaw):
         return DnlrLaw(law.law), law.law_at(parameters).parameters
     return law, parameters

@@ -97,6 +97,11 @@ class CampaignModel:
         return len(self.law.parameter_names)
 
     @property
+    def base_scales(self) -> FloatArray:
+        """Standard deviations of normal priors about 0 of the law's parameters; infinite, where it states none."""
+        return np.asarray(getattr(self.law, "scales", np.full(self.base_count, np.inf)))
+
+    @property
     def effect_parameters(self) -> tuple[EffectParameter, ...]:
         """What is known of the causes' parameters, in the order of `parameter_names` behind the law's."""
         return tuple(parameter for each in self.causes for parameter in each.form.parameters)
@@ -216,8 +221,13 @@ class CampaignModel:
         return frozenset() if modification is None else modification.changed & ONCE
 
     def log_prior(self, parameters: FloatArray) -> float:
-        """Log prior density of the causes' parameters, in their search coordinates; -inf outside the bounds."""
-        return sum(each.log_prior(values) for each, values in self.split(parameters)[1])
+        """Log prior density of the parameters, in their search coordinates; -inf outside the bounds of a cause's.
+
+        Up to a constant of the law's own.
+        """
+        base, causes = self.split(parameters)
+        law = -0.5 * float(np.sum((base / self.base_scales) ** 2))
+        return law + sum(each.log_prior(values) for each, values in causes)
 
     def predict(self, parameters: FloatArray) -> dict[str, FloatArray]:
         """Recorded true stress as the model has it, by record; each of shape (n_samples,) [MPa]."""

@@ -104,7 +104,7 @@ class Coordinates:
         size = np.append(np.where(start > 0.0, start, 1.0), np.ones(len(known)))
         log = np.array([False] * base + [each.log for each in known], dtype=bool)
         centre = np.append(np.zeros(base), [each.to_search(each.centre) for each in known])
-        scale = np.append(np.full(base, np.inf), [each.scale for each in known])
+        scale = np.append(model.base_scales / size[:base], [each.scale for each in known])
         return cls(size, log, model.bounds, NormalPrior(centre, 1.0 / scale**2))
 
     @cached_property

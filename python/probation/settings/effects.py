@@ -28,6 +28,12 @@ class EffectsSettings:
     travel_starts: tuple[float, ...] = chosen(
         (0.05, 0.2, 0.5), "largest elongation", "Such parts from which searches begin."
     )
+    first_rise: tuple[float, float] = chosen(
+        (0.02, 0.1),
+        "largest force",
+        "Parts of the largest force between which its first rise is a straight line, extended back to where it began.",
+        source="ASTM D638, annex A1",
+    )
     large_locking: float = chosen(
         0.5,
         "amplitude that locks",
