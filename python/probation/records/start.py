@@ -4,9 +4,10 @@ A record that is cut starts at a strain and a stress that the law does not know 
 counts from the unloaded specimen, the missing part is known well enough: a straight line from zero at the strain rate
 of the first samples. One sample at zero strain and zero stress before the others gives the law that line.
 
-A record that a trigger started lacks what happened before its first sample: no more than one interval. The force tells,
-where the strain is too noisy to: its line meets zero within an interval before the first sample, and the strain's line
-meets zero there, too. Such a start is restored without being asked for.
+A record that a trigger started lacks what happened before its first sample: no more than one interval. Then the lines
+through the first samples of strain and of stress meet zero at the same time, within an interval before the first
+sample, and both are beyond their noise there. Such a start is restored without being asked for. An offset of the force
+and a prestress leave the strain at zero, and stay what they are.
 """
 
 from dataclasses import replace
@@ -105,8 +106,8 @@ def _is_far(time: FloatArray, values: FloatArray) -> bool:
 def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     """Duration [s] and true strain rate [1/s] of a ramp from zero that is shorter than an interval between samples.
 
-    None where the stress starts at zero within its noise, where more is missing, or where the strain does not come from
-    zero with the stress: a prestress, a force that is off, or a start at a strain that was held.
+    None where stress or strain start at zero within their noise, where more is missing, or where the strain does not
+    come from zero with the stress: a prestress, a force that is off, or a start at a strain that was held.
     """
     time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
     beyond = np.flatnonzero(np.abs(stress) > READING.start_reach * abs(stress[0]))
@@ -123,11 +124,9 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     error = strain_noise * np.sqrt((1.0 + np.mean(time[:count]) ** 2 / np.var(time[:count])) / count) / abs(rate)
     # The stress bends from the start: its line comes from too far back.
     bend = READING.start_bend * by_force
-    if abs(by_strain - by_force) > READING.start_noise * error + bend:
+    if by_strain <= READING.start_noise * error or abs(by_strain - by_force) > READING.start_noise * error + bend:
         return None
-    share = bend**2 / (bend**2 + error**2)
-    duration = share * by_strain + (1.0 - share) * by_force
-    return (duration, float(rate)) if duration > 0.0 else None
+    return by_strain, float(rate)
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:
