@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.settings.certificate import CERTIFICATE
-from probation.wording import percentage
+from probation.wording import percentage, times
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -59,7 +59,7 @@ def decide(
     kept = [name for name in parameters if name not in failing]
     worst = max(predictions.values(), key=lambda each: each.bias_MPa / max(each.tolerance_MPa, 1e-300))
     predicted = (
-        f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
+        f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {times(worst.noise_units)} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
     )
     if gap is not None and not gap.exists and not worst.passes:
