@@ -41,7 +41,7 @@ def overview(identified: Fit, found: Diagnosis) -> Figure:
         middle.set(title="2  Predict another", xlabel="true strain [–]", ylim=(0.0, 1.5 * np.max(held.base)))
         middle.legend(loc="upper right", fontsize=8)
         best = found.best.probability
-        rows = ((" + ".join(found.best.titles), best, "model"), ("anything else, nothing included", 1.0 - best, "data"))
+        rows = ((" + ".join(found.best.titles), best, "model"), ("all other explanations", 1.0 - best, "data"))
         for at, (name, probability, shade) in enumerate(rows):
             right.barh(at, 100 * probability, height=0.3, color=colour(shade))
             right.text(0.0, at - 0.2, f"{name}, {100 * probability:.0f} %", va="bottom", fontsize=8)

@@ -208,6 +208,53 @@ def workbook_side_by_side(path: Path) -> None:
     book.save(path)
 
 
+def bluehill_universal(path: Path) -> None:
+    """All specimens in one file: results with dimensions above, each curve below a row with its number and name."""
+    head = ["Results Table 1", ",Specimen label,Maximum Tensile stress [MPa],Width [mm],Thickness [mm]"]
+    lines = [*head, "1,PP-01,30.1,10.0,4.0", "2,PP-02,30.4,10.0,4.0", "Mean,,30.2,,", "", "Results Table 2"]
+    for number in (1, 2):
+        lines += [f"{number},PP-0{number}", "Time,Displacement,Force,Tensile strain (Strain 1)", "(s),(mm),(kN),(%)"]
+        lines += [*_rows(",", _point, TIME, 1.3 * EXTENSION, FORCE / 1000, 100 * STRAIN), ""]
+    _write(path, lines)
+
+
+def mts_german(path: Path) -> None:
+    """MTS 793 in German: names that no list holds, of which the unit tells; two blocks of one test."""
+    lines = ["MTS793|MPT|DEU|1|2|,|.|:|49|1|1|A", "", "Durchmesser: 7,1365 mm", ""]
+    for block in (slice(0, COUNT // 2), slice(COUNT // 2, None)):
+        lines += ["Datenerfassung:\t\tZeit:\t12,500\tSek\t01.09.2014 13:25:39"]
+        lines += ["Laufzeit\tAxialweg\tAxialkraft\tExtensometer", "Sek\tmm\tkN\tmm"]
+        lines += [*_rows("\t", _comma, TIME[block], 2 * EXTENSION[block], FORCE[block] / 1000, EXTENSION[block]), ""]
+    _write(path, lines, "cp1252")
+
+
+def trapezium_two_lengths(path: Path) -> None:
+    """The stroke beside an extensometer, both in mm; a table of results below."""
+    head = ['"Time","Force","Stroke","Ext.1","Stress"', '"sec","N","mm","mm","N/mm2"']
+    below = ["", '"Name","Max_Force"', '"Unit","N"', '"1 _ 1","1204.1"', '"Standard Deviation","-.--"']
+    _write(path, [*head, *_rows(",", _quoted, TIME, FORCE, 2 * EXTENSION, EXTENSION, STRESS), *below])
+
+
+def labview(path: Path) -> None:
+    """LabVIEW: two headers with numbers of their own, the time as X_Value, a French heading."""
+    head = ["LabVIEW Measurement", "Decimal_Separator\t,", "Time\t14:02:33,1875", "***End_of_Header***", ""]
+    head += ["Channels\t2\t\t", f"Samples\t{COUNT}\t{COUNT}\t", "X0\t0\t0\t", "***End_of_Header***\t\t\t"]
+    head += ["X_Value\tForce (N)\tAllongement (mm)\tComment"]
+    _write(path, [*head, *(f"{row}\t" for row in _rows("\t", _comma, TIME, FORCE, EXTENSION))], "cp1252")
+
+
+def french_workbook(path: Path) -> None:
+    """By hand: minutes, daN and percent, the section in words above."""
+    book = openpyxl.Workbook()
+    for row in (["Essai de traction PEHD"], ["Section initiale S0", "40 mm²"], []):
+        book.active.append(row)
+    book.active.append(["N°", "temps (min)", "Charge (daN)", "Allongement (%)", "Remarque"])
+    for at, (t, f, e) in enumerate(zip(TIME, FORCE, STRAIN, strict=True)):
+        remark = "striction" if at == 30 else None
+        book.active.append([at + 1, float(t) / 60, float(f) / 10, 100 * float(e), remark])
+    book.save(path)
+
+
 MESSY: dict[str, tuple[Callable[[Path], None], str, int]] = {
     "Specimen_RawData_7.csv": (bluehill_with_results, "bluehill", 1),
     "probe_is_tens_1.csv": (bluehill_utf16, "bluehill", 1),
@@ -225,3 +272,11 @@ MESSY: dict[str, tuple[Callable[[Path], None], str, int]] = {
     "Auswertung.xlsx": (workbook_side_by_side, "excel", 2),
 }
 """Fourteen files by name: what makes each, the profile that reads it, how many specimens it holds."""
+FURTHER: dict[str, tuple[Callable[[Path], None], str, int]] = {
+    "Bluehill_PP_all.csv": (bluehill_universal, "bluehill", 2),
+    "specimen_de.dat": (mts_german, "testsuite", 1),
+    "ABS 2_1.csv": (trapezium_two_lengths, "trapezium", 1),
+    "traction_05.lvm": (labview, "csv", 1),
+    "essai PEHD.xlsx": (french_workbook, "excel", 1),
+}
+"""Five more, likewise: each has what neither of the two times fourteen has."""

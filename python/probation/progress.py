@@ -68,13 +68,15 @@ def outermost() -> Iterator[bool]:
 def shows_progress(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
     """Let a function that takes `progress` show a bar in a notebook or a terminal where the caller gives none.
 
-    A call within another one, or within a command that shows a bar, shows none of its own.
+    A call within another one, or within a command that shows a bar, shows none of its own; nor does one that asks,
+    because a bar in motion writes over the question.
     """
 
     @wraps(function)
     def shown(*arguments: Arguments.args, **options: Arguments.kwargs) -> Answer:
         with outermost() as first:
-            bar = _bar(function.__name__.replace("_", " ")) if first and options.get("progress") is None else None
+            silent = not first or options.get("progress") is not None or options.get("ask") is not None
+            bar = None if silent else _bar(function.__name__.replace("_", " "))
             if bar is None:
                 return function(*arguments, **options)
             try:

@@ -51,6 +51,12 @@ def percentage(part: float, sign: str = "") -> str:
     return f"{float(text):{sign}.0f}" if "e+" in text else text
 
 
+def times(ratio: float) -> str:
+    """How many times, to three significant digits and without exponent: "0.962", "316", "1850"."""
+    text = f"{ratio:.3g}"
+    return f"{float(text):.0f}" if "e+" in text else text
+
+
 def plus_minus(value: float, se: float) -> str:
     """Both to two significant digits of the error: "1.8500 ± 0.0012".
 

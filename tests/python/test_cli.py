@@ -11,6 +11,7 @@ import pytest
 from probation import cli, simulation
 from probation.commands.progress import shown
 from probation.errors import ConvergenceError, InputError
+from probation.records import assembly
 
 LAW = ["--set", "unrelaxed_modulus_MPa=3220", "--set", "tau_max_s=5.2", "--set", "hardening_modulus_MPa=2.5"]
 
@@ -184,6 +185,26 @@ def test_a_long_simulation_shows_what_is_being_done(capsys, monkeypatch):
     monkeypatch.setattr("probation.commands.progress.SHOWN_AFTER", 0.0)
     assert cli.main(["simulate", "--history", "ramp:samples=11", *LAW]) == 0
     assert "simulating ramp" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["preview", "fit"])
+def test_a_large_file_shows_that_it_is_being_read(capsys, monkeypatch, tmp_path, command):
+    rows = "".join(f"{at},{0.001 * at},{0.9 * at}\n" for at in range(50))
+    (tmp_path / "large.csv").write_text("time_s,true_strain,true_stress_MPa\n" + rows)
+    extract = assembly.extract
+
+    def slow(*arguments, **options):
+        time.sleep(0.3)
+        return extract(*arguments, **options)
+
+    monkeypatch.setattr(assembly, "extract", slow)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr("probation.commands.progress.SHOWN_AFTER", 0.0)
+    monkeypatch.chdir(tmp_path)
+    assert cli.main([command, "large.csv"]) == 0
+    assert "reading large.csv" in capsys.readouterr().err
 
 
 def test_a_log_gets_a_line_at_every_tenth_of_what_lasts(capsys, monkeypatch):

@@ -32,6 +32,16 @@ def identified(campaign):
     return fit(campaign)
 
 
+def test_a_card_says_what_its_fit_says_of_itself(identified, tmp_path):
+    """A parameter may not be determined: whoever computes with the card must read it there."""
+    (tmp_path / "fit.json").write_text(identified.to_json(), encoding="utf-8")
+    for source in (identified, tmp_path / "fit.json"):
+        card = export(source, "abaqus-umat")
+        verdict = identified.verdict.removesuffix(".")
+        assert verdict in " ".join(card.text.replace("\n** ", " ").split())
+        assert verdict in " ".join(card.summary().split())
+
+
 def test_a_fit_its_json_and_its_campaign_give_the_same_law(campaign, identified, tmp_path):
     (tmp_path / "fit.json").write_text(identified.to_json(), encoding="utf-8")
     campaign.save(tmp_path)

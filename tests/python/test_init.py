@@ -88,6 +88,13 @@ def test_what_is_said_of_one_file_wins(lab, tmp_path):
     assert campaign.record("essai").true_stress == pytest.approx(0.5 * STRESS * (1 + STRAIN), abs=1e-4)
 
 
+def test_what_is_said_wins_where_there_is_but_one_file(lab, tmp_path):
+    said = ["--specimen", "area_mm2=80"]
+    assert main(["init", str(lab / "essai.csv"), "-o", str(tmp_path / "made"), "--yes", *said]) == 0
+    (record,) = Campaign.load(tmp_path / "made").records
+    assert record.true_stress == pytest.approx(0.5 * STRESS * (1 + STRAIN), abs=1e-4)
+
+
 @pytest.mark.parametrize(
     ("name", "option"),
     [("specimen.dat", "--specimen gauge_length_mm=…"), ("Zugversuch.xlsx", "--specimen gauge_length_mm=…")],

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from messy_files import COUNT, EXTENSION, FORCE, MESSY, STRAIN, STRESS, TIME
+from messy_files import COUNT, EXTENSION, FORCE, FURTHER, MESSY, STRAIN, STRESS, TIME
 from probation import Campaign, InputError
 from probation.cli import main
 from probation.records.reading import read_record, read_records
@@ -11,12 +11,14 @@ from probation.records.reading import read_record, read_records
 SPECIMEN = {"area_mm2": 40.0, "gauge_length_mm": 50.0}
 
 
-@pytest.mark.parametrize("name", MESSY)
+@pytest.mark.parametrize("name", [*MESSY, *FURTHER])
 def test_a_messy_file_is_read_as_it_is(tmp_path, name):
-    make, profile, count = MESSY[name]
+    make, profile, count = (MESSY | FURTHER)[name]
     make(tmp_path / name)
-    stated = {"Serie_12.TRA"}
-    records = read_records(tmp_path / name, **({} if name in stated else {"specimen": SPECIMEN}))
+    how = {} if name == "Serie_12.TRA" else {"specimen": SPECIMEN}
+    if name == "essai PEHD.xlsx":
+        how = {"columns": {"engineering_strain": "Allongement (%)"}}
+    records = read_records(tmp_path / name, **how)
     assert [record.profile for record in records] == [profile] * count
     for record in records:
         end = len(record.time)
@@ -27,13 +29,13 @@ def test_a_messy_file_is_read_as_it_is(tmp_path, name):
     assert len(records[0].time) == COUNT
 
 
-def test_fourteen_other_messy_files_become_a_campaign_without_writing_toml(tmp_path):
-    for name, (make, _, _) in MESSY.items():
+def test_nineteen_other_messy_files_become_a_campaign_without_writing_toml(tmp_path):
+    for name, (make, _, _) in (MESSY | FURTHER).items():
         make(tmp_path / name)
-    files = [str(tmp_path / name) for name in MESSY]
+    files = [str(tmp_path / name) for name in MESSY | FURTHER]
     options = [part for key, value in SPECIMEN.items() for part in ("--specimen", f"{key}={value}")]
     assert main(["init", *files, "-o", str(tmp_path / "hdpe"), "--yes", *options]) == 0
-    assert len(Campaign.load(tmp_path / "hdpe").records) == sum(count for _, _, count in MESSY.values())
+    assert len(Campaign.load(tmp_path / "hdpe").records) == sum(count for _, _, count in (MESSY | FURTHER).values())
 
 
 def _table(below, last=""):
@@ -76,3 +78,22 @@ def test_a_heading_that_stands_twice_says_which_is_read(tmp_path):
     )
     other = read_record(tmp_path / "a.csv", columns={"engineering_strain": 5})
     assert other.true_strain == pytest.approx(np.log1p(STRAIN), abs=1e-6)
+
+
+def test_a_row_that_names_the_next_specimen_is_no_sample_of_the_one_above(tmp_path):
+    FURTHER["Bluehill_PP_all.csv"][0](tmp_path / "a.csv")
+    assert [len(record.time) for record in read_records(tmp_path / "a.csv")] == [COUNT, COUNT]
+
+
+def test_a_force_in_decanewton_is_ten_newton(tmp_path):
+    (tmp_path / "a.csv").write_text(_table([]).replace("Load (N)", "Load (daN)"))
+    newton = FORCE / 40.0 * (1.0 + STRAIN)
+    assert read_record(tmp_path / "a.csv", specimen=SPECIMEN).true_stress == pytest.approx(10.0 * newton, abs=1e-3)
+
+
+def test_a_heading_is_found_below_facts_with_numbers_though_its_strain_is_vague(tmp_path):
+    rows = [f"{f:.4f};{100 * e:.4f}" for f, e in zip(FORCE, STRAIN, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join(["Channels;2;2", "Samples;60;60", "Force (N);Elongation (%)", *rows, ""]))
+    how = {"columns": {"engineering_strain": "Elongation (%)"}, "test_rate": "0.005 1/s"}
+    record = read_record(tmp_path / "a.csv", specimen={"area_mm2": 40.0}, **how)
+    assert record.true_stress == pytest.approx(STRESS * (1.0 + STRAIN), abs=1e-4)

@@ -125,6 +125,21 @@ def test_a_call_from_a_plain_terminal_shows_a_bar(monkeypatch):
     assert "left" in terminal.getvalue()
 
 
+def test_a_call_that_asks_shows_no_bar_over_its_question(monkeypatch, tmp_path):
+    terminal = a_terminal(monkeypatch)
+    FILES["essai.csv"][0](tmp_path / "a.csv")
+    asked_of = []
+
+    def answer(question):
+        asked_of.append(question.key)
+        time.sleep(0.3)
+        return question.default
+
+    probation.init_campaign([tmp_path / "a.csv"], tmp_path / "out", ask=answer)
+    assert asked_of
+    assert terminal.getvalue() == ""
+
+
 def test_a_call_within_a_command_leaves_the_bar_to_it(monkeypatch):
     terminal = a_terminal(monkeypatch)
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.wording import chance, percentage, plus_minus
+from probation.wording import chance, percentage, plus_minus, times
 
 
 @pytest.mark.parametrize(
@@ -32,3 +32,8 @@ def test_percentages_have_no_exponent(part: float, sign: str, text: str):
 )
 def test_a_probability_that_came_out_is_never_a_certainty(probability: float, text: str):
     assert chance(probability) == text
+
+
+@pytest.mark.parametrize(("ratio", "text"), [(0.9624, "0.962"), (316.4, "316"), (1848.0, "1850"), (2.5e6, "2500000")])
+def test_how_many_times_has_no_exponent(ratio: float, text: str):
+    assert times(ratio) == text

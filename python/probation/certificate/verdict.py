@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.settings.certificate import CERTIFICATE
-from probation.wording import listed, percentage
+from probation.wording import listed, percentage, times
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -61,7 +61,7 @@ def decide(
         predictions.values(), key=lambda prediction: prediction.bias_MPa / max(prediction.tolerance_MPa, 1e-300)
     )
     predicted = (
-        f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {worst.noise_units:.3g} times the noise "
+        f"{worst.id} is predicted to {worst.rms_MPa:.2g} MPa rms, {times(worst.noise_units)} times the noise "
         f"(tolerance {worst.tolerance_MPa:.2g} MPa)"
     )
     if gap is not None and not gap.exists and not worst.passes:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from probation._files import kind_of
+from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from, refuse_reading
 from probation.errors import InputError
 
@@ -91,9 +92,11 @@ def campaign_at(paths: Sequence[str], options: argparse.Namespace) -> Campaign:
     from probation.records.campaign import Campaign  # noqa: PLC0415 - see the package
 
     if len(paths) > 1 or is_data_file(paths[0]):
-        return Campaign.from_files(paths, control=options.control, **reading_from(options))
+        with shown(f"reading {paths[0] if len(paths) == 1 else f'{len(paths)} files'}"):
+            return Campaign.from_files(paths, control=options.control, **reading_from(options))
     refuse_reading(options, f"the campaign {paths[0]}", "its campaign.toml says how its files are read")
-    return Campaign.load(paths[0])
+    with shown(f"reading {paths[0]}"):
+        return Campaign.load(paths[0])
 
 
 def is_data_file(path: str) -> bool:

@@ -54,7 +54,8 @@ def run(options: argparse.Namespace) -> int:
         with shown("cross-checking") as advance:
             answer = crosscheck(progress=advance)
     else:
-        campaign = Campaign.load(options.campaign)
+        with shown(f"reading {options.campaign}"):
+            campaign = Campaign.load(options.campaign)
         records = [campaign.record(record_id) for record_id in options.record] if options.record else campaign.records
         with shown("cross-checking") as advance:
             answer = crosscheck(records, _law(campaign, read_settings(options.set)), progress=advance)

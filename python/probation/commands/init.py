@@ -39,7 +39,8 @@ HBM catman, and tables with English, German, French, Italian or Spanish headings
 record. What no file says (the section of a specimen, true or engineering) is asked, with a default where there is
 one; without a terminal, or with --yes, defaults are taken, and one line says which option gives what has none.
 
---specimen is for the files that state no dimensions; --specimen FILE:… wins over what that file states.
+Of several files, --specimen is for those that state no dimensions; --specimen FILE:…, or --specimen with one file
+alone, wins over what the file states.
 Files are copied, so that the folder can be moved, archived and sent; --link names them where they are.
 """
 

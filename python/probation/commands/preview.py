@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from probation.commands.delivery import deliver, plot_file, plot_output
+from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from
 
 NAME = "preview"
@@ -32,6 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the command."""
     from probation.records.preview import preview  # noqa: PLC0415 - see the package
 
-    shown = preview(options.file, **reading_from(options))
-    deliver(shown.summary(), [plot_output(shown, options.plot)])
+    with shown(f"reading {options.file}"):
+        found = preview(options.file, **reading_from(options))
+    deliver(found.summary(), [plot_output(found, options.plot)])
     return 0

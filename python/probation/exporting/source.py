@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 SCHEMA = "probation.fit/1"
+AS_GIVEN = "parameters as given"
 
 
 def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[Law, str]:
@@ -35,9 +36,9 @@ def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[
         If a file is neither.
     """
     if isinstance(source, Law):
-        return source, "parameters as given"
+        return source, AS_GIVEN
     if isinstance(source, Fit):
-        return source.law, f"identified on {source.campaign}, {source.verdict}"
+        return source.law, _words(source.campaign, source.verdict)
     if isinstance(source, Campaign):
         return law_and_source(fit(source, gap=False))
     if not isinstance(source, str | PathLike):
@@ -46,6 +47,12 @@ def law_and_source(source: Law | Fit | Campaign | str | PathLike[str]) -> tuple[
     if path.suffix.lower() == ".json":
         return _read(path)
     return law_and_source(Campaign.load(path))
+
+
+def _words(campaign: str, verdict: object) -> str:
+    """Where a law comes from, and what its fit says of itself: a parameter may not be determined."""
+    said = f": {verdict.removesuffix('.')}" if isinstance(verdict, str) and verdict else ""
+    return f"identified on {campaign}{said}"
 
 
 def _read(path: Path) -> tuple[Law, str]:
@@ -58,7 +65,7 @@ def _read(path: Path) -> tuple[Law, str]:
     if not isinstance(campaign, str):
         raise InputError(f"{path}: campaign: found a value of type {type(campaign).__name__}, expected text")
     try:
-        return law_from_answer(_law(answer)), f"identified on {campaign} ({path.name})"
+        return law_from_answer(_law(answer)), _words(f"{campaign} ({path.name})", answer.get("verdict"))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

@@ -1,7 +1,7 @@
 """Which column plays which role: what the user said, else what the profile knows, else the headings."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from probation._complaint import bad_input, likely, listed, quoted
@@ -10,6 +10,7 @@ from probation.records.header import without_brackets
 from probation.records.options import ReadOptions
 from probation.records.roles import (
     OPTIONAL_ROLES,
+    RIVALS,
     ROLES,
     STRAIN_ROLES,
     STRESS_ROLES,
@@ -41,7 +42,7 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
         If a column named does not exist or exists twice, or a quantity has no column.
     """
     named = {role: find_column(table, label) for role, label in options.columns.items()}
-    implied = _from_labels(table, table.roles) if table.roles else _from_headings(table)
+    implied = implied_columns(table)
     assigned: dict[str, Column] = {}
     for group in (("time",), STRAIN_ROLES, STRESS_ROLES)[: 3 if with_stress else 2]:
         role = next((r for r in group if r in named), None) or next((r for r in group if r in implied), None)
@@ -73,16 +74,31 @@ def assign_columns(table: Table, options: ReadOptions, *, with_stress: bool = Tr
     return assigned
 
 
-def _from_labels(table: Table, roles: Mapping[str, str | int]) -> dict[str, Column]:
-    return {role: find_column(table, label) for role, label in roles.items()}
+def implied_columns(table: Table, groups: Sequence[tuple[str, ...]] = RIVALS) -> dict[str, Column]:
+    """Give the columns of the roles that the profile knows, and by the headings those of which it says nothing.
+
+    Parameters
+    ----------
+    table : Table
+    groups : sequence of tuple of str
+        Roles of which one column is wanted.
+
+    Raises
+    ------
+    InputError
+        If two columns have headings of one role.
+    """
+    by_profile = {role: find_column(table, label) for role, label in table.roles.items()}
+    open_roles = {role for rivals in groups if not set(rivals) & set(by_profile) for role in rivals}
+    return by_profile | _from_headings(table, open_roles)
 
 
-def _from_headings(table: Table) -> dict[str, Column]:
+def _from_headings(table: Table, roles: Collection[str]) -> dict[str, Column]:
     implied: dict[str, Column] = {}
     better = {role_in(column.name, column.unit) for column in table.columns if not _is_further(column)}
     for column in table.columns:
         role = role_in(column.name, column.unit)
-        if _is_further(column) and role in better:
+        if role not in roles or (_is_further(column) and role in better):
             continue
         if role in implied:
             raise bad_input(
@@ -96,7 +112,7 @@ def _from_headings(table: Table) -> dict[str, Column]:
         if role is not None:
             implied[role] = column
     for role, rivals in _ROLES_OF_UNITS.items():
-        if not set(rivals) & set(implied):
+        if role in roles and not set(rivals) & set(implied):
             headed = [column for column in table.columns if is_role_of_unit(role, column)]
             if len(headed) == 1:
                 implied[role] = headed[0]

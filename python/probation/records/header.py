@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from probation.records.cell import is_number, is_sample
 from probation.records.grid import Grid
-from probation.records.roles import normalised, role_of, split_suffix
+from probation.records.roles import QUANTITY_NAMES, normalised, role_of, split_suffix
 from probation.records.table import Column
 from probation.records.units import is_percent, is_unit, measures
 
@@ -42,7 +42,8 @@ def find_heading(
     """Find the headings, whatever metadata stands above and units stand below them.
 
     The heading row is the one that names the wanted columns or, by the usual names, at least two
-    quantities; failing that, the row of text above the first row of numbers, or the row above it where
+    quantities; failing that, one that does so with "Strain" or "Stress", which may be true or engineering; failing
+    that, the row of text above the first row of numbers, or the row above it where
     that one holds units. A row of text between headings and numbers that holds any unit is a row of
     units, whatever its other cells say.
 
@@ -57,6 +58,8 @@ def find_heading(
     """
     rows = grid.rows[:_SEARCHED_ROWS]
     header = _row_naming(rows, wanted, known)
+    if header is None:
+        header = _row_naming(rows, (), QUANTITY_NAMES)
     if header is None:
         first = _first_data_row(rows, 0)
         header = first - 1
@@ -78,7 +81,7 @@ def find_heading(
 
 def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str], known: Collection[str]) -> int | None:
     for at, row in enumerate(rows):
-        if _is_data_row(row):
+        if is_data_row(row):
             continue
         labels = {_one_line(cell) for cell in row}
         columns = _columns(row, [])
@@ -90,7 +93,7 @@ def _row_naming(rows: Sequence[Sequence[str]], wanted: Collection[str], known: C
     return None
 
 
-def _is_data_row(row: Sequence[str]) -> bool:
+def is_data_row(row: Sequence[str]) -> bool:
     """More than half of the filled cells are samples, at least two are, and the first is no name of a fact."""
     filled = [cell.strip() for cell in row if cell.strip()]
     count = sum(map(is_sample, filled))
@@ -99,7 +102,7 @@ def _is_data_row(row: Sequence[str]) -> bool:
 
 def _first_data_row(rows: Sequence[Sequence[str]], start: int) -> int:
     """Index of the first row of numbers from `start` on; the number of rows where there is none."""
-    return next((at for at in range(start, len(rows)) if _is_data_row(rows[at])), len(rows))
+    return next((at for at in range(start, len(rows)) if is_data_row(rows[at])), len(rows))
 
 
 def _is_units_row(row: Sequence[str]) -> bool:

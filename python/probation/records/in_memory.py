@@ -61,7 +61,8 @@ def records_from_arrays(
     place = Path("from_arrays")
     given = {role: values for role, values in arrays.items() if values is not None}
     values = {role: _samples(place, role, values, "argument") for role, values in given.items()}
-    columns = {role: Column(role, role, ROLES[role].unit, at) for at, role in enumerate(values)}
+    stated = units or {}
+    columns = {role: Column(role, role, stated.get(role, ROLES[role].unit), at) for at, role in enumerate(values)}
     names = None if isinstance(record, str) else _names(place, "record", record)
     return _records(
         place,

@@ -39,7 +39,7 @@ ROLES: dict[str, Role] = {
     "time": _role(
         *("s", "a time unit such as 's'", "time", "t", "elapsed_time", "test_time"),
         further=(
-            *("running_time", "total_time", "timestamp", "zeit", "prüfzeit", "pruefzeit", "messzeit"),
+            *("running_time", "total_time", "timestamp", "x_value", "zeit", "prüfzeit", "pruefzeit", "messzeit"),
             *("temps", "durée", "temps_écoulé", "tempo", "tiempo"),
         ),
     ),
@@ -105,9 +105,15 @@ VAGUE = {
     "stress": ("stress", "spannung", "contrainte", "tensione", "sforzo", "tensión", "esfuerzo"),
 }
 """Headings, as `normalised`, that do not say whether a strain or a stress is true or engineering."""
+QUANTITY_NAMES = frozenset(
+    [*(name for role in ROLES.values() for name in role.headings | role.further), *VAGUE["strain"], *VAGUE["stress"]]
+)
+"""Every heading, as `normalised`, that means a quantity of a test."""
 STRAIN_ROLES = ("true_strain", "engineering_strain", "stretch", "displacement")
 STRESS_ROLES = ("true_stress", "engineering_stress", "force")
 OPTIONAL_ROLES = ("strain_rate", "transverse_strain", "temperature")
+RIVALS = (("time",), STRAIN_ROLES, STRESS_ROLES, *((role,) for role in OPTIONAL_ROLES))
+"""Roles of which a table needs one."""
 
 _SUFFIX_UNITS = {
     **{unit.lower(): unit for unit in ("s", "ms", "min", "h", "MPa", "kPa", "Pa", "GPa", "N", "kN")},

@@ -54,12 +54,18 @@ _NO_DIMENSION = _unit(1)
 
 _PREFIXES = {
     **{"n": Fraction(1, 10**9), "u": Fraction(1, 10**6), "µ": Fraction(1, 10**6), "μ": Fraction(1, 10**6)},
-    **{"m": Fraction(1, 1000), "c": Fraction(1, 100), "d": Fraction(1, 10)},
+    **{"m": Fraction(1, 1000), "c": Fraction(1, 100), "d": Fraction(1, 10), "da": Fraction(10)},
     **{"h": Fraction(100), "k": Fraction(1000), "M": Fraction(10**6), "G": Fraction(10**9), "T": Fraction(10**12)},
 }
 _PREFIX_WORDS = {
     **{"nano": Fraction(1, 10**9), "micro": Fraction(1, 10**6), "milli": Fraction(1, 1000)},
-    **{"centi": Fraction(1, 100), "kilo": Fraction(1000), "mega": Fraction(10**6), "giga": Fraction(10**9)},
+    **{
+        "centi": Fraction(1, 100),
+        "deca": Fraction(10),
+        "kilo": Fraction(1000),
+        "mega": Fraction(10**6),
+        "giga": Fraction(10**9),
+    },
 }
 _WITH_PREFIX = {
     "m": _unit(1, m=1),
@@ -112,7 +118,7 @@ _WITHOUT_PREFIX = {
 # What laboratories write beyond the grammar. "C" is not the coulomb here, nor "S" the siemens.
 _SPELLINGS = {
     **dict.fromkeys(["", "-", "–", "—", "1", "/", "none", "abs"], "dimensionless"),
-    **dict.fromkeys(["S", "Sec", "SEC", "Seconds", "sec.", "secs"], "s"),
+    **dict.fromkeys(["S", "Sec", "SEC", "Seconds", "sec.", "secs", "Sek", "sek", "Sek.", "sek."], "s"),
     **dict.fromkeys(["C", "°C", "℃", "deg C", "deg. C", "Celsius", "celsius"], "degC"),
     **dict.fromkeys(["F", "°F", "℉", "deg F", "deg. F", "Fahrenheit", "fahrenheit"], "degF"),
     **dict.fromkeys(["Mpa", "mpa", "MPA"], "MPa"),

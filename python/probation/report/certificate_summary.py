@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.report.table import Table
 from probation.settings.certificate import CERTIFICATE
-from probation.wording import plus_minus
+from probation.wording import plus_minus, times
 
 if TYPE_CHECKING:
     from probation.certificate.consistency import Estimate
@@ -60,7 +60,7 @@ def prediction_table(certificate: Certificate) -> Table:
             f"{prediction.rms_MPa:.3g}",
             f"{prediction.max_MPa:.3g}",
             f"{prediction.largest_at['true_strain']:.2g}",
-            f"{prediction.noise_units:.3g}",
+            times(prediction.noise_units),
             f"{prediction.tolerance_MPa:.3g}",
             "within" if prediction.passes else "beyond",
         )

@@ -85,8 +85,8 @@ def init_campaign(
         Called with how many files are read, of how many, and the name of the next.
     **how
         How the files are read, as in `preview`: ``profile``, ``columns``, ``units``, ``specimen``,
-        ``specimen_index``, ``sheet``, ``test_rate``. Here ``specimen`` is for files that state no dimensions;
-        ``by_file`` wins over what a file states.
+        ``specimen_index``, ``sheet``, ``test_rate``. Of several files ``specimen`` is for those that state no
+        dimensions; of one, and by ``by_file``, it wins over what the file states.
 
     Returns
     -------
@@ -114,7 +114,8 @@ def init_campaign(
     for path in paths:
         own = dict(single.get(path.name, {}))
         choices = {"control": own.pop("control", control), "role": own.pop("role", role)}
-        read.append((path, _merged(_where_not_stated(path, how, own), own), choices))
+        said = how if len(paths) == 1 else _where_not_stated(path, how, own)
+        read.append((path, _merged(said, own), choices))
     if ask is None:
         refuse_unanswered([question for path, merged, _ in read for question in unanswerable(path, merged)])
     entries: list[Entry] = []

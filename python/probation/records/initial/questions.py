@@ -11,7 +11,7 @@ from probation.errors import InputError
 from probation.records.assignment import assign_columns
 from probation.records.opening import chosen_tables, open_file
 from probation.records.options import ReadingKeys, read_options, with_area
-from probation.records.roles import STRAIN_ROLES, STRESS_ROLES, VAGUE, normalised, role_of
+from probation.records.roles import RIVALS, STRAIN_ROLES, STRESS_ROLES, VAGUE, normalised, role_of
 from probation.records.table import Table
 from probation.records.units import measures
 
@@ -105,7 +105,9 @@ def next_question(path: Path, how: ReadingKeys) -> Question | None:
     if reading.auxiliary:
         raise InputError(f"{path}: found {reading.auxiliary}, expected a stress-strain record; leave the file out")
     named = set(options.columns)
-    implied = set(table.roles) or {role_of(column.name) or "" for column in table.columns}
+    implied = set(table.roles)
+    known_groups = [rivals for rivals in RIVALS if implied & set(rivals)]
+    implied |= {role_of(column.name) or "" for column in table.columns} - {role for g in known_groups for role in g}
     if options.test_rate is None and "time" not in named | implied and not _has_lone_unit(table, "s"):
         return Question(
             path.name,

@@ -6,14 +6,15 @@ from itertools import pairwise
 
 from probation._complaint import bad_input, quoted
 from probation.errors import InputError
+from probation.records.assignment import implied_columns
 from probation.records.cell import decimal_mark, is_sample
 from probation.records.grid import Grid
-from probation.records.header import Heading, find_heading
+from probation.records.header import Heading, find_heading, is_data_row
 from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
 from probation.records.profiles.machines import machine_of
 from probation.records.profiles.profile import Reading
-from probation.records.roles import normalised, role_of
+from probation.records.roles import normalised
 from probation.records.source import Source
 from probation.records.table import Column, Table
 
@@ -132,8 +133,11 @@ def _blocks(grid: Grid, heading: Heading) -> list[_Block]:
         cells = _stripped(grid.rows[heading.row])
         starts += [at for at in range(heading.first, len(grid.rows)) if _stripped(grid.rows[at]) == cells]
     blocks = []
-    for start, end in pairwise([*starts, len(grid.rows)]):
+    for start, below in pairwise([*starts, len(grid.rows)]):
         first = start + heading.first - starts[0]
+        end = below
+        while below < len(grid.rows) and end > first and not is_data_row(grid.rows[end - 1]):
+            end -= 1  # above the next headings stands what names their specimen: "2,PP-02"
         last = _end_of_numbers(grid.rows, first, end)
         if last > first:
             blocks.append(_Block(start, first, last))
@@ -182,16 +186,13 @@ def _continued(tables: Sequence[Table]) -> tuple[Table, ...]:
 
 def _goes_on(before: Table, table: Table) -> bool:
     """Whether the time of a table begins after that of the one above, but not by more than that lasted."""
-    named = table.roles.get("time")
-    column = next(
-        (c for c in table.columns if (named == c.position + 1 if table.roles else role_of(c.name) == "time")), None
-    )
-    if column is None:
-        return False
     try:
+        column = implied_columns(table, [("time",)]).get("time")
+        if column is None:
+            return False
         ends = [(float(times[0]), float(times[-1])) for times in (before.times(column), table.times(column))]
     except InputError:
-        return False  # where the bad cell stands is said when the column is read
+        return False  # what is wrong is said when the columns are read
     (start, end), (goes_on, _) = ends
     return end < goes_on < 2.0 * end - start
 

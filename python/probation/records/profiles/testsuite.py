@@ -22,7 +22,7 @@ _HEADINGS = {
     "force": ("axial_force", "load", "force"),
 }
 _ITS_FACTS = re.compile(
-    r"^\"?(Test Run|Test Run Name|Data Acquisition|Station Name)\s*:|\bAxial (Force|Displacement|Strain)\b",
+    r"^MTS793\||^\"?(Test Run|Test Run Name|Data Acquisition|Station Name)\s*:|\bAxial (Force|Displacement|Strain)\b",
     re.MULTILINE | re.IGNORECASE,
 )
 

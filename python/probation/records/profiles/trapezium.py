@@ -13,7 +13,7 @@ from probation.records.profiles.machine import machine_by_headings
 _HEADINGS = {
     "time": ("time", "時間"),
     "engineering_strain": ("extensometer_strain", "strain", "ひずみ"),
-    "displacement": ("extensometer", "extensometer1", "disp", "stroke", "ストローク", "変位"),
+    "displacement": ("extensometer", "extensometer1", "ext_1", "ext", "disp", "stroke", "ストローク", "変位"),
     "engineering_stress": ("stress", "応力"),
     "force": ("force", "試験力", "荷重"),
 }
