@@ -81,12 +81,16 @@ NAMES = (
     "comparison",
     "isolability",
     "plan",
+    "cross-check",
+)
+
+FURTHER = (
+    "excitation",
+    "excitation by the two steps of the paper",
     "export of the whole law",
     "export of a linear part with fewer modes",
     "export of flow curves",
-    "excitation",
-    "excitation by the two steps of the paper",
     "coverage",
     "comparison of methods",
-    "cross-check",
 )
+"""Those that have no page, or whose pages are tested with others of their kind."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from campaigns.typical_results import NAMES, result
+from campaigns.typical_results import FURTHER, NAMES, result
 from probation import InputError
 from probation.certificate.result import Certificate
 from probation.diagnosis.result import Diagnosis
@@ -14,7 +14,7 @@ from probation.identify.result import Fit
 from probation.results.data import CURVE, LEFT_OUT, Stored, WithCurves, encoded, from_curves
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, *FURTHER])
 def test_a_result_comes_back_with_its_text(name):
     done = result(name)
     again = type(done).from_json(done.to_json())
@@ -38,7 +38,7 @@ def test_without_curves_a_figure_is_refused_in_one_line(name):
         type(done).from_json(done.to_json()).plot()
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, *FURTHER])
 def test_curves_are_left_out_unless_they_are_asked_for(name):
     content = json.loads(result(name).to_json())["result"]
     longest = max((len(each["values"]) for each in arrays(content)), default=0)

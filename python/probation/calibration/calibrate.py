@@ -238,9 +238,8 @@ def _direct(
     warnings = list(campaign.warnings)
     if len(groups) == 1:
         warnings.append(
-            f"all records run at one rate ({medians.min():.2g} to {medians.max():.2g} 1/s): the relation is read "
-            "from how "
-            "their rate changes with strain, and is confounded with whatever else changes with strain"
+            f"all records run at one rate ({medians.min():.2g} to {medians.max():.2g} 1/s): the relation is read from "
+            "how their rate changes with strain, and is confounded with whatever else changes with strain"
         )
     return Calibration(
         source=campaign.name,
@@ -350,8 +349,7 @@ def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
     elif chosen.degrees == 0 and chosen.form.parameter_names:
         found.append(
             f"{len(table)} rates for {len(chosen.parameters)} parameters: the relation goes through every point, and "
-            "its "
-            "errors are those of the points alone; a third rate would put the form to the test"
+            "its errors are those of the points alone; a third rate would put the form to the test"
         )
     return found
 

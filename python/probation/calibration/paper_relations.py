@@ -83,20 +83,14 @@ class PaperRelations:
         return (
             f"Eq. (11) as printed does not fit the paper's own Table 2: it is {-printed.max():.0f} to "
             f"{-printed.min():.0f} % too short at every rate. Regressing τ_max·ε̇ of Table 2 gives the printed slope "
-            "and "
-            f"R² ({slope:.4f}, {self.weissenberg.r_squared:.3f}), but the intercept {intercept:.4f}, not 0.0367; the "
-            f"rounded We of the table give {self.rounded[0]:.5f} and {self.rounded[1]:.4f}.",
-            "0.0367 is nevertheless what Tables 3 and 4 were computed with: their α with (11) over their α with "
-            "(12) is "
-            f"{ratios}; on the synthetic data of experiments 2 and 3 it is {by_printed} with 0.0367, and "
-            f"{by_regressed} with "
-            "the "
-            "regression.",
+            f"and R² ({slope:.4f}, {self.weissenberg.r_squared:.3f}), but the intercept {intercept:.4f}, not 0.0367; "
+            f"the rounded We of the table give {self.rounded[0]:.5f} and {self.rounded[1]:.4f}.",
+            "0.0367 is nevertheless what Tables 3 and 4 were computed with: their α with (11) over their α with (12) "
+            f"is {ratios}; on the synthetic data of experiments 2 and 3 it is {by_printed} with 0.0367, and "
+            f"{by_regressed} with the regression.",
             f"A line of the printed slope through experiment 1 (τ_max = {tau_max:g} s at {rate:g} 1/s) has the "
-            "intercept "
-            f"{self.anchored_intercept:.4f}, and (11) as printed gives {own:.3f} s there: the slope is probably that "
-            "of "
-            "the regression, anchored on experiment 1.",
+            f"intercept {self.anchored_intercept:.4f}, and (11) as printed gives {own:.3f} s there: the slope is "
+            "probably that of the regression, anchored on experiment 1.",
             f"Eq. (12) has R² = {_printed_r_squared():.5f} in τ_max because the slowest rates decide it: at the three "
             f"fastest it errs by {', '.join(f'{error:+.1f}' for error in eq_12[-3:])} %. The same function fitted in "
             f"ln τ_max, a power law, errs by {np.abs(self.percent['power law']).max():.1f} % at most.",

@@ -64,8 +64,7 @@ class RateTable:
             found = ", ".join(f"{rate:.3g}" for rate in self.rates)
             raise InputError(
                 f"{self.source}: found one strain rate only ({found} 1/s in {', '.join(labels)}), expected at least "
-                "two "
-                f"that differ by more than {100 * (COMPANION.same_rate - 1):.0f} %; a relation needs a second rate"
+                f"two that differ by more than {100 * (COMPANION.same_rate - 1):.0f} %; a relation needs a second rate"
             )
 
     def _checked(self, name: str, unit: str, count: int) -> FloatArray:

@@ -165,8 +165,7 @@ def _constant_time(campaign: Campaign) -> LawSettings:
     if "tau_max_s" in campaign.law.fixed:
         raise InputError(
             f"campaign {campaign.name!r}: found tau_max_s in law.fixed, expected it free: its dependence on the rate "
-            "is "
-            "what is calibrated"
+            "is what is calibrated"
         )
     fixed = {name: value for name, value in campaign.law.fixed.items() if name != "alpha"}
     return replace(campaign.law, companion=None, fixed=fixed)

@@ -69,8 +69,7 @@ def _choice(calibration: Calibration) -> Section:
         return Section("Which form?", ("Too few rates to leave one out: the data do not choose a form.",))
     parts: list[str | Table] = [
         "Each rate in turn is left out, the relation calibrated on the others, and τ_max predicted at the rate left "
-        "out. "
-        "The lowest rms is chosen; references are there to compare with, and never chosen.",
+        "out. The lowest rms is chosen; references are there to compare with, and never chosen.",
         scores,
     ]
     if predicted is not None:
@@ -131,10 +130,8 @@ def _use(calibration: Calibration) -> Section:
         "To use it",
         (
             f"It holds between {low:.2g} and {high:.2g} 1/s. Beyond, its form is assumed: the standard error grows "
-            "with "
-            "the distance, but knows nothing of other forms. What probation companion --toml prints, in full "
-            "precision, "
-            "goes into campaign.toml:",
+            "with the distance, but knows nothing of other forms. What probation companion --toml prints, in full "
+            "precision, goes into campaign.toml:",
             Table(("[law.companion]", ""), rows, left=2),
         ),
     )

@@ -87,11 +87,10 @@ def exhibit(settings: Settings) -> Exhibit:
         "noise, where the companion relation brings it down to the noise. A slow start and a fast middle ask for a "
         "small viscous stress first and a large one later; with a constant τ_max → 0 the viscous stress is "
         "proportional to the strain rate, which is the nearest that the law can come, whatever E_u. The cost is flat "
-        "there, as the second "
-        f"plot shows: every E_u above {FLAT_FROM / 1000:.0f} GPa fits within 0.5 % of the least rms. What holds is "
-        f"that E_u exceeds {FLAT_FROM / 1000:.0f} GPa and that the onset, the stress at the end of the initial jump "
-        f"({END_OF_JUMP:g} τ_max after the start), is {high:.1f} MPa at most, against the 30 MPa at which the tests "
-        "yield; the 60 GPa do not mean anything.",
+        f"there, as the second plot shows: every E_u above {FLAT_FROM / 1000:.0f} GPa fits within 0.5 % of the least "
+        f"rms. What holds is that E_u exceeds {FLAT_FROM / 1000:.0f} GPa and that the onset, the stress at the end of "
+        f"the initial jump ({END_OF_JUMP:g} τ_max after the start), is {high:.1f} MPa at most, against the 30 MPa at "
+        "which the tests yield; the 60 GPa do not mean anything.",
         comparisons=tuple(comparisons),
         parts=(
             Drawing(

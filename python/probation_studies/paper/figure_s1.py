@@ -47,8 +47,7 @@ def exhibit(settings: Settings) -> Exhibit:
         says="Stress is nearly linear in ε_HT beyond a strain of 0.4; the slopes are 1.56 and 1.64 MPa.",
         explanation=f"The slope is not G: the synthetic data were made with {truth} MPa. Beyond the peak of the "
         "strain rate the viscous stress falls while the hardening rises, and the regression takes their sum, so that "
-        "it comes out "
-        f"{low} low; the line hides it, departing from the stress by {bend:.2g} MPa at most. This is why "
+        f"it comes out {low} low; the line hides it, departing from the stress by {bend:.2g} MPa at most. This is why "
         "identification raises G by 13 % in Tables 3 and 4. The synthetic data were not given the paper's slopes; of "
         "the three sets of (A-1), though, the one that comes nearest was chosen (Figure 1).",
         comparisons=comparisons,

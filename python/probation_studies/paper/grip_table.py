@@ -33,9 +33,9 @@ def grip_table(experiment: Grip, settings: Settings) -> Exhibit:
     share = 100.0 * float(np.mean(np.abs(moved) >= abs(shift)))
     costs = middle(study.cost_2)
     why_free = (
-        "E_u and α are correlated and only their product is well known; a bias moves them along it, and the synthetic "
-        "record has "
-        f"none. With one of the paper's size that acts from the start E_u moves by {low:+.0f} to {high:+.0f} %, the "
+        "E_u and α are correlated and only their product is well known; a bias moves them along it, and the "
+        f"synthetic record has none. With one of the paper's size that acts from the start E_u moves by {low:+.0f} to "
+        f"{high:+.0f} %, the "
         f"paper's {shift:+g} % " + ("among them" if low <= shift <= high else "not among them")
     )
     why_cost = (
@@ -50,15 +50,13 @@ def grip_table(experiment: Grip, settings: Settings) -> Exhibit:
         explanation="The synthetic record was made with identification 2 and (11): finding it again is a check of the "
         "method. Identification 3 was not put in: α and G with (12) come out as the paper has them, which shows that "
         "the paper used (11) with the intercept that it prints. With no bias in it, the synthetic record's "
-        "identification 4 returns E_u; "
-        f"with a wavy one of the paper's size ({printed.largest_residual:g} MPa at most after identification 2) E_u "
-        f"moves by the paper's {shift:+g} % or more, either way, in {share:.0f} % of {settings.draws} draws. What the "
-        "paper reads as an effect of correlation is a bias that shows along the correlated direction; the product "
-        "E_u·α hardly moves, in the paper as here. E_u acts below a strain of 0.1, and it matters when the bias sets "
-        "in (last table): the later, the less E_u moves. An E_u off by a third speaks of a bias from the first "
-        f"instants on, as an offset of force or strain is. The largest residual of the synthetic record is "
-        f"{largest:.2f} MPa, with "
-        "(12).",
+        f"identification 4 returns E_u; with a wavy one of the paper's size ({printed.largest_residual:g} MPa at most "
+        f"after identification 2) E_u moves by the paper's {shift:+g} % or more, either way, in {share:.0f} % of "
+        f"{settings.draws} draws. What the paper reads as an effect of correlation is a bias that shows along the "
+        "correlated direction; the product E_u·α hardly moves, in the paper as here. E_u acts below a strain of 0.1, "
+        "and it matters when the bias sets in (last table): the later, the less E_u moves. An E_u off by a third "
+        "speaks of a bias from the first instants on, as an offset of force or strain is. The largest residual of "
+        f"the synthetic record is {largest:.2f} MPa, with (12).",
         comparisons=_comparisons(experiment, found, why_free, why_cost),
         parts=(
             _bias_table(printed.identifications, study, settings.draws),

@@ -52,14 +52,12 @@ def identified_figure(figure_number: int, experiment: Grip, settings: Settings) 
         says="The three identifications give the same curve; the residuals, magnified five times, are pure bias, at "
         f"most {printed.largest_residual:g} MPa.",
         explanation="The three curves of the synthetic record cannot be distinguished either. What identifications 2 "
-        "and 4 leave is "
-        f"the noise; identification 3, with (12), leaves up to {largest[3]:.2f} MPa: so near do (11) and (12) come to "
-        "each other once α is free. Beside it the same synthetic record with a drawn bias of the paper's size, the "
-        "one that moves "
-        f"E_u by the median amount: identification 4 finds E_u = {study.unrelaxed_modulus_4[study.example]:.0f} MPa; "
-        f"the rms of the residual goes from {early[2]:.2f} to {early[4]:.2f} MPa up to a strain of {EARLY:g}, where "
-        f"E_u acts, and from {late[2]:.2f} to {late[4]:.2f} MPa beyond. The paper, too, sees the gain of "
-        "identification 4 at short times.",
+        f"and 4 leave is the noise; identification 3, with (12), leaves up to {largest[3]:.2f} MPa: so near do (11) "
+        "and (12) come to each other once α is free. Beside it the same synthetic record with a drawn bias of the "
+        "paper's size, the one that moves E_u by the median amount: identification 4 finds E_u = "
+        f"{study.unrelaxed_modulus_4[study.example]:.0f} MPa; the rms of the residual goes from {early[2]:.2f} to "
+        f"{early[4]:.2f} MPa up to a strain of {EARLY:g}, where E_u acts, and from {late[2]:.2f} to {late[4]:.2f} MPa "
+        "beyond. The paper, too, sees the gain of identification 4 at short times.",
         comparisons=(
             compare(
                 "largest residual, identification 2", printed.largest_residual, largest[2], unit="MPa", because=_WHY
