@@ -15,7 +15,7 @@ from probation.diagnosis.probabilities import (
     given_a_gap,
     given_no_gap,
     log_prior,
-    weigh,
+    probabilities_of,
     with_unseen,
 )
 from probation.effects.cause import Cause
@@ -58,7 +58,7 @@ def test_probabilities_sum_to_one_and_come_in_order():
     rng = np.random.default_rng(0)
     found = [hypothesis(log_evidence=-3.0, unknown=-2.0)]
     found += [alone(name, log_evidence=rng.normal(), unknown=rng.normal()) for name in NAMES]
-    weighed = weigh(found, len(NAMES))
+    weighed = probabilities_of(found, len(NAMES))
     chances = [each.probability for each in weighed]
     assert sum(chances) == pytest.approx(1.0, abs=1e-12)
     assert chances == sorted(chances, reverse=True)
@@ -151,7 +151,7 @@ def test_more_effects_are_less_probable_beforehand():
 
 
 def test_with_equal_evidence_the_odds_are_those_beforehand():
-    weighed = weigh([hypothesis(), *(alone(name) for name in NAMES)], len(NAMES))
+    weighed = probabilities_of([hypothesis(), *(alone(name) for name in NAMES)], len(NAMES))
     chance = {each.effects: each.probability for each in weighed}
     for name in NAMES:
         expected = np.exp(log_prior((name,), len(NAMES)) - log_prior((), len(NAMES)))
@@ -160,7 +160,7 @@ def test_with_equal_evidence_the_odds_are_those_beforehand():
 
 def test_odds_grow_with_the_ratio_of_evidences():
     """Two log units: e^2."""
-    pair = weigh([hypothesis(), alone(NAMES[0], log_evidence=2.0), alone(NAMES[1])], len(NAMES))
+    pair = probabilities_of([hypothesis(), alone(NAMES[0], log_evidence=2.0), alone(NAMES[1])], len(NAMES))
     chance = {each.effects: each.probability for each in pair}
     assert chance[(NAMES[0],)] / chance[(NAMES[1],)] == pytest.approx(np.exp(2.0))
 
@@ -169,7 +169,7 @@ def test_odds_grow_with_the_ratio_of_evidences():
 def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     """All equally good: as probable together as an effect of one form that sits in all records."""
     rig = made("rig_fault", kind="rig", more_forms=forms)
-    weighed = weigh([hypothesis(), alone(NAMES[0]), *every_place(rig)], len(NAMES))
+    weighed = probabilities_of([hypothesis(), alone(NAMES[0]), *every_place(rig)], len(NAMES))
     chance = {each.effects: each.probability for each in weighed}
     assert chance[("rig_fault",)] == pytest.approx(chance[(NAMES[0],)])
 
@@ -179,8 +179,10 @@ def test_the_same_effect_in_another_record_again_must_earn_its_place():
     effect = made("effect_a", kind="rig")
     causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:2]]
     other = alone("effect_b")
-    once = {each.effects: each.probability for each in weigh([hypothesis(), hypothesis(causes[0]), other], 6)}
-    twice = {each.effects: each.probability for each in weigh([hypothesis(), hypothesis(*causes), other], 6)}
+    once = {
+        each.effects: each.probability for each in probabilities_of([hypothesis(), hypothesis(causes[0]), other], 6)
+    }
+    twice = {each.effects: each.probability for each in probabilities_of([hypothesis(), hypothesis(*causes), other], 6)}
     odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, twice)]
     places = len(effect.placements(effect.forms[0])) * len(VIEWS)
     assert odds[1] / odds[0] == pytest.approx(EVIDENCE.again_in_another_record / places)
@@ -189,18 +191,18 @@ def test_the_same_effect_in_another_record_again_must_earn_its_place():
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():
     rig = made("rig_fault", kind="rig")
     best = hypothesis(Cause(rig, rig.forms[0], ("r2",)), log_evidence=5.0)
-    weighed = weigh([hypothesis(), *every_place(rig), best], len(NAMES))
+    weighed = probabilities_of([hypothesis(), *every_place(rig), best], len(NAMES))
     assert weighed[0].hypothesis.records == ("r2",)
 
 
 def test_several_starts_that_end_in_one_place_are_counted_once():
-    once = weigh([hypothesis(), alone(NAMES[0], log_evidence=1.0)], len(NAMES))
-    often = weigh([hypothesis(), *(alone(NAMES[0], log_evidence=e) for e in (1.0, 1.0, -4.0))], len(NAMES))
+    once = probabilities_of([hypothesis(), alone(NAMES[0], log_evidence=1.0)], len(NAMES))
+    often = probabilities_of([hypothesis(), *(alone(NAMES[0], log_evidence=e) for e in (1.0, 1.0, -4.0))], len(NAMES))
     assert [each.probability for each in often] == pytest.approx([each.probability for each in once])
 
 
 def test_an_effect_that_could_not_be_solved_has_no_say():
-    weighed = weigh([hypothesis(), alone(NAMES[0], log_evidence=-np.inf), alone(NAMES[1])], len(NAMES))
+    weighed = probabilities_of([hypothesis(), alone(NAMES[0], log_evidence=-np.inf), alone(NAMES[1])], len(NAMES))
     assert all(np.isfinite(each.probability) for each in weighed)
     assert sum(each.probability for each in weighed if each.effects == (NAMES[0],)) == 0.0
 
@@ -208,7 +210,7 @@ def test_an_effect_that_could_not_be_solved_has_no_say():
 def test_a_combination_bears_its_names_sorted():
     effects = [made(name) for name in ("effect_b", "effect_a")]
     pair = hypothesis(*(Cause(effect, effect.forms[0]) for effect in effects), unknown=0.0)
-    names = {each.effects for each in weigh([hypothesis(), pair], len(NAMES))}
+    names = {each.effects for each in probabilities_of([hypothesis(), pair], len(NAMES))}
     assert {("effect_a", "effect_b"), ("effect_a", "effect_b", "unknown")} <= names
 
 
@@ -237,7 +239,7 @@ def test_answer_sets_hold_the_truth_as_often_as_they_promise():
 def test_a_rare_effect_needs_more_evidence_alone_and_unseen():
     usual, rare = made("usual"), replace(made("rare"), odds=0.2)
     found = [hypothesis(), *(hypothesis(Cause(each, each.forms[0])) for each in (usual, rare))]
-    chances = {each.effects: each.probability for each in weigh(found, 6)}
+    chances = {each.effects: each.probability for each in probabilities_of(found, 6)}
     assert chances[("rare",)] == pytest.approx(0.2 * chances[("usual",)])
     assert effect_count([usual, *[rare] * 5]) == 2
     beside = with_unseen([Weighed((NAMES[0],), 1.0, hypothesis())], [made(NAMES[0]), usual, rare])

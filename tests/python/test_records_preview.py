@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from probation.errors import InputError
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.records.preview import preview
 from probation.records.text_plot import text_plot
 
@@ -109,8 +109,8 @@ def test_metadata_is_shown():
 def test_scatter_of_etfe_is_of_the_size_that_was_stated():
     """Stated with the data: about 0.002 MPa (engineering stress) and 8e-5 strain."""
     record = preview(DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv", specimen_index=1).records[0]
-    assert 0.001 < scatter(record.time, record.true_stress) < 0.006
-    assert 2e-5 < scatter(record.time, record.true_strain) < 1.6e-4
+    assert 0.001 < noise_level(record.time, record.true_stress) < 0.006
+    assert 2e-5 < noise_level(record.time, record.true_strain) < 1.6e-4
 
 
 def test_scatter_finds_the_noise_under_a_steep_curve_at_uneven_times():
@@ -119,7 +119,7 @@ def test_scatter_finds_the_noise_under_a_steep_curve_at_uneven_times():
     time = np.sort(random.uniform(0.0, 400.0, 4000))
     time += np.linspace(0.0, 1e-6, 4000)
     clean = 40.0 * (1.0 - np.exp(-time / 60.0))
-    assert scatter(time, clean + random.normal(0.0, 0.04, 4000)) == pytest.approx(0.04, rel=0.06)
+    assert noise_level(time, clean + random.normal(0.0, 0.04, 4000)) == pytest.approx(0.04, rel=0.06)
 
 
 def test_a_straight_line_is_drawn_from_corner_to_corner():

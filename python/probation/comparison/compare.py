@@ -102,7 +102,7 @@ def compare(
     changes = visible(known, base.model.views)
     base = base.screened(changes, workers, skipping.screened)
     advance(Part(0.2, "testing for a change"))
-    test = GapTester(base.whitened, base.columns.by_effect(), seed=seed)()
+    test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
     causes = causes_of(
         base,
         changes,

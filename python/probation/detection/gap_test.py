@@ -86,8 +86,8 @@ class GapTester:
         Whitened, unprojected sensitivities of the model along effects' amplitudes; several columns are tried one by
         one (the shapes that an effect may have).
     scatter : UncertainScatter, optional
-        Of specimens that differ by no one knows exactly how much.
-    size : int
+        How far specimens differ, as replicates leave it open; left out, it is in the noise as estimated.
+    size : int, optional
         Draws.
     seed : int
     """
@@ -98,9 +98,11 @@ class GapTester:
         directions: Mapping[str, FloatArray] | None = None,
         *,
         scatter: UncertainScatter | None = None,
-        size: int = 4000,
+        size: int | None = None,
         seed: int = 0,
     ) -> None:
+        if size is None:
+            size = DETECTION.gap_draws if scatter is None else DETECTION.gap_draws_with_scatter
         self.whitened = whitened
         self._spread = whitened.scale_spread
         waves, order, owner = _smooth_columns(whitened)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
@@ -87,7 +87,7 @@ def extent_of(campaign: Campaign, base: BaseFit) -> Extent:
         noise.sigma / float(np.max(np.abs(record.true_stress))) for noise, record in zip(noises, fitted, strict=True)
     ]
     strain = [
-        scatter(record.time, record.true_strain) if record.noise.strain is None else record.noise.strain
+        noise_level(record.time, record.true_strain) if record.noise.strain is None else record.noise.strain
         for record in fitted
     ]
     misfit, noise = base.misfit

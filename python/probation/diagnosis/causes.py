@@ -17,7 +17,7 @@ from probation.diagnosis.probabilities import (
     effect_count,
     given_a_gap,
     given_no_gap,
-    weigh,
+    probabilities_of,
     with_unknown,
     with_unknown_leading,
 )
@@ -131,12 +131,12 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(weigh(found, effect_count(considered), power), p_value)
+        weighed = given_no_gap(probabilities_of(found, effect_count(considered), power), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
     found = [each.as_reached(found[0]) for each in found]
-    weighed = given_a_gap(weigh(found, effect_count(considered), power), p_value)
+    weighed = given_a_gap(probabilities_of(found, effect_count(considered), power), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed)
     left, judged = _judged(weighed, answer_set(weighed), base, account, seed)

@@ -14,7 +14,7 @@ from scipy.interpolate import BSpline
 from probation.diagnosis.variables import every_phase, every_variable, least_below
 from probation.inference.model import CampaignModel
 from probation.noise.own_deviations import specimen_columns
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.remainder import REMAINDER
 
 if TYPE_CHECKING:
@@ -221,7 +221,7 @@ class FreeFunctions:
         self._slices = base.whitener.slices
         # Kinks of a gap make the noise look larger than it is; from sample to sample they do not.
         rough = [
-            len(view.data) * scatter(view.sampled(view.time), self._missing[part]) ** 2
+            len(view.data) * noise_level(view.sampled(view.time), self._missing[part]) ** 2
             for view, part in found.model.parts
         ]
         self._noise = min(noise, float(np.sqrt(sum(rough) / len(self._missing))))

@@ -50,7 +50,7 @@ class Weighed:
     hypothesis: Hypothesis
 
 
-def weigh(hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0) -> list[Weighed]:
+def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0) -> list[Weighed]:
     """Probabilities of all explanations, most probable first.
 
     Parameters

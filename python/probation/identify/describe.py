@@ -21,7 +21,7 @@ from probation.inference.likelihood import log_likelihood, noise_parameters
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_name
 from probation.noise.whiteness import correlation_lags
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.results.labelled import LabelledMatrix
 from probation.settings.identification import IDENTIFICATION
 
@@ -144,7 +144,7 @@ def _record_fit(view: RecordView, law: Law, noise: NoiseModel) -> RecordFit:
     stress, sensitivity = (view.sampled(values) for values in DnlrLaw(law).sensitivity(view, law.parameters))
     record = view.record
     residual = stress - record.true_stress
-    deviation = scatter(record.time, residual)
+    deviation = noise_level(record.time, residual)
     if not noise.plain and correlation_lags(noise.whiten(residual)) == 0:  # the noise model accounts for all of it
         deviation = float(np.sqrt(np.mean(residual**2)))
     long_run = deviation if noise.plain else noise.long_run

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.identify.scheme_error import most_substeps
 from probation.law.schemes import scheme_of
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.noise import NOISE
 
@@ -40,7 +40,7 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
         for record in campaign.identify:
             coarse, fine = (predicted(fit, excitations[record.id], count) for count in (steps, 2 * steps))
             least = NOISE.least_noise * float(np.max(np.abs(record.true_stress)))
-            noise = max(scatter(record.time, record.true_stress - fine), least)
+            noise = max(noise_level(record.time, record.true_stress - fine), least)
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
         # Halving the step leaves a quarter of the error.
         norm = 4.0 / 3.0 * np.sqrt(square)

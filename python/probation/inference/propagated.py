@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.strain_noise import StrainNoise, leading_directions
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
 from probation.settings.smoothing import SMOOTHING
 
@@ -50,7 +50,7 @@ def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> F
     else:
         columns = _by_differences(law, view, parameters)
     variance, turn = np.linalg.eigh(columns.T @ columns)
-    level = scatter(view.sampled(view.time), view.data)
+    level = noise_level(view.sampled(view.time), view.data)
     kept = (variance > (NOISE.negligible_propagated * level) ** 2) & (variance > ROUNDING * variance[-1:])
     return np.asarray(columns @ turn[:, kept])
 

@@ -15,7 +15,7 @@ from probation.noise.quantisation import quantisation_noise, quantisation_step
 from probation.noise.segments import DEGREE, in_segments, legendre
 from probation.noise.smooth_basis import WAVES, smooth_basis, waves
 from probation.noise.span import span_of
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     count = len(record)
     outliers = find_outliers(record.residual, record.jumps)
     residual = without_outliers(record.residual, outliers)
-    white = scatter(record.time, residual)
+    white = noise_level(record.time, residual)
     quantum = 0.0 if record.measured is None else quantisation_step(record.measured)
     if record.measured is not None and quantum == 0.0:
         quantum = quantisation_step(record.measured * np.exp(-record.true_strain))  # the force was read, not the stress

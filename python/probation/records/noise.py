@@ -19,7 +19,7 @@ def robust_deviation(values: FloatArray) -> float:
     return float(SD_OF_MEDIAN * np.median(np.abs(values - np.median(values))))
 
 
-def scatter(time: FloatArray, values: FloatArray) -> float:
+def noise_level(time: FloatArray, values: FloatArray) -> float:
     r"""Estimate the noise from each sample's distance to the line through its neighbours.
 
     With :math:`w = (t_{i+1}-t_i)/(t_{i+1}-t_{i-1})`, the distance
@@ -45,7 +45,7 @@ def scatter(time: FloatArray, values: FloatArray) -> float:
 
 
 def stress_noise(record: Record) -> float:
-    """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `scatter`; never 0."""
+    """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `noise_level`; never 0."""
     stated = record.noise.stress_MPa
-    noise = scatter(record.time, record.true_stress) if stated is None else stated
+    noise = noise_level(record.time, record.true_stress) if stated is None else stated
     return max(noise, NOISE.least_noise * float(np.ptp(record.true_stress)), 1e-12)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from probation._complaint import quoted
 from probation.errors import InputError
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.records.record import Record
 from probation.settings.reading import READING
 
@@ -100,7 +100,7 @@ def _with_line(record: Record, duration: float, rate: float) -> Record:
 
 def _is_far(time: FloatArray, values: FloatArray) -> bool:
     first, largest = abs(float(values[0])), float(np.abs(values).max())
-    return first > max(READING.far_start * largest, READING.start_noise * scatter(time, values))
+    return first > max(READING.far_start * largest, READING.start_noise * noise_level(time, values))
 
 
 def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
@@ -112,7 +112,7 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
     beyond = np.flatnonzero(np.abs(stress) > READING.start_reach * abs(stress[0]))
     count = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
-    force_noise, strain_noise = scatter(time, stress), scatter(time, strain)
+    force_noise, strain_noise = noise_level(time, stress), noise_level(time, strain)
     loading, first = np.polyfit(time[:count], stress[:count], 1)
     if min(abs(first), abs(stress[0])) <= READING.start_noise * force_noise or not loading:
         return None
@@ -140,7 +140,7 @@ def _line_before(record: Record) -> tuple[float, float] | None:
     count = max(int(beyond[0]) if beyond.size else len(strain), _FEWEST)
     driven = np.expm1(strain) if record.control == "displacement-rate" else strain
     rate, first = np.polyfit(time[:count], driven[:count], 1)
-    noise = scatter(record.time, driven)
+    noise = noise_level(record.time, driven)
     uncertain = noise / (np.sqrt(count) * float(np.std(time[:count])))
     if (
         abs(first) <= READING.start_noise * noise

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation._text import printable
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.records.said_once import of_all, said_once
 from probation.records.text_plot import text_plot
 
@@ -89,7 +89,7 @@ def _describe(record: Record, common: Collection[str]) -> str:
         label, unit = _LABELS[name]
         noise = ""
         if name in ("true_strain", "true_stress"):
-            noise = f", noise about {scatter(record.time, values):.2g} {unit}".rstrip()
+            noise = f", noise about {noise_level(record.time, values):.2g} {unit}".rstrip()
         span = f"{values.min() + 0.0:.6g} to {values.max() + 0.0:.6g} {unit}".rstrip()  # + 0.0: no "-0"
         lines.append(f"  {label:<17}  {span}{noise}")
     lines += [f"  warning: {warning}" for warning in record.warnings if warning not in common]

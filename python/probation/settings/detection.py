@@ -124,6 +124,13 @@ class DetectionSettings:
         "-",
         "p-value, against the scatter between records, below which a parameter is said to change with something.",
     )
+    gap_draws: int = chosen(4000, "draws", "Draws of the null distribution of the test for a gap.")
+    gap_draws_with_scatter: int = chosen(
+        16000,
+        "draws",
+        "The same where the specimens' scatter is drawn, too: its tail is not that of a single p-value, and the level "
+        "has to lie within the draws.",
+    )
     draws_beyond: int = chosen(
         20,
         "draws",

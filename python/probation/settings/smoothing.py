@@ -66,7 +66,11 @@ class SmoothingSettings:
     least_jump: float = chosen(
         0.1, "steeper slope", "Change of the slope at a rate discontinuity, at least: less is a bend."
     )
-    jump_significance: float = chosen(8.0, "standard errors", "The same in standard errors.")
+    jump_significance: float = chosen(
+        8.0,
+        "standard errors",
+        "What a change of the slope at a rate discontinuity needs where the stress shows no corner.",
+    )
     jump_evidence: float = chosen(
         16.0,
         "noise variances",

@@ -15,7 +15,7 @@ from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.history import StrainHistory
 from probation.law.refinement import fine_time, refine
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.results.data import CURVE, LEFT_OUT, WithCurves
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import differences, differences_error
@@ -194,7 +194,7 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     """
     one_of(method, "excitation", METHODS)
     given = record.noise.strain
-    noise = given if given is not None else scatter(record.time, record.true_strain)
+    noise = given if given is not None else noise_level(record.time, record.true_strain)
     jumps = find_jumps(record.time, record.true_strain, noise, record.true_stress)
     automatic = method == "auto"
     if automatic:
@@ -243,7 +243,7 @@ def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:
         rate_se = noise * differences_error(record.time)
     else:
         name = "rate given with the record"
-        rate_se = np.full(len(rate), scatter(record.time, rate))
+        rate_se = np.full(len(rate), noise_level(record.time, rate))
     return Excitation(
         time=record.time,
         true_strain=strain,

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from probation import _core
-from probation.records.noise import scatter
+from probation.records.noise import noise_level
 from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def find_jumps(
     if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
     jumps = _jumps_in_noise(time, true_strain, noise)
-    stress_noise = 0.0 if true_stress is None else scatter(time, true_stress)
+    stress_noise = 0.0 if true_stress is None else noise_level(time, true_stress)
     if true_stress is None or stress_noise == 0.0:
         return jumps
     return _with_stress(time, true_strain, noise, jumps, _jumps_in_noise(time, true_stress, stress_noise))
