@@ -130,7 +130,7 @@ def broken(values, at, value):
         ({"units": {"force": "N"}}, "units: found a unit for 'force', expected one of"),
         ({"specimen": {"area": 3.0}}, "specimen: found the unknown key 'area'; did you mean"),
         ({"role": {"x": "held-out"}}, "from_arrays: role: found the record 'x'; use 'record'"),
-        ({"start": "warm"}, "from_arrays: start: found 'warm'; use 'relaxed' or 'loaded'"),
+        ({"start": "warm"}, "from_arrays: start: found 'warm'; use 'auto', 'relaxed' or 'loaded'"),
         ({"noise": 0.04}, "from_arrays: noise: found 0.04, expected a probation.Noise"),
         ({"record": ["a"] * 20 + [None]}, "from_arrays, row 21, column 'record': found no name of a record"),
         ({"record": ["a"] * 20 + ["b"]}, "from_arrays, record 'b', row 21, column"),

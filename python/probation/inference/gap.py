@@ -21,7 +21,6 @@ from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.normal import TWO_SIDED_95
 from probation.settings.detection import DETECTION
-from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -221,7 +220,7 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    test = _survivor(base.whitened, base.signals, seed, base.uncertain_scatter)
+    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter)
     alike = None
     if base.scatter.any and not test.rejected:
         alike = _tested(base.alike, base.signals, seed)
@@ -233,22 +232,30 @@ def find_gap(
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        found = _survivor(whitened, signals, seed, base.uncertain_scatter_of(index, noise))
+        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise))
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 
-def _survivor(whitened: Whitened, signals: Sequence[Column], seed: int, scatter: UncertainScatter | None) -> GapTest:
-    """The test of some records, or the most doubtful of its answers with other models of the noise.
+def _survivor(
+    whitened: Whitened,
+    signals: Sequence[Column],
+    sizes: Mapping[str, GapSize],
+    seed: int,
+    scatter: UncertainScatter | None,
+) -> GapTest:
+    """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
-    A gap is declared only where it survives those that the records allow: a level 1.25 times as high, and a drift that
-    goes along with an effect as with anything else.
+    Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
+    level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
     test = _tested(whitened, signals, seed, scatter)
-    if not test.rejected or test.p_value_high_noise < EVIDENCE.least_p_value:
+    noises = whitened.noises
+    if not test.rejected or any(
+        sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
+    ):
         return test
-    noises = tuple(_drifting(noise) for noise in whitened.noises)
-    other = _tested(Whitened.of(whitened.records, noises), signals, seed, scatter)
+    other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
 
 

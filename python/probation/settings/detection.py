@@ -20,7 +20,15 @@ class DetectionSettings:
     low_noise: float = chosen(
         0.8, "-", "Noise, over what is estimated, with which the test for a gap is repeated: less than estimated."
     )
-    high_noise: float = chosen(1.25, "-", "The same for more than estimated; a gap must be significant there, too.")
+    high_noise: float = chosen(
+        1.25, "-", "The same for more than estimated; a gap below `fraction_of_noise` must be significant there, too."
+    )
+    fraction_of_noise: float = chosen(
+        0.5,
+        "noise",
+        "Gap, over the noise, below which it is declared only if it is significant with other models of the noise, "
+        "too.",
+    )
     tolerance: float = chosen(
         0.001,
         "largest stress",
