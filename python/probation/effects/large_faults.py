@@ -1,10 +1,9 @@
-"""Effects once more, for sizes far beyond those that are usual.
+"""The rig's faults once more, for sizes far beyond those of a sound rig.
 
 The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
 crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
 is all there is, a plain large fault is impossible and something else, or an unknown effect, is certain. So each fault
-that can be large has its forms a second time, with a prior as wide as the records are large. So has the locking of a
-network: that of a filled rubber or of an oriented film locks at a stretch of 1.5, that of a polyethylene at ten.
+that can be large has its forms a second time, with a prior as wide as the records are large.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
-    """The same effects, those that can be large with further forms for that.
+    """The same effects, those of the rig that can be large with further forms for that.
 
     Parameters
     ----------
@@ -34,13 +33,13 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
     """
     size = _Size.of(views)
     return tuple(
-        replace(effect, forms=(*effect.forms, *_LARGE[effect.name](effect, size))) if effect.name in _LARGE else effect
+        replace(effect, forms=(*effect.forms, _LARGE[effect.name](effect, size))) if effect.name in _LARGE else effect
         for effect in effects
     )
 
 
 class _Size(NamedTuple):
-    """Largest nominal stress [MPa], elongation [-], elongation over nominal stress [1/MPa], I_1 - 3 of any record.
+    """Largest nominal stress [MPa], elongation [-], and elongation over nominal stress [1/MPa] of any record.
 
     And the mean elongation from sample to sample [-].
     """
@@ -48,7 +47,6 @@ class _Size(NamedTuple):
     force: float
     elongation: float
     per_force: float
-    invariant: float
     per_sample: float
 
     @classmethod
@@ -56,15 +54,14 @@ class _Size(NamedTuple):
         forces = [float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views]
         elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
         ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
-        invariant = max(float(np.max(view.first_invariant)) for view in views)
         steps = [float(np.mean(np.abs(np.diff(np.expm1(view.sampled(view.true_strain)))))) for view in views]
-        return cls(max(forces), max(elongations), max(ratios, default=0.0), invariant, max(steps))
+        return cls(max(forces), max(elongations), max(ratios, default=0.0), max(steps))
 
 
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
     """The form under another name, its amplitude with another prior and bounds; `starts` of the amplitude."""
     known = form.amplitude
-    wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross size", starts=())
+    wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
     shapes = form.shapes_at(())
     grid = [(start, *shape) for start in starts for shape in shapes] if starts else shapes
     return replace(
@@ -76,31 +73,22 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     )
 
 
-def _gain(effect: Effect, size: _Size) -> tuple[Form, ...]:
+def _gain(effect: Effect, size: _Size) -> Form:
     del size
-    return (_widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0),)
+    return _widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0)
 
 
-def _offset(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    return (_widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force),)
+def _offset(effect: Effect, size: _Size) -> Form:
+    return _widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force)
 
 
-def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    return (_widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force),)
+def _drift(effect: Effect, size: _Size) -> Form:
+    return _widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force)
 
 
-def _locking(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    """Chains of a length that the records nearly reach."""
-    forms = []
-    for name, limit in (("gent", 1.0 / size.invariant), ("langevin", 0.6 / (size.invariant + 3.0))):
-        starts = tuple(part * limit for part in EFFECTS.locking_starts)
-        forms.append(_widened(effect.form(name), EFFECTS.large_locking * limit, 0.0, limit, starts))
-    return tuple(forms)
-
-
-def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
+def _compliance(effect: Effect, size: _Size) -> Form:
     # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
-    return (_of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force),)
+    return _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
 
 
 def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
@@ -112,7 +100,7 @@ def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
 
 
-def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
+def _slack(effect: Effect, size: _Size) -> Form:
     # Slack ends between two samples, where the force begins to rise.
     large = _of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation)
     fixed = large.shapes_at(())
@@ -122,7 +110,7 @@ def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
         begun = float(np.clip(np.median([_force_begins(view) for view in views]), 0.0, large.amplitude.upper))
         return [(begun,), *fixed] if begun > 0.0 else fixed
 
-    return (replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),)
+    return replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts)
 
 
 def _force_begins(view: RecordView) -> float:
@@ -147,8 +135,7 @@ def _of_travel(form: Form, whole: float) -> Form:
     )
 
 
-_LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
-    "finite_extensibility": _locking,
+_LARGE: dict[str, Callable[[Effect, _Size], Form]] = {
     "force_gain": _gain,
     "force_offset": _offset,
     "force_drift": _drift,

@@ -34,14 +34,6 @@ class EffectsSettings:
         "Parts of the largest force between which its first rise is a straight line, extended back to where it began.",
         source="ASTM D638, annex A1",
     )
-    large_locking: float = chosen(
-        0.5,
-        "amplitude that locks",
-        "Standard deviation of the amplitude of a network that locks within the records.",
-    )
-    locking_starts: tuple[float, ...] = chosen(
-        (0.2, 0.5, 0.8), "amplitude that locks", "Such parts from which searches begin."
-    )
     rate_decades: float = chosen(
         2.0, "decades", "Decades around the reference rate beyond which the rate, as a coordinate, is constant."
     )
