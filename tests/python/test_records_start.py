@@ -180,5 +180,13 @@ def test_other_starts_stay_as_they_are(record):
     assert as_started(record).time[0] == 0.0
 
 
+def test_a_strain_whose_first_steps_are_hidden_restores_nothing():
+    """The extensometer's step of 0.003 is reached after the fourth sample: the strain stands still at zero before."""
+    record = triggered(0.07)
+    strain = np.floor(record.true_strain / 0.003) * 0.003
+    assert np.all(strain[:4] == 0.0)
+    assert as_started(Record("a", record.time, strain, record.true_stress)).time[0] == 0.0
+
+
 def test_a_start_that_is_said_to_be_relaxed_stays_so():
     assert as_started(triggered(0.07), "relaxed").time[0] == 0.0

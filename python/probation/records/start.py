@@ -120,7 +120,9 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     if not 0.0 < by_force < np.max(np.diff(time[:_FEWEST_OF_FORCE])):
         return None
     rate, reached = np.polyfit(time[:count], strain[:count], 1)
-    by_strain = float(reached / rate) if rate else np.inf
+    if not rate:  # steps of the extensometer may hide the first strains
+        return None
+    by_strain = float(reached / rate)
     error = strain_noise * np.sqrt((1.0 + np.mean(time[:count]) ** 2 / np.var(time[:count])) / count) / abs(rate)
     # The stress bends from the start: its line comes from too far back.
     bend = READING.start_bend * by_force
