@@ -177,7 +177,7 @@ def test_what_a_trigger_lost_is_restored_unasked(late, strain_noise, error):
         triggered(0.25),
         triggered(0.07, strain_noise=5e-4),
     ],
-    ids=["at zero", "prestressed", "force off", "held at a strain", "more than two intervals missing", "strain unclear"],
+    ids=["at zero", "prestressed", "force off", "held at a strain", "more than two missing", "strain unclear"],
 )
 def test_other_starts_stay_as_they_are(record):
     assert as_started(record).time[0] == 0.0
