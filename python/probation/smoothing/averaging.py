@@ -5,6 +5,7 @@ A smoother that begins by taking the noise as white follows averaged noise, and 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from math import comb
 from typing import TYPE_CHECKING
@@ -28,14 +29,38 @@ ORDERS = (2, 4)
 """Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
 
 
-def pooled_inflation(segments: Iterable[FloatArray]) -> float:
-    """How far slow averages of noise exceed white noise, of segments whose strains have one extensometer; 1 if unknown.
+@dataclass(frozen=True)
+class Averaging:
+    """How an extensometer averages its noise.
 
-    In some of them the curve hides an average that others show. The mean of those that tell, by their samples.
+    Attributes
+    ----------
+    inflation : float
+        Variance of slow averages of the noise over what white noise would have: 1 + 2 sum of the autocorrelation, 1 if
+        it is white.
+    hidden : float
+        Variance of the noise over what differences of neighbours show of it; 1 if it is white.
     """
-    told = [(len(values), found) for values in segments if (found := averaged_inflation(values)) is not None]
-    samples = sum(count for count, _ in told)
-    return sum(count * found for count, found in told) / samples if samples else 1.0
+
+    inflation: float = 1.0
+    hidden: float = 1.0
+
+    @classmethod
+    def pooled(cls, segments: Iterable[FloatArray]) -> Averaging:
+        """Of segments whose strains have one extensometer.
+
+        In some of them the curve hides an average that others show. The mean of those that tell, by their samples;
+        white noise if none does.
+        """
+        told = [(len(values), found) for values in segments if (found := averaging_of(values)) is not None]
+        samples = sum(count for count, _ in told)
+        if not samples:
+            return cls()
+        inflation, hidden = (
+            sum(count * part for count, part in zip((count for count, _ in told), parts, strict=True)) / samples
+            for parts in ([each.inflation for _, each in told], [each.hidden for _, each in told])
+        )
+        return cls(inflation, hidden)
 
 
 def segments_of(values: FloatArray, jumps: Sequence[int]) -> Iterator[FloatArray]:
@@ -44,8 +69,8 @@ def segments_of(values: FloatArray, jumps: Sequence[int]) -> Iterator[FloatArray
         yield values[before + 1 : after]
 
 
-def averaged_inflation(values: FloatArray) -> float | None:
-    r"""How far averaged noise exceeds white noise in slow averages: 1 + 2 sum of the autocorrelation, 1 if it is white.
+def averaging_of(values: FloatArray) -> Averaging | None:
+    r"""How the noise of one segment is averaged.
 
     By second differences over lags k, whose variance is :math:`6\gamma_0 - 8\gamma_k + 2\gamma_{2k}`: constant for
     white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
@@ -58,10 +83,10 @@ def averaged_inflation(values: FloatArray) -> float | None:
         At even intervals or nearly so, without a jump of the slope.
     """
     told = [found for order in ORDERS if (found := _by_differences(values, order)) is not None]
-    return max(told) if told else None
+    return max(told, key=lambda each: each.inflation) if told else None
 
 
-def _by_differences(values: FloatArray, order: int) -> float | None:
+def _by_differences(values: FloatArray, order: int) -> Averaging | None:
     most = min(SMOOTHING.longest_average, len(values) // (PART * order)) * BEYOND
     if most < 2 * BEYOND:
         return None
@@ -74,7 +99,8 @@ def _by_differences(values: FloatArray, order: int) -> float | None:
         if variance[2 * lag - 1] > SMOOTHING.rough * here:
             return None
         if np.max(variance[lag - 1 : BEYOND * lag]) <= SMOOTHING.levelled * here:
-            return _inflation(variance[: lag - 1], float(np.median(variance[lag - 1 : BEYOND * lag])), weights)
+            level = float(np.median(variance[lag - 1 : BEYOND * lag]))
+            return Averaging(_inflation(variance[: lag - 1], level, weights), max(level / float(variance[0]), 1.0))
     return None
 
 

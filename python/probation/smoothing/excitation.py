@@ -18,7 +18,7 @@ from probation.law.refinement import fine_time, refine
 from probation.records.noise import noise_level
 from probation.results.data import CURVE, LEFT_OUT, WithCurves
 from probation.settings.smoothing import SMOOTHING
-from probation.smoothing.averaging import pooled_inflation, segments_of
+from probation.smoothing.averaging import Averaging, segments_of
 from probation.smoothing.differences import differences, differences_error
 from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.smoothing.operators import Operators
@@ -220,11 +220,11 @@ def excite_each(
     one_of(method, "excitation", METHODS)
     measured = [_Measured.of(record, method) for record in (*records, *beside)]
     smoothed = [each for each in measured if each.method != "raw"]
-    averaged = pooled_inflation(
+    averaging = Averaging.pooled(
         segment for each in smoothed for segment in segments_of(each.record.true_strain, each.jumps)
     )
     for each in measured[: len(records)]:
-        yield each.excitation(averaged, automatic=method == "auto")
+        yield each.known(averaging).excitation(averaging.inflation, automatic=method == "auto")
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,6 +244,18 @@ class _Measured:
         if method == "auto":
             method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
         return cls(record, noise, jumps, method)
+
+    def known(self, averaging: Averaging) -> _Measured:
+        """The same where its noise is averaged: neighbours tell less of it, and see jumps where none are."""
+        if self.method == "raw" or averaging.inflation <= SMOOTHING.correlated:
+            return self
+        record, noise = self.record, self.noise
+        if record.noise.strain is None:
+            noise *= float(np.sqrt(averaging.hidden))
+        jumps = find_jumps(
+            record.time, record.true_strain, noise * float(np.sqrt(averaging.inflation)), record.true_stress
+        )
+        return replace(self, noise=noise, jumps=jumps)
 
     def excitation(self, averaged: float, *, automatic: bool) -> Excitation:
         """Smoothed where that is the method; `averaged` as in `smooth_segments`."""

@@ -13,7 +13,7 @@ from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
 from probation.settings.smoothing import SMOOTHING
-from probation.smoothing.averaging import averaged_inflation
+from probation.smoothing.averaging import averaging_of
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import ROUNDS, Smoothed, inflation, polynomial
 from probation.smoothing.transient import WithTransient
@@ -206,7 +206,8 @@ def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transie
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     most = count // 2  # more would leave functions near the ends that no sample determines
     knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
-    averaged = max(averaged, averaged_inflation(true_strain) or 1.0)
+    own = averaging_of(true_strain)
+    averaged = averaged if own is None else max(averaged, own.inflation)
     found = _with_knots(time, true_strain, order, knots, lags, averaged)
     while found.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
