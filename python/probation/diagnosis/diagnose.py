@@ -38,6 +38,7 @@ from probation.noise.whitening import Whitened
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
+from probation.settings.noise import NOISE
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
@@ -362,6 +363,6 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
         if noise.outliers:
             found.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])
-    if levels.size > 1 and levels.max() > 10.0 * levels.min():
+    if levels.size > 1 and levels.max() > NOISE.tenfold * levels.min():
         found.append("the noise of the records differs more than tenfold; each is weighed by its own")
     return tuple(found)

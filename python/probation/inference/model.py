@@ -14,6 +14,7 @@ from probation.errors import InputError
 from probation.inference.own_force import SETTLED, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -195,7 +196,7 @@ class CampaignModel:
         for view in self.views:
             predicted = self.recorded(view, base, causes)
             missing = view.data - view.sampled(predicted)
-            window = 2 * (len(missing) // 50) + 1
+            window = 2 * (len(missing) // NOISE.quieting_window) + 1
             if window > _PARABOLA:
                 missing = moving_parabola(missing, window)
             between = np.interp(view.time, view.sampled(view.time), missing)

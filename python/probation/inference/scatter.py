@@ -31,9 +31,6 @@ if TYPE_CHECKING:
     from probation.records.specimens import Specimens
 
 
-DRAWS, BURN = 6000, 1000
-"""Metropolis steps, and the first of them that are left out."""
-
 _TITLES = {outside_name(name): symbol for name, symbol in SYMBOLS.items()}
 _TITLES |= {AREA: "the section", START: "the start of the strain"}
 
@@ -237,9 +234,9 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
     rng = np.random.default_rng(0)
     at = np.zeros(count)
     here = log_density(at)
-    drawn = np.empty((DRAWS, count))
+    drawn = np.empty((NOISE.scatter_draws, count))
     reach = np.full(count, 0.7)
-    for step in range(DRAWS):
+    for step in range(NOISE.scatter_draws):
         which = step % count
         tried = at.copy()
         tried[which] += reach[which] * rng.standard_normal()
@@ -247,10 +244,10 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
         taken = np.log(rng.random()) < there - here
         if taken:
             at, here = tried, there
-        if step < BURN:  # towards an acceptance of 0.44 (Roberts & Rosenthal 2001)
+        if step < NOISE.scatter_burn_in:  # towards an acceptance of 0.44 (Roberts & Rosenthal 2001)
             reach[which] *= np.exp((0.56 if taken else -0.44) * 0.2)
         drawn[step] = at
-    return np.exp(drawn[BURN:])
+    return np.exp(drawn[NOISE.scatter_burn_in :])
 
 
 def with_scatter(

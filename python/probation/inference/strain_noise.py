@@ -21,9 +21,6 @@ if TYPE_CHECKING:
 _SPARE, _PER_FREEDOM = 30, 6.0
 """Directions kept of a smoother: its singular values fall as the fourth power beyond its degrees of freedom."""
 
-LARGEST = 3000
-"""Samples of a record up to which its strain noise has a matrix (that of 3000 takes about 3 s to make and factor)."""
-
 _STEP = 1e-3
 """Relative change of a parameter over which the propagated noise is differenced."""
 
