@@ -34,6 +34,9 @@ Acts = Literal["added", "factor"]
 POINTS = 300
 """Samples and points of the function that are kept for the figure."""
 
+SMALLEST_STRESS = 0.05
+"""Stress of which the figure still draws parts, over the largest."""
+
 
 @dataclass(frozen=True)
 class Dependence:
@@ -257,7 +260,7 @@ class FreeFunctions:
         count = self._tangent.shape[1]
         solved = self._beside(term)
         followed = self._tangent @ solved[:count]
-        least = 0.05 * float(np.max(np.abs(self._stress)))
+        least = SMALLEST_STRESS * float(np.max(np.abs(self._stress)))
         size = np.copysign(np.maximum(np.abs(self._stress), least), self._stress) / 100.0
         scale = size if term.acts == "factor" else np.ones(len(self._missing))
         inside, x = self.inside(term.when), term.variable.values

@@ -46,8 +46,9 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
     from probation.records.specimens import Specimens
 
-ROUNDS = 3
-"""Noise and parameters are found in turns; they settle within two."""
+ROUNDS, MOST_STEPS, SETTLED = 3, 12, 1e-5
+"""Noise and parameters are found in turns, which settle within two: turns, steps of a refit, and the largest relative
+change of a parameter that ends them."""
 
 NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseModel, ...]]"
 """The noise of all records from what a fit leaves of them."""
@@ -365,11 +366,11 @@ def _settled(
     """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
     for _ in range(ROUNDS):
         noises = fitted_noises(residuals)
-        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=12)
+        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=MOST_STEPS)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
         residuals = residuals_at(residuals, found)
-        if moved.size == 0 or float(moved.max()) < 1e-5:
+        if moved.size == 0 or float(moved.max()) < SETTLED:
             break
     return found, noises, list(residuals)
 
@@ -391,7 +392,7 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
         base = replace(base, scatter=scatter)
     noises = base.noises_of(records)
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
-    steps = 0 if base.scatter.any else 12
+    steps = 0 if base.scatter.any else MOST_STEPS
     found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
     return replace(base, refit=found, whitened=Whitened.of(residuals_at(records, found), noises))
 

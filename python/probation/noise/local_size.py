@@ -13,6 +13,9 @@ from probation.settings.noise import NOISE
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
+MEDIAN_OF_NORMAL = 0.6745
+"""Median of the modulus of a standard normal variable."""
+
 
 def local_size(noise: FloatArray) -> FloatArray | None:
     """Size of the noise at every sample over its usual one, (n,); None where it is the same all along.
@@ -34,7 +37,7 @@ def _bursts(rough: FloatArray) -> FloatArray | None:
     if len(rough) < 4 * NOISE.shortest_burst or typical == 0.0:
         return None
     ratio = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
-    scatter = float(np.median(np.abs(np.log(ratio)))) / 0.6745
+    scatter = float(np.median(np.abs(np.log(ratio)))) / MEDIAN_OF_NORMAL
     least = max(NOISE.burst_ratio, float(np.exp(NOISE.burst_errors * scatter)))
     if not np.any(ratio > least):
         return None
