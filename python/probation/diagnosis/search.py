@@ -134,7 +134,7 @@ class Search:
 
     def _singles(self, columns: WhitenedColumns) -> None:
         found = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
-        for start in self.base.screened_starts:
+        for start in self.base.other_starts if self.base.screens_other_starts else ():
             found += self._candidates_at(start)
         candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))

@@ -86,8 +86,8 @@ class BaseFit:
         The same as it would be if specimens were alike.
     other_starts : tuple of ndarray, shape (n_base,)
         Where causes are looked for, too: a law that lacks an effect may fit best far from where it is right.
-    screened_starts : tuple of ndarray, shape (n_base,)
-        Those of them from which causes look so different that they are screened there, too.
+    screens_other_starts : bool
+        Whether causes look so different from there that they are screened there, too.
     signals : tuple of Column
         Of the effects that are considered, by `inference.screen`.
     reference : ndarray, shape (n_base,), optional
@@ -109,7 +109,7 @@ class BaseFit:
     scatter: Scatter
     alike: Whitened
     other_starts: tuple[FloatArray, ...] = ()
-    screened_starts: tuple[FloatArray, ...] = ()
+    screens_other_starts: bool = False
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
     reference: FloatArray | None = None
