@@ -1,8 +1,8 @@
 """Generalised least squares: the residual weighed by the covariance of its noise, re-evaluated as the law moves.
 
-Minimises r^T Sigma(theta)^-1 r, Sigma = Sigma_y + sigma_x^2 D D^T, D = d stress / d measured strain, without the
+Minimises r^T Sigma(theta)^-1 r, Sigma = Sigma_y + A A^T, A = sigma_eps d stress / d measured strain, without the
 determinant of Sigma: structured errors in variables, to first order in the strain's errors. The smallest errors of the
-strain that reconcile it with the law are delta = sigma_x^2 D^T Sigma^-1 r.
+strain that reconcile it with the law are delta = A^T Sigma^-1 r, in standard deviations.
 """
 
 from __future__ import annotations
