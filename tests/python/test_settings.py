@@ -132,7 +132,7 @@ IN_FUNCTIONS = {
     "design/next_test.py": {1800.0, 0.99},  # half an hour; words
     "design/planned_tests.py": {60.0, 120.0, 7200.0},  # words for times
     "design/rivalry.py": {1.01},
-    "diagnosis/calibration.py": {10.0},  # digits
+    "diagnosis/calibration_check.py": {10.0},  # digits
     "comparison/measured_law.py": {40},  # finer intervals than any record has
 }
 """Numbers in functions that have no say in an answer, or belong to a formula."""
