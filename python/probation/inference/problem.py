@@ -40,7 +40,7 @@ class Problem:
     Attributes
     ----------
     model : CampaignModel
-        Law, records and effects.
+        Law, records and effects: stresses and derivatives in MPa, without the noise.
     whitener : Whitener
         Of the noise, as far as no parameter moves it.
     moving : MovingNoise or None
