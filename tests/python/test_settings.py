@@ -39,7 +39,10 @@ def test_the_page_of_settings_is_what_they_say():
     assert (ROOT / "docs/settings.md").read_text(encoding="utf-8") == settings_page()
 
 
-STATISTICS = ("noise", "detection", "smoothing", "effects", "inference", "design", "diagnosis", "comparison")
+STATISTICS = (
+    *("noise", "detection", "smoothing", "effects", "inference", "design"),
+    *("identify", "certificate", "calibration", "diagnosis", "comparison"),
+)
 """Rooms whose constants stand in the settings. Priors of effects stand in their catalogue, each with its reason."""
 
 NUMERICAL = {
@@ -92,6 +95,23 @@ NUMERICAL = {
     "design/planned_tests.py": {"_HOURS", "_TURNS", "_SETTLED"},
     "design/predicted.py": {"_LOOSE"},
     "design/rivalry.py": {"_HALVINGS"},
+    "identify/base_law.py": {"START"},
+    "identify/coverage.py": {"TRUTH", "STRAIN_RATE", "END_STRAIN", "SAMPLES", "CASES"},
+    "identify/draws.py": {"ROUNDS"},
+    "identify/ends.py": {"BEYOND"},
+    "identify/fit.py": {"PARAMETERS"},
+    "identify/profile.py": {"FIRST_STEP", "FARTHEST", "MOST_POINTS", "FINE_ENOUGH"},
+    "identify/scheme_error.py": {"ENOUGH_INSTANTS"},
+    "identify/search.py": {"FINE", "LONGEST_STEP", "ZERO"},
+    "identify/variable_projection.py": {"POINTS", "NEARBY", "EDGE"},
+    "identify/weighting.py": {"SMALL_STEP", "ROUGH_STEP"},
+    "certificate/bias.py": {"LENGTHS", "RATIOS"},
+    "certificate/trial.py": {"LATE", "PARAMETERS"},
+    "calibration/cross_validation.py": {"SMALLEST_REPORTED"},
+    "calibration/direct.py": {"FINE", "MOST_STEPS", "LONGEST_STEP"},
+    "calibration/paper_relations.py": {"PRINTED_ALPHAS", "EXPERIMENT_1", "_HELD_MODULUS"},
+    "calibration/regression.py": {"_MOST_ROUNDS", "FINE"},
+    "calibration/table_2.py": {"TABLE_2", "PRINTED_WEISSENBERG", "FICTITIOUS_ERROR"},
     "diagnosis/free_function.py": {"POINTS", "SMALLEST_STRESS"},
     "diagnosis/headline.py": {"MOST_RIVALS"},
     "diagnosis/search.py": {"_USUAL"},
@@ -132,6 +152,21 @@ IN_FUNCTIONS = {
     "design/next_test.py": {1800.0, 0.99},  # half an hour; words
     "design/planned_tests.py": {60.0, 120.0, 7200.0},  # words for times
     "design/rivalry.py": {1.01},
+    "identify/covariance.py": {0.975},
+    "identify/coverage.py": {0.04, 6.0, 10.0, 49.0, 50, 51, 97, 1000},  # the study's noise and eq. (4); seeds and draws
+    "identify/describe.py": {0.975},
+    "identify/profile.py": {0.1, 0.07},  # steps of the walk
+    "identify/result.py": {0.95, 1000},  # defaults that a caller sees
+    "identify/scattered.py": {0.975},
+    "identify/search.py": {1000.0, 4000},
+    "identify/substeps.py": {1e6},
+    "identify/variable_projection.py": {1e-3},
+    "calibration/calibrate.py": {1e-3, 0.6, 0.2},  # starts
+    "calibration/companion_forms.py": {1000.0},  # eq. (12)
+    "calibration/cross_validation.py": {0.1, 0.0005},  # digits
+    "calibration/direct.py": {1.01, 200.0},
+    "calibration/record_fits.py": {50.0},  # the median; rounds
+    "calibration/result.py": {0.975},
     "diagnosis/calibration_check.py": {10.0},  # digits
     "comparison/measured_law.py": {40},  # finer intervals than any record has
 }

@@ -35,6 +35,13 @@ class IdentificationSettings:
     walkers: int = chosen(16, "walkers", "Walkers of the ensemble that samples the posterior.")
     burn_in: int = chosen(300, "steps", "Its first steps, which are dropped.")
     thinned: int = chosen(10, "steps", "Of the others one step in so many is kept.")
+    nominal_coverage: float = chosen(0.95, "probability", "Coverage that intervals should have.")
+    coverage_confidence: float = chosen(
+        0.99, "probability", "Confidence of the interval of a coverage that was counted, which must contain it."
+    )
+    least_coverage: float = chosen(
+        0.85, "probability", "A study says that intervals hold if its draws can exclude intervals of this coverage."
+    )
 
 
 IDENTIFICATION = IdentificationSettings()
