@@ -33,7 +33,7 @@ from probation.progress import shows_progress
 from probation.provenance import samples_sha256
 from probation.records.campaign import Campaign
 from probation.settings.companion import COMPANION
-from probation.smoothing.excitation import excite
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -114,9 +114,9 @@ def calibrate_companion(
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
     advance = progress or (lambda done, total, what: None)
     driven = []
-    for at, record in enumerate(source.identify):
-        advance(at, len(source.identify), f"strain rate of {record.id}")
-        driven.append(excite(record))
+    for at, drive in enumerate(excite_each(source.identify, beside=source.held_out)):
+        driven.append(drive)
+        advance(at + 1, len(source.identify), f"strain rate of {source.identify[at].id}")
     rates = tuple(record_rate(record, excitation) for record, excitation in zip(source.identify, driven, strict=True))
     steady = all(rate.spread <= COMPANION.nearly_constant for rate in rates)
     if route == "by-rate" and not steady:

@@ -27,7 +27,7 @@ from probation.law.schemes import as_scheme, make_solver
 from probation.law.spectrum import spectrum_of
 from probation.records.record import Noise
 from probation.settings.companion import COMPANION
-from probation.smoothing.excitation import excite
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,7 +105,7 @@ class DirectProblem:
     ) -> None:
         self.settings, self.scheme, self.hardening = settings, scheme, hardening
         self._solvers: dict[RecordView, _core.Solver] = {}
-        driven = [excite(identified) for identified in records] if excitations is None else excitations
+        driven = list(excite_each(records)) if excitations is None else excitations
         self.views = [
             measured_view(record, excitation, scheme) for record, excitation in zip(records, driven, strict=True)
         ]

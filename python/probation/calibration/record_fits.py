@@ -117,7 +117,12 @@ def fit_records(
     def fitted(record: Record, law: LawSettings, done: int) -> Fit:
         if progress is not None:
             progress(done, total, f"record {record.id} alone")
-        return fit(Campaign(record.id, (record,), law), scheme, method="variable-projection", gap=False)
+        return fit(
+            Campaign(record.id, campaign.identified_on([record.id]), law),
+            scheme,
+            method="variable-projection",
+            gap=False,
+        )
 
     fits = tuple(fitted(record, settings, at) for at, record in enumerate(records))
     held = settings.fixed.get("unrelaxed_modulus_MPa")

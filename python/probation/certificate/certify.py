@@ -21,6 +21,7 @@ from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.progress import Part, shows_progress
 from probation.settings.certificate import CERTIFICATE
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -110,8 +111,12 @@ def certify(
     gap = gap_of(campaign)
     scatter = None if gap is None else gap.scatter
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
+    driven = {
+        record.id: drive
+        for record, drive in zip(campaign.records, excite_each(campaign.records, excitation), strict=True)
+    }
     predictions = {
-        record.id: predict(source, known, record, tolerance, excitation, relation)
+        record.id: predict(source, known, record, tolerance, driven[record.id], relation)
         for source, known, record in _pairs(trial, base, step)
     }
     free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}

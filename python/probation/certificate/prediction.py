@@ -13,14 +13,13 @@ from probation.inference.measured_view import measured_view
 from probation.inference.modal_law import DnlrLaw
 from probation.law.schemes import scheme_of
 from probation.results.data import CURVE, from_curves
-from probation.smoothing.excitation import excite
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.identify.result import Fit
     from probation.records.record import Record
-    from probation.smoothing.methods import Method as ExcitationMethod
+    from probation.smoothing.excitation import Excitation
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +91,7 @@ def predict(
     covariance: FloatArray,
     record: Record,
     tolerance: float,
-    method: ExcitationMethod,
+    excitation: Excitation,
     relation: CalibratedCompanion | None = None,
 ) -> Prediction:
     """Predict a record with the law of a fit.
@@ -103,12 +102,12 @@ def predict(
         Of its parameters, `trial.joint_covariance`.
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
-    method : str
-        How the strain is smoothed.
+    excitation : Excitation
+        What drives the law along it.
     relation : CalibratedCompanion, optional
         What is known of the law's companion relation.
     """
-    view = measured_view(record, excite(record, method), scheme_of(base.scheme, base.start), base.substeps)
+    view = measured_view(record, excitation, scheme_of(base.scheme, base.start), base.substeps)
     stress, sensitivity = (view.sampled(values) for values in DnlrLaw(base.law).sensitivity(view, base.law.parameters))
     slopes = sensitivity[:, free_parameters(base)]
     variance = np.einsum("ij,jk,ik->i", slopes, covariance, slopes)

@@ -67,7 +67,7 @@ class Trial:
 
     def fit(self, records: Iterable[Record], law: LawSettings | None = None) -> Fit:
         """Identify on records, whatever their role, with the campaign's law or another."""
-        chosen = tuple(replace(record, role="identify") for record in records)
+        chosen = self.campaign.identified_on([record.id for record in records])
         campaign = Campaign(self.campaign.name, chosen, law or self.campaign.law)
         return fit(
             campaign,

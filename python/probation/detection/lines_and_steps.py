@@ -81,13 +81,10 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         frequency = np.arange(
             DETECTION.oversampling * DETECTION.slowest_line // 2, DETECTION.oversampling * count // 2
         ) / (DETECTION.oversampling * duration)
-        uniform = np.ptp(np.diff(record.time)) < 1e-3 * duration / count
-        if uniform:
-            power = np.abs(np.fft.rfft(left, DETECTION.oversampling * count)) ** 2 / count
-            power = power[DETECTION.oversampling * DETECTION.slowest_line // 2 : DETECTION.oversampling * count // 2]
-        else:
-            power = uneven_power(record.time, left, frequency)
+        power = _power(record.time, left, frequency, duration)
         level = np.maximum(running_median(power, DETECTION.line_neighbours) / np.log(2.0), 1.0)
+        for column in speed_wander_in(whitened, index, white).T:
+            level += _power(record.time, column, frequency, duration)
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
@@ -128,7 +125,7 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
         fine, norm = _steps(whitened, index, white, near)
         at = int(np.argmax(np.abs(fine.T @ left)))
         along = float(fine[:, at] @ left)
-        score = along / _local_noise_sd(left, int(near[at]))
+        score = along / _local_noise_sd(left, int(near[at])) / _spread_by_wander(whitened, index, white, fine[:, at])
         freedom = _freedom(
             np.delete(
                 left,
@@ -166,6 +163,12 @@ def _local_noise_sd(left: FloatArray, place: int) -> float:
     return found
 
 
+def _spread_by_wander(whitened: Whitened, index: int, white: FloatArray, direction: FloatArray) -> float:
+    """Standard deviation along a unit direction where the speed may wander, at the frequency that is most like it."""
+    along = direction @ speed_wander_in(whitened, index, white)
+    return float(np.sqrt(1.0 + np.max(np.sum(along.reshape(2, -1) ** 2, axis=0), initial=0.0)))
+
+
 def _freedom(values: FloatArray) -> float:
     """Degrees of freedom of the Student t that has the kurtosis of sums over a few neighbours; infinite if normal."""
     count = len(values) // DETECTION.burst_samples
@@ -190,6 +193,15 @@ def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tup
     return residual - white @ (white.T @ residual), white
 
 
+def speed_wander_in(whitened: Whitened, index: int, white: FloatArray) -> FloatArray:
+    """Whitened columns of a record's hidden wander of the speed, without what `white` spans; shape (n, k)."""
+    record = whitened.records[index]
+    if record.wander is None:
+        return np.zeros((len(record), 0))
+    columns = whitened.noises[index].whiten(record.wander)
+    return np.asarray(columns - white @ (white.T @ columns))
+
+
 def _steps(
     whitened: Whitened, index: int, white: FloatArray, instants: NDArray[np.intp]
 ) -> tuple[FloatArray, FloatArray]:
@@ -199,6 +211,17 @@ def _steps(
     columns = columns - white @ (white.T @ columns)
     norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     return columns / norm, norm
+
+
+def _power(time: FloatArray, values: FloatArray, frequency: FloatArray, duration: float) -> FloatArray:
+    """|sum v e^(-2 pi i f t)|^2 / n at every frequency, the multiples of half a spacing from the slowest line on."""
+    count = len(values)
+    if np.ptp(np.diff(time)) >= 1e-3 * duration / count:
+        return uneven_power(time, values, frequency)
+    first = DETECTION.oversampling * DETECTION.slowest_line // 2
+    return np.asarray(np.abs(np.fft.rfft(values, DETECTION.oversampling * count)) ** 2 / count)[
+        first : first + len(frequency)
+    ]
 
 
 def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.special import gammaincc
 
-from probation.detection.lines_and_steps import left_by_slow_waves, running_median
+from probation.detection.lines_and_steps import left_by_slow_waves, running_median, speed_wander_in
 from probation.detection.tail import smallest_of_many
 from probation.settings.detection import DETECTION
 
@@ -166,15 +166,17 @@ class _Spectrum:
         """Over the noise model or the power of the neighbouring frequencies, whichever is larger."""
         record = whitened.records[index]
         extent = float(np.ptp(record.true_strain))
-        left, _ = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
+        left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         most = _height(np.abs(left))
         left = np.clip(left, -most, most)
         spacing = 1.0 / (FINE * longest)
-        power = _power(
-            record.true_strain, left, spacing, int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
-        )
+        count = int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
+        power = _power(record.true_strain, left, spacing, count)
         level = running_median(power, DETECTION.line_neighbours * FINE // DETECTION.oversampling) / np.log(2.0)
-        return cls(record.name, len(record), extent, spacing, power / np.maximum(level, 1.0))
+        level = np.maximum(level, 1.0)
+        for column in speed_wander_in(whitened, index, white).T:
+            level += _power(record.true_strain, column, spacing, count)
+        return cls(record.name, len(record), extent, spacing, power / level)
 
     def comb(self, frequency: FloatArray, harmonics: int) -> tuple[FloatArray, FloatArray]:
         """Power at each frequency and its harmonics, as far as they are resolved, and how many those are."""

@@ -15,7 +15,7 @@ from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
 from probation.records.noise import stress_noise
 from probation.settings.effects import EFFECTS
-from probation.smoothing.excitation import excite
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -361,14 +361,12 @@ def views_of(
     Parameters
     ----------
     excitations : dict of str to Excitation, optional
-        By record id; made by `excite` if left out.
+        By record id; made by `excite_each` if left out.
     scheme, substeps
         As in `view_of`.
     """
-    known = dict(excitations or {})
-    for record in campaign.records:
-        if record.id not in known:
-            known[record.id] = excite(record)
+    records = campaign.records
+    known = excitations or {record.id: drive for record, drive in zip(records, excite_each(records), strict=True)}
     reference = reference_rate_of([known[record.id] for record in campaign.identify])
     temperature = reference_temperature_of(campaign.records)
     count = len(campaign.records)

@@ -29,7 +29,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, identifying
 from probation.progress import Part, shows_progress
-from probation.smoothing.excitation import excite
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -107,9 +107,10 @@ def fit(
     law, held = base_law(campaign, hold or {})
     limits = _limits(law, bounds or {})
     views = []
-    for index, record in enumerate(campaign.identify):
-        steps = 1 if substeps == "auto" else substeps
-        views.append(measured_view(record, excite(record, excitation), chosen, steps))
+    steps = 1 if substeps == "auto" else substeps
+    driven = excite_each(campaign.identify, excitation, beside=campaign.held_out)
+    for index, (record, drive) in enumerate(zip(campaign.identify, driven, strict=True)):
+        views.append(measured_view(record, drive, chosen, steps))
         if progress:
             progress(Part(0.3 * (index + 1) / len(campaign.identify), f"smoothed {record.id}"))
     problem = Problem.white(DnlrLaw(law, held), views)

@@ -12,7 +12,7 @@ from probation.inference.measured_view import measured_view
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.problem import Problem
 from probation.law.schemes import identifying
-from probation.smoothing.excitation import excite
+from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
     from probation.identify.result import Fit
@@ -46,7 +46,10 @@ def given(
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
     chosen, substeps = identifying(scheme)
     steps = 1 if substeps == "auto" else substeps
-    views = [measured_view(record, excite(record, excitation), chosen, steps) for record in campaign.identify]
+    driven = excite_each(campaign.identify, excitation, beside=campaign.held_out)
+    views = [
+        measured_view(record, drive, chosen, steps) for record, drive in zip(campaign.identify, driven, strict=True)
+    ]
     problem = Problem.white(DnlrLaw(law, held), views)
     weighted = Weighted(problem, problem.law.start)
     limits = dict.fromkeys(law.parameter_names, (0.0, float("inf")))

@@ -19,10 +19,11 @@ from probation.inference.propagated import propagated_noise
 from probation.inference.refit import Refit, refit
 from probation.inference.scatter import scatter_of, with_scatter
 from probation.inference.screen import screen
+from probation.inference.speed_wander import speed_wander
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
-from probation.noise.drift import estimate_drift, like_an_effect, with_drift
+from probation.noise.drift import estimate_drift, with_drift
 from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
@@ -58,11 +59,7 @@ def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    of_effects = like_an_effect(drift)
-    return tuple(
-        with_drift(noise, of_effects, drift - of_effects, record.time)
-        for noise, record in zip(noises, residuals, strict=True)
-    )
+    return tuple(with_drift(noise, drift, record.time) for noise, record in zip(noises, residuals, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,16 +143,10 @@ class BaseFit:
 
     @cached_property
     def covariance(self) -> FloatArray:
-        """Of the material's parameters, by noise with all of its drift and by specimens, shape (n_base, n_base)."""
-        found, whitened = self.refit, self.whitened
-        solver = np.linalg.pinv(found.jacobian)
-        covariance = solver @ solver.T
-        for noise, part in zip(whitened.noises, whitened.slices, strict=True):
-            if noise.nuisance_drift is not None:
-                moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
-                covariance += moved @ moved.T
-        slopes = found.coordinates.slopes(found.parameters)
-        return np.asarray(covariance * np.outer(slopes, slopes))
+        """Of the material's parameters, by noise and by specimens, shape (n_base, n_base)."""
+        solver = np.linalg.pinv(self.refit.jacobian)
+        slopes = self.refit.coordinates.slopes(self.refit.parameters)
+        return np.asarray(solver @ solver.T * np.outer(slopes, slopes))
 
     @cached_property
     def covariance_of_tested(self) -> FloatArray:
@@ -179,7 +170,7 @@ class BaseFit:
     @cached_property
     def discrepancy(self) -> Discrepancy:
         """Smooth waves over the identify records, along which a form may be wrong."""
-        return Discrepancy.of(self.whitened, self.columns.smooth, periodic=self.periodic)
+        return Discrepancy.of(self.whitened, periodic=self.periodic)
 
     @cached_property
     def columns(self) -> WhitenedColumns:
@@ -280,6 +271,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
                 jacobian[part],
                 given_noise=view.record.noise.stress_MPa,
                 propagated=propagated_noise(law, view, parameters),
+                wander=speed_wander(law, view, parameters),
             )
             for view, part in model.parts
         ]

@@ -246,8 +246,7 @@ def _survivor(
 ) -> GapTest:
     """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
-    Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
-    level 1.25 times as high, and a drift that goes along with an effect as with anything else.
+    Such a gap rests on the model of the noise, and is declared only where it survives a level 1.25 times as high.
     """
     test = _tested(whitened, signals, seed, scatter)
     noises = whitened.noises
@@ -255,8 +254,7 @@ def _survivor(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
-    other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed, scatter)
-    return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
+    return replace(test, p_value=max(test.p_value, test.p_value_high_noise))
 
 
 def _tested(
@@ -264,13 +262,6 @@ def _tested(
 ) -> GapTest:
     columns = WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
     return with_sharp(GapTester(whitened, columns.by_effect(), scatter=scatter, seed=seed)(), whitened)
-
-
-def _drifting(noise: NoiseModel) -> NoiseModel:
-    """The noise with all of its drift along any direction, that of effects included."""
-    if noise.drift is None or noise.nuisance_drift is None:
-        return noise
-    return replace(noise, drift=np.hstack([noise.drift, noise.nuisance_drift]), nuisance_drift=None)
 
 
 def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:

@@ -41,27 +41,32 @@ def propagated_noise(law: GapLaw, view: RecordView, parameters: FloatArray) -> F
     ndarray or None
         None where the strain has no noise.
     """
-    excitation = view.excitation
-    if excitation.strain_noise < SMOOTHING.clean:
+    if view.excitation.strain_noise < SMOOTHING.clean:
         return None
-    if isinstance(law, DnlrLaw):
-        noise = StrainNoise.of(excitation, view.scheme, view.stride)
-        columns = noise.leading(law.law_at(parameters))
-    else:
-        columns = _by_differences(law, view, parameters)
+    columns = stress_by_errors(law, view, parameters, *leading_directions(view.excitation))
     variance, turn = np.linalg.eigh(columns.T @ columns)
     level = noise_level(view.sampled(view.time), view.data)
     kept = (variance > (NOISE.negligible_propagated * level) ** 2) & (variance > ROUNDING * variance[-1:])
     return np.asarray(columns @ turn[:, kept])
 
 
-def _by_differences(law: GapLaw, view: RecordView, parameters: FloatArray) -> FloatArray:
-    """The same for a law without tangents along the strain, shape (n_samples, n_directions) [MPa]."""
+def stress_by_errors(
+    law: GapLaw, view: RecordView, parameters: FloatArray, strain: FloatArray, rate: FloatArray | None
+) -> FloatArray:
+    """Stress that a law makes of errors of the strain and of its rate, shape (n_samples, m) [MPa].
+
+    Parameters
+    ----------
+    strain, rate : ndarray, shape (n_samples, m) [-], [1/s]
+        A law without tangents along the strain takes the rate from it.
+    """
+    if isinstance(law, DnlrLaw):
+        noise = StrainNoise.of(view.excitation, view.scheme, view.stride)
+        return noise.by_errors(law.law_at(parameters), strain, rate)
     still = law.stress(view, parameters)
     instants, samples = view.time, view.sampled(view.time)
-    columns = leading_directions(view.excitation)[0]
-    found = np.empty_like(columns)
-    for index, column in enumerate(columns.T):
+    found = np.empty_like(strain)
+    for index, column in enumerate(strain.T):
         size = max(float(np.max(np.abs(column))), 1e-300)
         moved = view.true_strain + STRAIN_STEP / size * np.interp(instants, samples, column)
         found[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)

@@ -65,30 +65,22 @@ class StrainNoise:
             self._made[key] = (
                 self.solver.strain_sensitivity(law.engine, _core.LawChange())
                 if self.strain is None
-                else self._tangents(law, self.strain, self.rate)
+                else self.by_errors(law, self.strain, self.rate)
             )
         return self.deviation * self._made[key]
-
-    def leading(self, law: Law) -> FloatArray:
-        """The same; of a strain as measured the error of its first sample alone, shape (n_times, 1) [MPa]."""
-        if self.strain is not None:
-            return self.propagated(law)
-        first = np.zeros((len(self.solver.history), 1))
-        first[0] = 1.0
-        return self.deviation * self._tangents(law, first, None)
 
     def along(self, law: Law, errors: FloatArray) -> FloatArray:
         """Stress made by those errors, in units of their standard deviation; shape (n_times,) [MPa]."""
         strain = errors if self.strain is None else self.strain @ errors
         rate = None if self.rate is None else (self.rate @ errors)[:, None]
-        return self.deviation * self._tangents(law, strain[:, None], rate)[:, 0]
+        return self.deviation * self.by_errors(law, strain[:, None], rate)[:, 0]
 
     def probed(self, law: Law, count: int) -> FloatArray:
         """Stress made by `count` draws of the noise, always the same ones; shape (n_times, count) [MPa]."""
         size = len(self.solver.history) if self.strain is None else self.strain.shape[1]
         errors = np.random.default_rng(0).standard_normal((size, count))
         strain = errors if self.strain is None else self.strain @ errors
-        return self.deviation * self._tangents(law, strain, None if self.rate is None else self.rate @ errors)
+        return self.deviation * self.by_errors(law, strain, None if self.rate is None else self.rate @ errors)
 
     def slopes(self, law: Law, errors: FloatArray, wanted: Sequence[int]) -> FloatArray:
         """Derivatives of `along` by the law's parameters number `wanted`; shape (n_times, wanted)."""
@@ -105,7 +97,8 @@ class StrainNoise:
             columns.append((sides[1] - sides[0]) / (ends[1] - ends[0]))
         return np.column_stack(columns)
 
-    def _tangents(self, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:
+    def by_errors(self, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:
+        """Stress made by errors of the strain and of its rate, columns of shape (n_times, m) [-], [1/s]; in MPa."""
         directions = []
         for at in range(strain.shape[1]):
             direction = _core.Direction()

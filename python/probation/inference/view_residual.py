@@ -20,6 +20,7 @@ def residual_of(
     *,
     given_noise: float | None = None,
     propagated: FloatArray | None = None,
+    wander: FloatArray | None = None,
 ) -> RecordResidual:
     """One record at one fit.
 
@@ -29,7 +30,7 @@ def residual_of(
     residual : ndarray, shape (n_samples,) [MPa]
         Model minus data.
     tangent : ndarray, shape (n_samples, p)
-    given_noise, propagated
+    given_noise, propagated, wander
         As in `RecordResidual`.
     """
     # With its sign, 0 in a dwell.
@@ -45,5 +46,6 @@ def residual_of(
         measured=view.data,
         given_noise=given_noise,
         propagated=propagated,
+        wander=wander,
         specimen_id=view.specimen_id,
     )

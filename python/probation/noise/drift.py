@@ -60,13 +60,6 @@ def estimate_drift(whitened: Whitened) -> float:
     return max(mean + NOISE.drift_margin * float(np.sqrt(chance @ (SIZES - mean) ** 2)), NOISE.least_drift)
 
 
-def like_an_effect(drift: float) -> float:
-    """Relative variance of a drift at the first half period that may go along with an effect."""
-    return float(
-        np.clip(NOISE.drift_share_of_effects * drift, NOISE.least_drift_of_effects, NOISE.most_drift_of_effects)
-    )
-
-
 def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
     """Log likelihoods over the grid, the level profiled out; shape (n_sizes, n_biases)."""
     shape = 1.0 + SIZES[:, None, None] / order + BIASES[:, None] / order**3.0
@@ -74,21 +67,22 @@ def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
     return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
 
 
-def with_drift(noise: NoiseModel, size: float, nuisance: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
-    """The noise with a drift of that relative variance at the first half period on top.
+def with_drift(noise: NoiseModel, size: float, time: FloatArray | None = None) -> NoiseModel:
+    r"""The noise with a drift of that relative variance at the first half period on top.
+
+    The mean over n samples drifts, too, from the zero to which the force was set before. Of a drift whose power falls
+    as c/k the difference has the variance :math:`c \ln n`, over that of the white noise's mean: frequencies from a
+    period of the record to one of the reading that was set to zero.
 
     Parameters
     ----------
     noise : NoiseModel
     size : float
-        In all directions.
-    nuisance : float
-        More of it, that is like no effect.
+        c.
     time : ndarray, shape (n,) [s], optional
         What drifts does so in time: many samples within a short while drift together. Even steps if left out.
     """
     columns = waves(len(noise), min(NOISE.modelled_drift_orders, len(noise) // NOISE.highest_drift_order), time)
-    order = np.maximum(np.arange(columns.shape[1]), 1)
-    slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
-    more = np.sqrt(nuisance) * slow if nuisance > 0.0 else None
-    return replace(noise, drift=np.sqrt(size) * slow, nuisance_drift=more)
+    power = size / np.maximum(np.arange(columns.shape[1]), 1)
+    power[0] = size * np.log(len(noise))
+    return replace(noise, drift=noise.long_run[:, None] * columns * np.sqrt(power))

@@ -50,11 +50,7 @@ class NoiseModel:
     source : str
         Where the estimate is from, in words.
     drift : ndarray, shape (n, k) [MPa], optional
-        The part of the drift that may resemble an effect (`noise.drift`). Whitening and draws have it; `deviation` has
-        not.
-    nuisance_drift : ndarray, shape (n, k) [MPa], optional
-        The rest of the drift, whose part along every effect is small. Tests on smooth waves, evidence and the
-        uncertainty of predictions have it; whitening has not.
+        Of the drift (`noise.drift`). Whitening and draws have it; `deviation` has not.
     specimen : ndarray, shape (n, k) [MPa], optional
         What deviations of the record's specimen do, of one standard deviation each. Whitening and draws have it;
         `deviation` has not: it is no noise of the record, and the same in all records of the specimen.
@@ -75,7 +71,6 @@ class NoiseModel:
     outliers: tuple[int, ...]
     source: str
     drift: FloatArray | None = None
-    nuisance_drift: FloatArray | None = None
     specimen: FloatArray | None = None
     specimen_id: str | None = None
 
@@ -187,7 +182,6 @@ class NoiseModel:
             white=self.white * factor,
             propagated=self.propagated * factor,
             drift=None if self.drift is None else self.drift * factor,
-            nuisance_drift=None if self.nuisance_drift is None else self.nuisance_drift * factor,
         )
 
     @property

@@ -37,6 +37,9 @@ class RecordResidual:
     propagated : ndarray, shape (n, k) [MPa], optional
         A with A A^T = J_eps Sigma_eps J_eps^T: the noise of a smoothed strain, or of the first sample of a raw one,
         as stress (`inference.propagated`). What is rougher shows in the residual and is measured there.
+    wander : ndarray, shape (n, k) [MPa], optional
+        What a machine's speed does that wanders at one frequency, hidden in the strain's noise; of one standard
+        deviation each, one frequency at a time (`inference.speed_wander`).
     specimen : ndarray, shape (n, k) [MPa], optional
         What deviations of its specimen from the material's mean do, of one standard deviation each
         (`inference.scatter`).
@@ -64,6 +67,7 @@ class RecordResidual:
     measured: FloatArray | None = None
     given_noise: float | None = None
     propagated: FloatArray | None = None
+    wander: FloatArray | None = None
     specimen: FloatArray | None = None
     specimen_id: str | None = None
     quiet: tuple[slice, ...] = ()
@@ -78,7 +82,7 @@ class RecordResidual:
         for name in ("measured", "replicate"):
             if getattr(self, name) is not None:
                 as_samples(getattr(self, name), f"{self.name}: {name}", count)
-        for name in ("tangent", "propagated", "specimen"):
+        for name in ("tangent", "propagated", "wander", "specimen"):
             matrix = getattr(self, name)
             if matrix is None:
                 continue

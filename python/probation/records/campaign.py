@@ -1,8 +1,8 @@
 """A campaign: the records of one material, and the base law that they put to the test."""
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Unpack
@@ -308,6 +308,11 @@ class Campaign(InOneLine):
     def identify(self) -> tuple[Record, ...]:
         """The records that parameters are identified on."""
         return tuple(record for record in self.records if record.role == "identify")
+
+    def identified_on(self, ids: Collection[str]) -> tuple[Record, ...]:
+        """Its records, these with role "identify" and the others held out: those tell of the extensometer."""
+        roles = [(record, "identify" if record.id in ids else "held-out") for record in self.records]
+        return tuple(record if record.role == role else replace(record, role=role) for record, role in roles)
 
     @property
     def held_out(self) -> tuple[Record, ...]:

@@ -4,10 +4,10 @@ A record that is cut starts at a strain and a stress that the law does not know 
 counts from the unloaded specimen, the missing part is known well enough: a straight line from zero at the strain rate
 of the first samples. One sample at zero strain and zero stress before the others gives the law that line.
 
-A record that a trigger started lacks what happened before its first sample: no more than one interval. Then the lines
-through the first samples of strain and of stress meet zero at the same time, within an interval before the first
-sample, and both are beyond their noise there. Such a start is restored without being asked for. An offset of the force
-and a prestress leave the strain at zero, and stay what they are.
+A record that a trigger started lacks what happened before its first sample: until the force left its noise, and up to
+one interval. Then the lines through the first samples of strain and of stress meet zero at the same time, not long
+before the first sample, and both are beyond their noise there. Such a start is restored without being asked for. An
+offset of the force and a prestress leave the strain at zero, and stay what they are.
 """
 
 from dataclasses import replace
@@ -25,7 +25,7 @@ from probation.settings.reading import READING
 FloatArray = NDArray[np.float64]
 
 STARTS = ("auto", "relaxed", "loaded")
-"""`auto` is loaded where no more than one interval between samples is missing, and else relaxed."""
+"""`auto` is loaded where no more than a trigger may lose is missing, and else relaxed."""
 
 _FEWEST = 10  # samples behind the strain rate at the start
 _FEWEST_OF_FORCE = 4  # ... behind the rate of the stress, which bends soon
@@ -104,31 +104,31 @@ def _is_far(time: FloatArray, values: FloatArray) -> bool:
 
 
 def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
-    """Duration [s] and true strain rate [1/s] of a ramp from zero that is shorter than an interval between samples.
+    """Duration [s] and true strain rate [1/s] of a ramp from zero, no longer than what a trigger may lose.
 
     None where stress or strain start at zero within their noise, where more is missing, or where the strain does not
     come from zero with the stress: a prestress, a force that is off, or a start at a strain that was held.
     """
     time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
     beyond = np.flatnonzero(np.abs(stress) > READING.start_reach * abs(stress[0]))
-    count = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
-    force_noise, strain_noise = noise_level(time, stress), noise_level(time, strain)
-    loading, first = np.polyfit(time[:count], stress[:count], 1)
+    straight = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
+    loading, first = np.polyfit(time[:straight], stress[:straight], 1)
+    force_noise = noise_level(record.time, stress)
     if min(abs(first), abs(stress[0])) <= READING.start_noise * force_noise or not loading:
         return None
-    by_force = float(first / loading)
-    if not 0.0 < by_force < np.max(np.diff(time[:_FEWEST_OF_FORCE])):
-        return None
-    rate, reached = np.polyfit(time[:count], strain[:count], 1)
+    time = time[:_FEWEST]
+    rate, reached = np.polyfit(time, strain[:_FEWEST], 1)
     if not rate:  # steps of the extensometer may hide the first strains
         return None
-    by_strain = float(reached / rate)
-    error = strain_noise * np.sqrt((1.0 + np.mean(time[:count]) ** 2 / np.var(time[:count])) / count) / abs(rate)
+    by_force, by_strain = float(first / loading), float(reached / rate)
+    noise = noise_level(record.time, strain)
+    error = noise * np.sqrt((1.0 + np.mean(time) ** 2 / np.var(time)) / len(time)) / abs(rate)
     # The stress bends from the start: its line comes from too far back.
-    bend = READING.start_bend * by_force
-    if by_strain <= READING.start_noise * error or abs(by_strain - by_force) > READING.start_noise * error + bend:
-        return None
-    return by_strain, float(rate)
+    bend = READING.start_bend * abs(by_force)
+    shown = by_strain > READING.start_noise * error
+    recent = by_strain < READING.start_intervals * float(np.median(np.diff(time)))
+    agree = abs(by_strain - by_force) <= READING.start_noise * error + bend
+    return (by_strain, float(rate)) if shown and recent and agree else None
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:

@@ -51,13 +51,6 @@ class NoiseSettings:
         "Relative variance at the first half period that is assumed in any case: less cannot be distinguished from "
         "none.",
     )
-    least_drift_of_effects: float = chosen(
-        0.25, "-", "Least variance, at the first half period, of a drift along an effect, over the noise's."
-    )
-    drift_share_of_effects: float = chosen(0.2, "-", "Part of a drift that may go along with an effect.")
-    most_drift_of_effects: float = chosen(
-        2.0, "-", "Largest variance, at the first half period, of a drift along an effect, over the noise's."
-    )
     lowest_drift_order: int = chosen(
         8, "half periods", "Orders from here on are looked at: further down a bias is all there is."
     )
@@ -111,14 +104,6 @@ class NoiseSettings:
         0.4,
         "-",
         "Largest standard error of the logarithm of what the rough leftovers predict that is let excuse a difference.",
-    )
-    nuisance_drift_size: float = chosen(
-        0.6, "noise", "Standard deviations of the noise along an effect's signal that a drift may have along it."
-    )
-    known_drift_variance: float = chosen(
-        0.1,
-        "-",
-        "Variance of a drift along a signal, given those along other signals, below which it is known already.",
     )
     unusual_specimen: float = chosen(
         0.01,
@@ -215,6 +200,12 @@ class NoiseSettings:
     )
     negligible_propagated: float = chosen(
         0.1, "-", "Propagated strain noise along one direction, over the scatter of the stress, that is left out."
+    )
+    speed_wander: float = chosen(
+        3e-3, "speed", "Standard deviation of a machine's speed at one frequency: a servo-hydraulic supply's."
+    )
+    wander_cycles: int = chosen(
+        24, "cycles per record", "Frequencies up to which a speed may wander: faster ones are damped."
     )
     strain_beyond_chance: float = chosen(
         3.0,

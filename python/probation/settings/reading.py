@@ -46,6 +46,9 @@ class ReadingSettings:
     start_bend: float = chosen(
         0.5, "-", "Part of the time missing before the first sample by which the bend of the stress may falsify it."
     )
+    start_intervals: float = chosen(
+        2.0, "intervals", "Time missing before the first sample up to which a trigger may have lost it."
+    )
     steady_rate: float = chosen(0.1, "-", "Relative scatter of a rate below which it is constant.")
     still_rate: float = chosen(0.05, "fastest rate", "Rate below which a record is held.")
     held_share: float = chosen(0.5, "duration", "Time at rest from which on a test is a hold.")

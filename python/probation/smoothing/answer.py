@@ -16,7 +16,7 @@ from probation.results.data import CURVE, Stored, WithCurves, from_curves
 from probation.results.rendering import Plotted, Result
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.differences import differences
-from probation.smoothing.excitation import Excitation, excite
+from probation.smoothing.excitation import Excitation, excite_each
 from probation.smoothing.necking import NeckingFit, fit_necking
 from probation.wording import percentage
 
@@ -285,10 +285,9 @@ def describe_excitation(
         For an unknown method, or one that does not describe a record.
     """
     described = []
-    for done, record in enumerate(records):
+    for done, (record, excitation) in enumerate(zip(records, excite_each(records, method), strict=True)):
         if progress:
-            progress(done, len(records), record.id)
-        excitation = excite(record, method)
+            progress(done + 1, len(records), record.id)
         necking = fit_necking(record.time, record.true_strain) if excitation.method.startswith("necking") else None
         described.append(RecordExcitation(record, excitation, necking))
     return ExcitationAnswer(source or ", ".join(record.id for record in records), tuple(described))

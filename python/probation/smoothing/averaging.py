@@ -5,6 +5,7 @@ A smoother that begins by taking the noise as white follows averaged noise, and 
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import comb
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,8 @@ from probation.records.noise import robust_deviation
 from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
     from probation._arrays import FloatArray
 
 PART = 16
@@ -25,34 +28,54 @@ ORDERS = (2, 4)
 """Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
 
 
-def averaged_inflation(values: FloatArray) -> float:
+def pooled_inflation(segments: Iterable[FloatArray]) -> float:
+    """How far slow averages of noise exceed white noise, of segments whose strains have one extensometer; 1 if unknown.
+
+    In some of them the curve hides an average that others show. The mean of those that tell, by their samples.
+    """
+    told = [(len(values), found) for values in segments if (found := averaged_inflation(values)) is not None]
+    samples = sum(count for count, _ in told)
+    return sum(count * found for count, found in told) / samples if samples else 1.0
+
+
+def segments_of(values: FloatArray, jumps: Sequence[int]) -> Iterator[FloatArray]:
+    """What lies between jumps of the slope, the samples at the jumps left out."""
+    for before, after in pairwise([-1, *jumps, len(values)]):
+        yield values[before + 1 : after]
+
+
+def averaged_inflation(values: FloatArray) -> float | None:
     r"""How far averaged noise exceeds white noise in slow averages: 1 + 2 sum of the autocorrelation, 1 if it is white.
 
     By second differences over lags k, whose variance is :math:`6\gamma_0 - 8\gamma_k + 2\gamma_{2k}`: constant for
     white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
-    the fourth power of k; where it does, or no level is reached, fourth differences may still tell.
+    the fourth power of k; where it does, or no level is reached, fourth differences may still tell. None if neither
+    does.
 
     Parameters
     ----------
     values : ndarray, shape (n,)
         At even intervals or nearly so, without a jump of the slope.
     """
-    return max(_by_differences(values, order) for order in ORDERS)
+    told = [found for order in ORDERS if (found := _by_differences(values, order)) is not None]
+    return max(told) if told else None
 
 
-def _by_differences(values: FloatArray, order: int) -> float:
+def _by_differences(values: FloatArray, order: int) -> float | None:
     most = min(SMOOTHING.longest_average, len(values) // (PART * order)) * BEYOND
+    if most < 2 * BEYOND:
+        return None
     weights = _autocorrelated(order)
     variance = np.array([_variance(values, lag, order) for lag in range(1, most + 1)])
-    if most < 2 * BEYOND or variance[0] == 0.0:
-        return 1.0
+    if variance[0] == 0.0:
+        return None
     for lag in range(1, most // BEYOND + 1):
         here = variance[lag - 1]
         if variance[2 * lag - 1] > SMOOTHING.rough * here:
-            return 1.0
+            return None
         if np.max(variance[lag - 1 : BEYOND * lag]) <= SMOOTHING.levelled * here:
             return _inflation(variance[: lag - 1], float(np.median(variance[lag - 1 : BEYOND * lag])), weights)
-    return 1.0
+    return None
 
 
 def _autocorrelated(order: int) -> FloatArray:

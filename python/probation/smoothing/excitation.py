@@ -18,6 +18,7 @@ from probation.law.refinement import fine_time, refine
 from probation.records.noise import noise_level
 from probation.results.data import CURVE, LEFT_OUT, WithCurves
 from probation.settings.smoothing import SMOOTHING
+from probation.smoothing.averaging import pooled_inflation, segments_of
 from probation.smoothing.differences import differences, differences_error
 from probation.smoothing.methods import DEFAULT, METHODS, SMOOTHERS, Method
 from probation.smoothing.operators import Operators
@@ -25,7 +26,7 @@ from probation.smoothing.segmented import smooth_segments
 from probation.smoothing.segments import find_jumps
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator, Sequence
 
     from probation.records.record import Record
 
@@ -192,47 +193,102 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
     InputError
         For an unknown method, or one that does not describe the record.
     """
+    return next(excite_each([record], method))
+
+
+def excite_each(
+    records: Sequence[Record], method: Method = "auto", *, beside: Sequence[Record] = ()
+) -> Iterator[Excitation]:
+    """Those of the records of one campaign, in their order.
+
+    Their strains have the same extensometer. All of them together tell how far it averages its noise: a segment in
+    which the curve hides an average would be followed too closely.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    method : str
+        As in `excite`.
+    beside : sequence of Record
+        Further ones of the campaign, which only tell of the extensometer.
+
+    Raises
+    ------
+    InputError
+        As in `excite`.
+    """
     one_of(method, "excitation", METHODS)
-    given = record.noise.strain
-    noise = given if given is not None else noise_level(record.time, record.true_strain)
-    jumps = find_jumps(record.time, record.true_strain, noise, record.true_stress)
-    automatic = method == "auto"
-    if automatic:
-        method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
-    if method == "raw":
-        return _as_measured(record, jumps, noise)
-    way = SMOOTHERS[method]
-    if jumps and not way.segmented:
-        raise InputError(
-            f"record {record.id!r}, excitation {method!r}: found a rate that jumps at "
-            f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use {DEFAULT!r}"
-        )
-    try:
-        smoothed = smooth_segments(
-            way.smooth, record.time, record.true_strain, jumps, noise, lagging=way.smooth_lagging
-        )
-    except InputError as error:
-        raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
-    if automatic and smoothed.noise > SMOOTHING.misses * max(noise, SMOOTHING.clean):
-        return _as_measured(record, jumps, noise)
-    # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
-    noise = smoothed.noise if given is None else noise
-    return Excitation(
-        time=record.time,
-        true_strain=smoothed.true_strain,
-        strain_rate=smoothed.strain_rate,
-        jumps=tuple(jumps),
-        direction=_direction(record, smoothed.true_strain, jumps, noise),
-        differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
-        strain_noise=float(noise),
-        method=method,
-        strain_se=noise * smoothed.strain_error,
-        rate_se=noise * smoothed.rate_error,
-        freedom=smoothed.freedom,
-        noise_inflation=smoothed.inflation,
-        operators=smoothed.operators,
-        errors=smoothed.errors,
+    measured = [_Measured.of(record, method) for record in (*records, *beside)]
+    smoothed = [each for each in measured if each.method != "raw"]
+    averaged = pooled_inflation(
+        segment for each in smoothed for segment in segments_of(each.record.true_strain, each.jumps)
     )
+    for each in measured[: len(records)]:
+        yield each.excitation(averaged, automatic=method == "auto")
+
+
+@dataclass(frozen=True, eq=False)
+class _Measured:
+    """The strain of a record before it is smoothed: its noise, its jumps, and the method, never "auto"."""
+
+    record: Record
+    noise: float
+    jumps: list[int]
+    method: Method
+
+    @classmethod
+    def of(cls, record: Record, method: Method) -> _Measured:
+        given = record.noise.strain
+        noise = given if given is not None else noise_level(record.time, record.true_strain)
+        jumps = find_jumps(record.time, record.true_strain, noise, record.true_stress)
+        if method == "auto":
+            method = DEFAULT if record.strain_rate is None and _rate_is_noisy(record, noise) else "raw"
+        return cls(record, noise, jumps, method)
+
+    def excitation(self, averaged: float, *, automatic: bool) -> Excitation:
+        """Smoothed where that is the method; `averaged` as in `smooth_segments`."""
+        record, noise, jumps, method = self.record, self.noise, self.jumps, self.method
+        if method == "raw":
+            return _as_measured(record, jumps, noise)
+        way = SMOOTHERS[method]
+        if jumps and not way.segmented:
+            raise InputError(
+                f"record {record.id!r}, excitation {method!r}: found a rate that jumps at "
+                f"{', '.join(f'{record.time[jump]:.4g}' for jump in jumps)} s, expected a smooth history; use "
+                f"{DEFAULT!r}"
+            )
+        try:
+            smoothed = smooth_segments(
+                way.smooth,
+                record.time,
+                record.true_strain,
+                jumps,
+                noise,
+                lagging=way.smooth_lagging,
+                averaged=averaged,
+            )
+        except InputError as error:
+            raise InputError(f"record {record.id!r}, excitation {method!r}: {error}") from None
+        if automatic and smoothed.noise > SMOOTHING.misses * max(noise, SMOOTHING.clean):
+            return _as_measured(record, jumps, noise)
+        # What the smoother leaves says more of the noise than neighbouring samples do: slow noise shows in it, too.
+        noise = smoothed.noise if record.noise.strain is None else noise
+        return Excitation(
+            time=record.time,
+            true_strain=smoothed.true_strain,
+            strain_rate=smoothed.strain_rate,
+            jumps=tuple(jumps),
+            direction=_direction(record, smoothed.true_strain, jumps, noise),
+            differentiator=way.title + (f", {len(jumps) + 1} segments between jumps" if jumps else ""),
+            strain_noise=float(noise),
+            method=method,
+            strain_se=noise * smoothed.strain_error,
+            rate_se=noise * smoothed.rate_error,
+            freedom=smoothed.freedom,
+            noise_inflation=smoothed.inflation,
+            operators=smoothed.operators,
+            errors=smoothed.errors,
+        )
 
 
 def _as_measured(record: Record, jumps: list[int], noise: float) -> Excitation:

@@ -38,17 +38,21 @@ NEIGHBOURHOOD = 0.05
 """Part of the samples over which the usual spacing is looked up."""
 
 
-def smooth_cubic(time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
+def smooth_cubic(
+    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+) -> Smoothed:
     """Smooth by a cubic spline that penalises the integral of the second derivative's square."""
-    return _smooth(time, true_strain, 2, lags)
+    return _smooth(time, true_strain, 2, lags, averaged)
 
 
-def smooth_quintic(time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
+def smooth_quintic(
+    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+) -> Smoothed:
     """Smooth by a quintic spline that penalises the integral of the third derivative's square.
 
     Unlike the cubic one it does not pull the rate's slope to zero at either end, nor its peaks down.
     """
-    return _smooth(time, true_strain, 3, lags)
+    return _smooth(time, true_strain, 3, lags, averaged)
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,23 +200,26 @@ class Score:
         return self.shrink(float(found.x))
 
 
-def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None) -> Smoothed:
+def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None, averaged: float) -> Smoothed:
     count = len(time)
     if count < 4 * order + 2:
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     most = count // 2  # more would leave functions near the ends that no sample determines
     knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
-    found = _with_knots(time, true_strain, order, knots, lags)
+    averaged = max(averaged, averaged_inflation(true_strain) or 1.0)
+    found = _with_knots(time, true_strain, order, knots, lags, averaged)
     while found.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
-        finer = _with_knots(time, true_strain, order, knots, lags)
+        finer = _with_knots(time, true_strain, order, knots, lags, averaged)
         if finer.noise > SMOOTHING.better * found.noise:
             break
         found = finer
     return found
 
 
-def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: int, lags: Transient | None) -> Smoothed:
+def _with_knots(
+    time: FloatArray, true_strain: FloatArray, order: int, knots: int, lags: Transient | None, averaged: float
+) -> Smoothed:
     """The smoothest spline whose cross-validation knows of the correlation that it leaves in the residual.
 
     The first round takes the noise as white, or as averaged where that shows beforehand. If it left a correlated
@@ -220,7 +227,7 @@ def _with_knots(time: FloatArray, true_strain: FloatArray, order: int, knots: in
     averages of that noise scatter more, and so on until both agree. Lags after a start are found with it.
     """
     basis = Basis.of(time, order, knots)
-    grown, taken, spent = averaged_inflation(true_strain), np.zeros_like(true_strain), 0.0
+    grown, taken, spent = averaged, np.zeros_like(true_strain), 0.0
     joint: WithTransient | None = None
     for turn in range(ROUNDS):
         score = Score(basis, true_strain - taken, SMOOTHING.prudence * grown)

@@ -28,6 +28,7 @@ def smooth_segments(
     noise: float,
     *,
     lagging: LaggingSmoother | None = None,
+    averaged: float = 1.0,
 ) -> Smoothed:
     """Smooth each segment by itself.
 
@@ -46,7 +47,12 @@ def smooth_segments(
         Standard deviation of the strain noise [-].
     lagging : LaggingSmoother, optional
         In place of `smoother` where the strain may lag behind its command at the start of a segment.
+    averaged : float
+        Inflation of the noise's variance in slow averages, as the records of the same extensometer show it together;
+        for a lagging smoother.
     """
+    if lagging is not None:
+        smoother = lagging = partial(lagging, averaged=averaged)
     borders = [0, *jumps, len(time) - 1]
     segments = [_Segment.of(smoother, time, true_strain, borders, at, lagging) for at in range(len(borders) - 1)]
     parts = [segment.smoothed for segment in segments]

@@ -71,10 +71,12 @@ class Smoother(Protocol):
 
 
 class LaggingSmoother(Smoother, Protocol):
-    """One that can tell lags after the start of the segment from its noise."""
+    """One that can tell lags after the start of the segment from its noise, also where that is averaged."""
 
-    def __call__(self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None) -> Smoothed:
-        """Smooth; `lags` at the same samples."""
+    def __call__(
+        self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+    ) -> Smoothed:
+        """Smooth; `lags` at the same samples, `averaged` the least inflation of the noise's variance."""
 
 
 def inflation(residual: FloatArray) -> float:
