@@ -10,7 +10,7 @@ import argparse
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from probation.diagnosis.calibration import Extent, extent_of
+from probation.diagnosis.calibration_check import Extent, extent_of
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.records.campaign import Campaign

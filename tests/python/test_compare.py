@@ -45,6 +45,21 @@ def test_nothing_has_changed_where_only_the_noise_is_another(march):
     assert verdicts == ["nothing_changed"] * 8
 
 
+def _waving(seed):
+    """The same with a wave of twice the noise, forty of it in every record, of a phase of its own."""
+    campaign, phase = made_up(seed), np.random.default_rng(100 + seed).uniform(0.0, 2.0 * np.pi)
+    records = [
+        replace(r, true_stress=r.true_stress + 0.04 * np.sin(80.0 * np.pi * r.time / r.time[-1] + phase))
+        for r in campaign.records
+    ]
+    return replace(campaign, records=tuple(records))
+
+
+def test_a_wave_that_both_campaigns_have_is_no_change():
+    """A frame's vibration has no phase: no test on lines is made."""
+    assert compare(_waving(2), _waving(1), threads=1).verdict == "nothing_changed"
+
+
 @pytest.mark.parametrize(
     ("fault", "size"),
     [

@@ -219,3 +219,26 @@ def test_the_readme_is_short_and_its_links_lead_somewhere():
     links = re.findall(r"\]\(([^)#:]+)", text)
     assert len(links) > 20
     assert [link for link in links if not (ROOT / link).exists()] == []
+
+
+def test_where_a_formula_stands_is_where_the_page_for_developers_says():
+    """Every file of its two tables is there, and every name of a row stands in one of the files of that row."""
+    page = (ROOT / "docs/developing.md").read_text(encoding="utf-8")
+    tables = page.split("### Where the statistics stands")[1].split("## Adding files")[0]
+    rows, lost = [line for line in tables.splitlines() if line.startswith("| ")], []
+    for row in rows:
+        said = re.findall(r"`([^`]+)`", row)
+        paths = [name for name in said if "/" in name or name.endswith((".py", ".hpp", ".cpp", ".md"))]
+        roots = (ROOT, *PACKAGES, ROOT / "cpp/include/probation")
+        files = {path: next((root / path for root in roots if (root / path).exists()), None) for path in paths}
+        lost += [path for path, file in files.items() if file is None]
+        text = "".join(
+            part.read_text(encoding="utf-8")
+            for file in files.values()
+            if file is not None
+            for part in (sorted(file.glob("*.*")) if file.is_dir() else [file])
+            if part.is_file()
+        )
+        lost += [name for name in said if name not in paths and not re.search(rf"\b{re.escape(name)}\b", text)]
+    assert len(rows) > 25
+    assert lost == []

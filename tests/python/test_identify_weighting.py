@@ -26,6 +26,7 @@ from probation.noise.model import NoiseModel
 from probation.noise.white_level import white_level
 from probation.published.experiments import experiment_3
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 
 fit = partial(probation.fit, gap=False)  # the gap has its own tests
@@ -191,7 +192,7 @@ def test_long_records_have_their_strain_noise_drawn_again(monkeypatch):
     """The same standard error of G as by the matrix, to the 20 % that 12 draws leave (three times that)."""
     campaign = Campaign("x", (ramp_record(strain_noise=1e-4),))
     whole = fit(campaign, "sa3")
-    monkeypatch.setattr(weighting_module, "LARGEST", 100)
+    monkeypatch.setattr(weighting_module, "NOISE", replace(NOISE, most_with_strain_noise=100))
     monkeypatch.setattr(strain_noise_module, "CERTIFICATE", replace(CERTIFICATE, strain_draws=12))
     drawn = fit(campaign, "sa3")
     assert drawn.weighting == "plain, strain noise resampled"

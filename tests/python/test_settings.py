@@ -1,5 +1,6 @@
 """Constants of the statistics stand in one place, each with what a reader wants to know of it."""
 
+import ast
 import dataclasses
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import pytest
 from probation.settings.page import GROUPS, modules_by_setting, settings_page
 
 ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "python" / "probation"
 
 
 @pytest.mark.parametrize("name", GROUPS)
@@ -35,3 +37,184 @@ def test_settings_are_frozen(name):
 def test_the_page_of_settings_is_what_they_say():
     """Else: ``python -m probation.settings.page > docs/settings.md``."""
     assert (ROOT / "docs/settings.md").read_text(encoding="utf-8") == settings_page()
+
+
+STATISTICS = (
+    *("noise", "detection", "smoothing", "effects", "inference", "design"),
+    *("identify", "certificate", "calibration", "diagnosis", "comparison"),
+)
+"""Rooms whose constants stand in the settings. Priors of effects stand in their catalogue, each with its reason."""
+
+NUMERICAL = {
+    "noise/arma.py": {"LEAST_WEIGHT", "START_UP", "_EDGES", "GRID", "REFINED"},
+    "noise/drift.py": {"SIZES", "BIASES"},
+    "noise/joint_noise.py": {"LEAST_SEEN"},
+    "noise/local_noise.py": {"MEMORY"},
+    "noise/local_size.py": {"MEDIAN_OF_NORMAL"},
+    "noise/span.py": {"DEPENDENT", "HARDLY_NEW"},
+    "noise/white_level.py": {"LEAST", "MOST", "FINE"},
+    "noise/whitener.py": {"LEAST_SHARED"},
+    "detection/gap_test.py": {"ABSORBED"},
+    "detection/strain_periodic.py": {"FINE", "GRID"},
+    "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},
+    "smoothing/averaging.py": {"PART", "BEYOND", "ORDERS"},
+    "smoothing/comparison.py": {"NOISES", "DRAWS", "AIM"},
+    "smoothing/known_histories.py": {"SAMPLES", "_SLOW", "_FAST", "_DURATION", "_JUMP"},
+    "smoothing/necking.py": {"REFINED"},
+    "smoothing/penalised_spline.py": {
+        *("FEWEST_KNOTS", "MOST_KNOTS", "ALL_KNOTS", "LEAST_TURNS", "COARSE", "TRENDS", "WANDERS", "NEIGHBOURHOOD")
+    },
+    "smoothing/savitzky_golay.py": {"WINDOWS", "EVEN", "AT_ONCE"},
+    "smoothing/smoothed.py": {"ROUNDS"},
+    "effects/coordinate.py": {"NEARLY"},
+    "effects/maxwell_element.py": {"LONGEST"},
+    "effects/record_view.py": {"_MOVING"},
+    "effects/relaxation_spectra.py": {"_ANGLES"},
+    "inference/base_fit.py": {"ROUNDS", "MOST_STEPS", "SETTLED"},
+    "inference/callable_law.py": {"_STEP"},
+    "inference/deviations.py": {"_STEP"},
+    "inference/discrepancy.py": {"DEPENDENT"},
+    "inference/information.py": {"SINGULAR"},
+    "inference/laplace.py": {"UNKNOWN"},
+    "inference/least_squares.py": {"FIRST_DAMPING", "LEAST_DAMPING", "MOST_DAMPING", "ALL_DIGITS"},
+    "inference/modal_law.py": {"_BOUNDS"},
+    "inference/model.py": {"_PROBE", "_PARABOLA"},
+    "inference/moving_noise.py": {"KEPT"},
+    "inference/own_force.py": {
+        *("MOST_STEPS", "MOST_DIRECTIONS", "PARTS", "LOOK", "SETTLED", "ROUGHLY", "GOOD_ENOUGH", "ROUGHEST", "FINEST"),
+        *("PATIENCE", "HOPELESS", "PROBE"),
+    },
+    "inference/propagated.py": {"ROUNDING", "STRAIN_STEP"},
+    "inference/refit.py": {"MOST_STEPS"},
+    "inference/scalar_minimum.py": {"GOLDEN", "MOST_CALLS"},
+    "inference/scatter.py": {"FIRST_STEP", "ACCEPTED", "ADAPTED"},
+    "inference/strain_noise.py": {"_SPARE", "_PER_FREEDOM", "_STEP"},
+    "design/effect_design.py": {"NOTHING", "CLOSE", "_REFINED"},
+    "design/effect_signals.py": {"_SMALLER", "_ATTEMPTS"},
+    "design/isolability_result.py": {"_NAMED"},
+    "design/planned_tests.py": {"_HOURS", "_TURNS", "_SETTLED"},
+    "design/predicted.py": {"_LOOSE"},
+    "design/rivalry.py": {"_HALVINGS"},
+    "identify/base_law.py": {"START"},
+    "identify/coverage.py": {"TRUTH", "STRAIN_RATE", "END_STRAIN", "SAMPLES", "CASES"},
+    "identify/draws.py": {"ROUNDS"},
+    "identify/ends.py": {"BEYOND"},
+    "identify/fit.py": {"PARAMETERS"},
+    "identify/profile.py": {"FIRST_STEP", "FARTHEST", "MOST_POINTS", "FINE_ENOUGH"},
+    "identify/scheme_error.py": {"ENOUGH_INSTANTS"},
+    "identify/search.py": {"FINE", "LONGEST_STEP", "ZERO"},
+    "identify/variable_projection.py": {"POINTS", "NEARBY", "EDGE"},
+    "identify/weighting.py": {"SMALL_STEP", "ROUGH_STEP"},
+    "certificate/bias.py": {"LENGTHS", "RATIOS"},
+    "certificate/trial.py": {"LATE", "PARAMETERS"},
+    "calibration/cross_validation.py": {"SMALLEST_REPORTED"},
+    "calibration/direct.py": {"FINE", "MOST_STEPS", "LONGEST_STEP"},
+    "calibration/paper_relations.py": {"PRINTED_ALPHAS", "EXPERIMENT_1", "_HELD_MODULUS"},
+    "calibration/regression.py": {"_MOST_ROUNDS", "FINE"},
+    "calibration/table_2.py": {"TABLE_2", "PRINTED_WEISSENBERG", "FICTITIOUS_ERROR"},
+    "diagnosis/free_function.py": {"POINTS", "SMALLEST_STRESS"},
+    "diagnosis/headline.py": {"MOST_RIVALS"},
+    "diagnosis/search.py": {"_USUAL"},
+    "comparison/measured_law.py": {"ROUNDING", "TINY"},
+}
+"""Constants of modules: steps, grids and ends of numerical methods, rounding, closed forms, histories, words."""
+
+IN_FUNCTIONS = {
+    "noise/arma.py": {256},  # a cache
+    "noise/local_noise.py": {6.0},  # second differences of white noise
+    "noise/local_size.py": {1e-3},  # the logarithm of nothing
+    "noise/moving_parabola.py": {5.0},  # Savitzky and Golay's weights
+    "noise/outliers.py": {0.9},  # the quantile of UPPER_95
+    "noise/quantisation.py": {4.0**power for power in range(2, 7)} | {12.0},  # reaches; variance of a uniform variable
+    "noise/segments.py": {256},  # a cache
+    "detection/lines_and_steps.py": {1e-3, 6.0, 256},  # even samples; Student's kurtosis; a batch
+    "detection/strain_periodic.py": {1.38},  # see its docstring
+    "smoothing/answer.py": {0.95},
+    "smoothing/comparison.py": {0.95},
+    "smoothing/excitation.py": {26.0},  # three-point differences
+    "smoothing/known_histories.py": {0.07, 0.42, 0.35, 1.1, 0.8, 420, 495, 1000, 1075},
+    "smoothing/necking.py": {0.25, 1e-5, 8.0, 12.0, 30.0, 0.1, 0.4},  # a step, bounds and starts of (A-1)
+    "smoothing/penalised_spline.py": {1e-3, 1e5, 0.01, 1.02},  # ends and precision of its search
+    "smoothing/savitzky_golay.py": {1.02},
+    "smoothing/segmented.py": {6.0},  # half of a sampling interval, uniform
+    "smoothing/sines.py": {0.98, 60},
+    "effects/coordinate.py": {10.0},
+    "effects/effect.py": {1e-4, 1e-5},  # steps of difference quotients
+    "effects/large_faults.py": {0.9},  # bounds of a gain
+    "effects/record_view.py": {1e-3},
+    "effects/relaxation_spectra.py": {50.0},
+    "inference/callable_law.py": {1000.0, 10.0, 1e7, 1e9},  # an example
+    "inference/information.py": {0.975},
+    "inference/least_squares.py": {5.0, 10.0},  # damping
+    "inference/scatter.py": {0.025, 0.975},
+    "design/effect_design.py": {1.01},
+    "design/next_test.py": {1800.0, 0.99},  # half an hour; words
+    "design/planned_tests.py": {60.0, 120.0, 7200.0},  # words for times
+    "design/rivalry.py": {1.01},
+    "identify/covariance.py": {0.975},
+    "identify/coverage.py": {0.04, 6.0, 10.0, 49.0, 50, 51, 97, 1000},  # the study's noise and eq. (4); seeds and draws
+    "identify/describe.py": {0.975},
+    "identify/profile.py": {0.1, 0.07},  # steps of the walk
+    "identify/result.py": {0.95, 1000},  # defaults that a caller sees
+    "identify/scattered.py": {0.975},
+    "identify/search.py": {1000.0, 4000},
+    "identify/substeps.py": {1e6},
+    "identify/variable_projection.py": {1e-3},
+    "calibration/calibrate.py": {1e-3, 0.6, 0.2},  # starts
+    "calibration/companion_forms.py": {1000.0},  # eq. (12)
+    "calibration/cross_validation.py": {0.1, 0.0005},  # digits
+    "calibration/direct.py": {1.01, 200.0},
+    "calibration/record_fits.py": {50.0},  # the median; rounds
+    "calibration/result.py": {0.975},
+    "diagnosis/calibration_check.py": {10.0},  # digits
+    "comparison/measured_law.py": {40},  # finer intervals than any record has
+}
+"""Numbers in functions that have no say in an answer, or belong to a formula."""
+
+FORMULAS = {0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 100.0}
+
+
+def _sources():
+    for room in STATISTICS:
+        for path in sorted((PACKAGE / room).rglob("*.py")):
+            if "catalogue" not in path.parts:
+                yield path.relative_to(PACKAGE).as_posix(), ast.parse(path.read_text(encoding="utf-8"))
+
+
+def _numbers(node):
+    """Literals outside texts, outside what is said of progress, and outside bounds and priors with a reason."""
+    said = isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) in {
+        *("advance", "done", "progress", "Part", "_begin", "EffectParameter")
+    }
+    if isinstance(node, ast.Constant) and type(node.value) in {int, float}:
+        yield node.value
+    elif not said and not isinstance(node, ast.JoinedStr):
+        for child in ast.iter_child_nodes(node):
+            yield from _numbers(child)
+
+
+def test_a_constant_of_the_statistics_stands_in_the_settings():
+    found = {}
+    for path, tree in _sources():
+        for statement in tree.body:
+            if isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
+                targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+                if any(number not in {0, 1} for number in _numbers(statement.value)):
+                    names = {name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name)}
+                    found.setdefault(path, set()).update(names)
+    assert found == NUMERICAL
+
+
+def test_no_number_in_a_function_has_a_say_of_its_own():
+    """Not above rounding, no small count, no factor of a formula: it would be a setting."""
+    found = {}
+    for path, tree in _sources():
+        for statement in tree.body:
+            if isinstance(statement, ast.FunctionDef | ast.ClassDef):
+                own = {
+                    number
+                    for number in map(abs, _numbers(statement))
+                    if number > (1e-6 if type(number) is float else 10) and number not in FORMULAS
+                }
+                found[path] = found.get(path, set()) | own
+    assert {path: numbers for path, numbers in found.items() if numbers} == IN_FUNCTIONS

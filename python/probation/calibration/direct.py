@@ -140,10 +140,11 @@ class DirectProblem:
         return 1 if self.hardening == "shared" else len(self.views)
 
     def time_bounds(self) -> tuple[float, float]:
-        """Relaxation times worth searching [s]: below, E_u of a constant tau_max grows without end."""
+        """Relaxation times worth searching [s]."""
         steps = min(float(np.min(np.diff(view.time))) for view in self.views)
         longest = max(float(np.ptp(view.time)) for view in self.views)
-        return 0.1 * steps, 1e3 * longest
+        low, high = COMPANION.searched_times
+        return low * steps, high * longest
 
     def law(self, relation: Companion, modulus: float, hardening: float) -> Law:
         """The law with alpha = 1."""

@@ -84,7 +84,8 @@ class RecordFits:
 def record_rate(record: Record, excitation: Excitation) -> RecordRate:
     """The median and the spread of a record's strain rate, as the law sees it."""
     rate = np.abs(excitation.rate)
-    slow, middle, fast = np.percentile(rate, [5.0, 50.0, 95.0]).tolist()
+    low, high = COMPANION.rate_ends
+    slow, middle, fast = np.percentile(rate, [low, 50.0, high]).tolist()
     if not middle > 0.0:
         raise InputError(f"record {record.id!r}: found a strain that hardly moves, expected a test at some strain rate")
     return RecordRate(record.id, middle, slow, fast)

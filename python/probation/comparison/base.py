@@ -148,6 +148,6 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
         alike=alike,
         noises_of=noises_of,
         other_starts=(law.start,) if law.errs else (),
-        screened_starts=(law.start,) if law.errs else (),
+        screens_other_starts=True,
         periodic=False,  # teeth of a spindle are in both campaigns, at other strains
     )

@@ -102,6 +102,7 @@ def compare(
     changes = visible(known, base.model.views)
     base = base.screened(changes, workers, skipping.screened)
     advance(Part(0.2, "testing for a change"))
+    # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
     test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
     causes = causes_of(
         base,

@@ -28,22 +28,10 @@ if TYPE_CHECKING:
     from probation.law.modification import Modification
 
 
-GRADED, SHRINK = 3, 0.7
-"""Intervals at the start of a branch that get finer towards it, by this factor: onsets are steep."""
-
-BEYOND = 1e-9
-"""Rounding, by which a way may be longer than the reference's."""
+ROUNDING = 1e-9
+"""By which a way may be longer than the reference's."""
 
 TINY = 1e-300
-
-FARTHEST = 3.0
-"""Standard deviations up to which the law's answer to another history may err."""
-
-BEYOND_ORDERS = 3
-"""A constant, a line and a parabola."""
-
-LEAST_SAMPLES, LEAST_AT_START = 4, 1.5
-"""Samples per interval."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +96,12 @@ def followed(time: FloatArray) -> FloatArray:
     from scipy.interpolate import BSpline  # noqa: PLC0415 - slow to load
 
     count = len(time)
-    intervals = max(min(COMPARISON.branch_intervals, count // LEAST_SAMPLES), 1)
+    intervals = max(min(COMPARISON.branch_intervals, count // COMPARISON.samples_per_interval), 1)
     inner = np.arange(1, intervals) / intervals
-    if intervals > GRADED:
-        finest = LEAST_AT_START / (count - 1) / (1.0 - SHRINK)
-        graded = (GRADED / intervals) * SHRINK ** np.arange(1, 40)
-        inner = np.concatenate([graded[graded > finest][::-1], inner[GRADED - 1 :]])
+    if intervals > COMPARISON.graded_intervals:
+        finest = COMPARISON.samples_at_start / (count - 1) / (1.0 - COMPARISON.grading)
+        graded = (COMPARISON.graded_intervals / intervals) * COMPARISON.grading ** np.arange(1, 40)
+        inner = np.concatenate([graded[graded > finest][::-1], inner[COMPARISON.graded_intervals - 1 :]])
     place = (time - time[0]) / (time[-1] - time[0])
     knots = np.concatenate([np.zeros(4), inner, np.ones(4)])
     design = BSpline.design_matrix(place, knots, 3).toarray()
@@ -164,7 +152,7 @@ class MeasuredLaw(WrappedLaw):
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Lower and upper bounds, each of shape (n_parameters,)."""
         lower, upper = self.law.bounds
-        own = np.full(int(self.errs), FARTHEST)
+        own = np.full(int(self.errs), COMPARISON.farthest_answer)
         return np.append(lower, -own), np.append(upper, own)
 
     @property
@@ -202,7 +190,7 @@ class MeasuredLaw(WrappedLaw):
         for each in references:
             for part, branch in _paired(view, each):
                 way = _way(view, part, branch)
-                inside = way <= branch.progress[-1] * (1.0 + BEYOND)
+                inside = way <= branch.progress[-1] * (1.0 + ROUNDING)
                 total[part] += inside * (stress[part] - np.interp(way, branch.progress, branch.stress))
         return total / len(references)
 
@@ -231,13 +219,13 @@ class MeasuredLaw(WrappedLaw):
         """
         found = []
         for each in self.references[view.id]:
-            columns = np.zeros((len(view), BEYOND_ORDERS * len(each)))
+            columns = np.zeros((len(view), COMPARISON.beyond_reference * len(each)))
             for index, (part, branch) in enumerate(_paired(view, each)):
                 end = max(float(branch.progress[-1]), TINY)
-                far = np.maximum(progress(view, part) / end - 1.0 - BEYOND, 0.0)[:, None]
+                far = np.maximum(progress(view, part) / end - 1.0 - ROUNDING, 0.0)[:, None]
                 size = float(np.max(np.abs(branch.missing))) / len(self.references[view.id])
-                own = slice(BEYOND_ORDERS * index, BEYOND_ORDERS * (index + 1))
-                columns[part, own] = size * (far > 0.0) * far ** np.arange(BEYOND_ORDERS)
+                own = slice(COMPARISON.beyond_reference * index, COMPARISON.beyond_reference * (index + 1))
+                columns[part, own] = size * (far > 0.0) * far ** np.arange(COMPARISON.beyond_reference)
             found.append(columns[:, columns.any(axis=0)])
         return found
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from probation.errors import InputError
 from probation.histories.imposed import ImposedHistory
-from probation.inference.strain_noise import LARGEST, StrainNoise
+from probation.inference.strain_noise import StrainNoise
 from probation.law.creep import creep
 from probation.records.record import Noise, Record
 from probation.settings.design import DESIGN
+from probation.settings.noise import NOISE
 from probation.smoothing.excitation import excite
 from probation.smoothing.operators import Operators
 
@@ -96,9 +97,10 @@ def planned_excitation(record: Record, rng: np.random.Generator) -> Excitation:
     deviation = record.noise.strain
     if not deviation:
         return excite(record)
-    if len(record) > LARGEST:
+    if len(record) > NOISE.most_with_strain_noise:
         raise InputError(
-            f"record {record.id!r}: found {len(record)} samples, expected at most {LARGEST} where strain_noise is "
+            f"record {record.id!r}: found {len(record)} samples, "
+            f"expected at most {NOISE.most_with_strain_noise} where strain_noise is "
             "given; use fewer samples"
         )
     noise = deviation * rng.standard_normal((DESIGN.strain_draws, len(record)))

@@ -25,14 +25,9 @@ if TYPE_CHECKING:
     from probation.inference.model import CampaignModel
     from probation.law.modal import Law
 
-DECADE = 10.0
-
-
-_FEWEST, _MOST = 200, 1000
 _HOURS = 180
 """Minutes from which on a cost is said in hours."""
 _TURNS, _SETTLED = 20, 1e-3
-_LOADING_SAMPLES = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,14 +136,14 @@ class Laboratory:
         strain = max(float(np.max(view.recorded_strain)) for view in model.views)
         if not rates or not strain > 0.0:
             raise InputError("next test: found no record that is stretched, expected one at least")
-        samples = int(np.clip(np.median([len(view.data) for view in model.views]), _FEWEST, _MOST))
+        samples = int(np.clip(np.median([len(view.data) for view in model.views]), *DESIGN.planned_samples))
         slowest, fastest = min(rates), max(rates)
         return cls(model, parameters, slowest, fastest, float(np.sqrt(slowest * fastest)), strain, samples)
 
     @property
     def contrast(self) -> tuple[float, float]:
         """A low and a high rate, a decade apart or as far as the records are [1/s]."""
-        widened = max(self.fastest / self.slowest, DECADE) ** 0.5
+        widened = max(self.fastest / self.slowest, DESIGN.rate_contrast) ** 0.5
         return self.usual / widened, self.usual * widened
 
     def legs(
@@ -197,8 +192,8 @@ def repeats(lab: Laboratory) -> list[PlannedTest]:
 
 def other_rates(lab: Laboratory) -> list[PlannedTest]:
     """Ramps half a decade and a decade beyond the rates used: the law is not known there, which counts as effort."""
-    rates = [lab.slowest / factor for factor in (np.sqrt(DECADE), DECADE)]
-    rates += [lab.fastest * factor for factor in (np.sqrt(DECADE), DECADE)]
+    rates = [lab.slowest / factor for factor in (np.sqrt(DESIGN.rate_contrast), DESIGN.rate_contrast)]
+    rates += [lab.fastest * factor for factor in (np.sqrt(DESIGN.rate_contrast), DESIGN.rate_contrast)]
     return [
         lab.legs(
             "faster_ramp" if rate > lab.usual else "slower_ramp",
@@ -234,14 +229,14 @@ def dwells(lab: Laboratory) -> list[PlannedTest]:
             (half, hold),
             (lab.strain, loading),
         )
-        for hold in (loading, DECADE * loading)
+        for hold in (loading, DESIGN.rate_contrast * loading)
     ]
 
 
 def unloading(lab: Laboratory) -> list[PlannedTest]:
     """Back to no load (to less, the specimen buckles) and up again, from half way and from just behind yield."""
     found = []
-    for top in (0.5 * lab.strain, min(DESIGN.yield_strain, 0.25 * lab.strain)):
+    for top in (0.5 * lab.strain, min(DESIGN.yield_strain, DESIGN.early_unloading * lab.strain)):
         down = lab.legs("down", "", (top, top / lab.usual), (0.0, top / lab.usual))
         pressed = (np.arange(len(down.time)) > down.jumps[0]) & (lab.stress(down) <= 0.0)
         turn = float(down.true_strain[int(np.argmax(pressed))]) if pressed.any() else 0.0
@@ -271,15 +266,19 @@ def dead_weight(lab: Laboratory) -> list[PlannedTest]:
     end = f"to a true strain of {strain[-1]:.2g}"
     summary = f"{what} {end} ({_time(longest)}, {len(time)} samples, dense at first)"
     return [
-        PlannedTest("dead_weight", summary, time, strain, (_LOADING_SAMPLES,), preparation=2.0 * DESIGN.specimen_effort)
+        PlannedTest(
+            "dead_weight", summary, time, strain, (DESIGN.loading_samples,), preparation=2.0 * DESIGN.specimen_effort
+        )
     ]
 
 
 def _hanging(law: Law, nominal: float, longest: float, samples: int) -> tuple[FloatArray, FloatArray]:
     """Time [s] and true strain under a constant force over the initial section [MPa], each of shape (n_samples,)."""
-    put_on = min(DESIGN.loading_time, longest / 50.0)
-    later = put_on + np.geomspace(put_on / _LOADING_SAMPLES, longest - put_on, samples - _LOADING_SAMPLES - 1)
-    time = np.append(np.linspace(0.0, put_on, _LOADING_SAMPLES + 1), later)
+    put_on = min(DESIGN.loading_time, longest / DESIGN.loading_one_in)
+    later = put_on + np.geomspace(
+        put_on / DESIGN.loading_samples, longest - put_on, samples - DESIGN.loading_samples - 1
+    )
+    time = np.append(np.linspace(0.0, put_on, DESIGN.loading_samples + 1), later)
     force = nominal * np.minimum(time / put_on, 1.0)
     strain = np.zeros(len(time))
     for _ in range(_TURNS):  # true stress = force over the section that there is

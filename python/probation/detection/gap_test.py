@@ -148,7 +148,7 @@ class GapTester:
         self._effective = 1.0
         if self._effects:
             largest = np.sort(np.max(np.abs(products[:, self._effect_slice]), axis=1))[::-1]
-            rank = max(size // 100, 1)
+            rank = max(size // DETECTION.effective_one_in, 1)
             single = float(2.0 * normal_tail(largest[rank - 1], self._spread))
             self._effective = max(np.log1p(-rank / size) / np.log1p(-single), 1.0)
         self._drawn = self._smallest(products)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.tail import family_p_value, normal_tail, student_tail
+from probation.detection.tail import family_p_value, normal_tail, smallest_of_many, student_tail
 from probation.noise.smooth_basis import smooth_basis
 from probation.settings.detection import DETECTION
 
@@ -16,9 +16,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
-
-
-OVERSAMPLING = 2
 
 
 @dataclass(frozen=True)
@@ -76,14 +73,14 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
     found = []
     for index, record in enumerate(whitened.records):
         count = len(record)
-        if count < 8 * DETECTION.slowest_line:
+        if count < DETECTION.fewest_for_lines * DETECTION.slowest_line:
             continue
         left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         duration = float(record.time[-1] - record.time[0]) * count / (count - 1)
         # By sample: where samples are uneven, so is their phase; the exact sums are then taken in time.
-        frequency = np.arange(OVERSAMPLING * DETECTION.slowest_line // 2, OVERSAMPLING * count // 2) / (
-            OVERSAMPLING * duration
-        )
+        frequency = np.arange(
+            DETECTION.oversampling * DETECTION.slowest_line // 2, DETECTION.oversampling * count // 2
+        ) / (DETECTION.oversampling * duration)
         power = _power(record.time, left, frequency, duration)
         level = np.maximum(running_median(power, DETECTION.line_neighbours) / np.log(2.0), 1.0)
         for column in speed_wander_in(whitened, index, white).T:
@@ -94,12 +91,12 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         wave = 2.0 * np.pi * frequency[best] * record.time
         columns = whitened.noises[index].whiten(np.column_stack([np.cos(wave), np.sin(wave)]))
         parts = np.linalg.lstsq(columns - white @ (white.T @ columns), left, rcond=None)[0]
-        p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
+        p_value = smallest_of_many(single, tried)
         found.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
     return tuple(sorted(found, key=lambda line: line.p_value))
 
 
-def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[Step, ...]:
+def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: int = 0) -> tuple[Step, ...]:
     """The strongest step of every record by a matched filter, by p-value (docs/diagnosis-method.md, section 3).
 
     What a step leaves after slow waves, fades and the record's own refit are projected out is compared with what the
@@ -116,7 +113,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
     found = []
     for index, record in enumerate(whitened.records):
         count = len(record)
-        if count < 4 * DETECTION.slowest_line:
+        if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
             continue
         left, white = left_by_slow_waves(whitened, index, None)
         stride = -(-count // DETECTION.step_candidates)
@@ -145,7 +142,7 @@ def find_steps(whitened: Whitened, *, size: int = 2000, seed: int = 0) -> tuple[
         # The finer instants that only the best place is given: each is nearly one of the coarse ones.
         single = max(float(normal_tail(abs(score), spread)), float(student_tail(abs(score), freedom)))
         family = float(family_p_value(single, normal_tail(drawn, spread)))
-        p_value = float(-np.expm1(len(whitened.records) * np.log1p(-min(family, 1.0 - 1e-15))))
+        p_value = smallest_of_many(family, len(whitened.records))
         place = int(near[at])
         found.append(
             Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
@@ -221,8 +218,10 @@ def _power(time: FloatArray, values: FloatArray, frequency: FloatArray, duration
     count = len(values)
     if np.ptp(np.diff(time)) >= 1e-3 * duration / count:
         return uneven_power(time, values, frequency)
-    first = OVERSAMPLING * DETECTION.slowest_line // 2
-    return np.asarray(np.abs(np.fft.rfft(values, OVERSAMPLING * count)) ** 2 / count)[first : first + len(frequency)]
+    first = DETECTION.oversampling * DETECTION.slowest_line // 2
+    return np.asarray(np.abs(np.fft.rfft(values, DETECTION.oversampling * count)) ** 2 / count)[
+        first : first + len(frequency)
+    ]
 
 
 def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:

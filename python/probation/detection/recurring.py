@@ -9,6 +9,7 @@ import numpy as np
 from scipy.special import stdtr
 
 from probation.detection.lines_and_steps import left_by_slow_waves
+from probation.detection.tail import smallest_of_many
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
         shares = {
             record.name: share
             for index, record in enumerate(whitened.records)
-            if len(record) >= 8 * DETECTION.slowest_line
+            if len(record) >= DETECTION.fewest_for_lines * DETECTION.slowest_line
             and (share := _share(whitened, index, places, width)) is not None
         }
         reached = np.sum([share.seen for share in shares.values()], axis=0)
@@ -122,6 +123,6 @@ def _strongest(shares: Mapping[str, _Share], places: FloatArray, shared: NDArray
     size = product / np.sqrt(sum(float(share.overlap[at, at]) for share in others)) / noise
     single = 2.0 * float(stdtr(max(freedom - 1.0, 1.0), -max(size, 0.0)))
     tried = len(DETECTION.bump_widths) * len(shared)
-    p_value = float(-np.expm1(tried * np.log1p(-min(single, 1.0 - 1e-15))))
+    p_value = smallest_of_many(single, tried)
     names = tuple(name for name, share in shares.items() if share.seen[at])
     return Recurring(float(places[at]), names, p_value)

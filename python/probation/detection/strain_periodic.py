@@ -15,6 +15,7 @@ from scipy.fft import next_fast_len, rfft
 from scipy.special import gammaincc
 
 from probation.detection.lines_and_steps import left_by_slow_waves, running_median, speed_wander_in
+from probation.detection.tail import smallest_of_many
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
@@ -22,9 +23,8 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 
-OVERSAMPLING = 2
 FINE = 4
-"""Frequencies per natural spacing that are tried, at the highest harmonic, and at which power is known."""
+"""Frequencies per natural spacing at which power is known."""
 
 
 GRID = 16
@@ -78,7 +78,8 @@ def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
     spectra = [
         _Spectrum.of(whitened, index, longest)
         for index, record in enumerate(whitened.records)
-        if len(record) >= 8 * DETECTION.slowest_line and float(np.ptp(record.true_strain)) > 0.3 * longest > 0.0
+        if len(record) >= DETECTION.fewest_for_lines * DETECTION.slowest_line
+        and float(np.ptp(record.true_strain)) > DETECTION.least_strain_share * longest > 0.0
     ]
     if not spectra:
         return ()
@@ -86,7 +87,7 @@ def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
     families = len(DETECTION.harmonics) * (len(spectra) + 1)
     best: dict[str | None, StrainPeriodic] = {}
     for harmonics in DETECTION.harmonics:
-        step = OVERSAMPLING * harmonics
+        step = DETECTION.oversampling * harmonics
         frequency = np.arange(step * DETECTION.slowest_line // 2, step * most // DETECTION.shortest_strain_period) / (
             step * longest
         )
@@ -171,7 +172,7 @@ class _Spectrum:
         spacing = 1.0 / (FINE * longest)
         count = int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
         power = _power(record.true_strain, left, spacing, count)
-        level = running_median(power, DETECTION.line_neighbours * FINE // OVERSAMPLING) / np.log(2.0)
+        level = running_median(power, DETECTION.line_neighbours * FINE // DETECTION.oversampling) / np.log(2.0)
         level = np.maximum(level, 1.0)
         for column in speed_wander_in(whitened, index, white).T:
             level += _power(record.true_strain, column, spacing, count)
@@ -221,6 +222,6 @@ def _strongest(
         return None
     chances = gammaincc(terms[tried], power[tried])
     best = int(np.argmin(chances))
-    p_value = float(-np.expm1(tried.size * families * np.log1p(-min(float(chances[best]), 1.0 - 1e-15))))
+    p_value = smallest_of_many(float(chances[best]), tried.size * families)
     at = tried[best]
     return StrainPeriodic(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)

@@ -67,3 +67,8 @@ def family_p_value(observed: FloatArray | float, drawn: FloatArray) -> FloatArra
     border = max(float(ordered[enough - 1]), 1e-300)
     continued = enough / size * np.minimum(values / border, 1.0)
     return np.asarray(np.where(below >= enough, (below + 1.0) / (size + 1.0), continued), dtype=np.float64)
+
+
+def smallest_of_many(p_value: float, count: float) -> float:
+    """P(min p <= p_value) of so many independent p-values (Sidak)."""
+    return float(-np.expm1(count * np.log1p(-min(p_value, 1.0 - 1e-15))))

@@ -98,7 +98,9 @@ class Where:
         return tuple(sorted((r for r in self.regions if r.kind == kind), key=lambda r: (r.p_value, -r.statistic)))
 
 
-def locate(whitened: Whitened, *, level: float = DETECTION.region_level, size: int = 2000, seed: int = 0) -> Where:
+def locate(
+    whitened: Whitened, *, level: float = DETECTION.region_level, size: int = DETECTION.region_draws, seed: int = 0
+) -> Where:
     """Look for the gap region by region (docs/diagnosis-method.md, section 3).
 
     Partitions: every record in nested intervals of time; all records together by strain, rate and phase. In each region

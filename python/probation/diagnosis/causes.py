@@ -126,7 +126,7 @@ def causes_of(
     progress : callable
         Called with the fraction done.
     power : float
-        Of the evidence: `Calibration.power`.
+        Of the evidence: `CalibrationCheck.power`.
     """
     considered = tuple(considered)
     if not gap:

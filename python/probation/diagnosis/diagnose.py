@@ -13,7 +13,7 @@ from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import Budget
-from probation.diagnosis.calibration import calibration_of
+from probation.diagnosis.calibration_check import check_calibration
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline, with_remainder
@@ -38,6 +38,7 @@ from probation.noise.whitening import Whitened
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
+from probation.settings.noise import NOISE
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
@@ -140,7 +141,7 @@ def diagnose(
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
-    calibration = calibration_of(campaign, base, own_law=law is None)
+    calibration = check_calibration(campaign, base, own_law=law is None)
     done(0.15, "trying causes")
     causes = causes_of(
         base,
@@ -362,6 +363,6 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
         if noise.outliers:
             found.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])
-    if levels.size > 1 and levels.max() > 10.0 * levels.min():
+    if levels.size > 1 and levels.max() > NOISE.tenfold * levels.min():
         found.append("the noise of the records differs more than tenfold; each is weighed by its own")
     return tuple(found)

@@ -31,16 +31,11 @@ if TYPE_CHECKING:
 
 Acts = Literal["added", "factor"]
 
-RIDGE, SMOOTH = 1e-6, 1e-4
-"""Precision of a coefficient, and of its difference from the mean of its neighbours, over the mean information on one:
-between values that no sample has, a function runs straight."""
-
-PER_COEFFICIENT, PER_PHASE, IN_PARTS = 0.002, 0.01, 0.2
-"""By how much more a function must explain for each coefficient, for acting in one phase only, and where it was judged
-on parts of records though there are several: a neighbouring part tells more than another test."""
-
 POINTS = 300
 """Samples and points of the function that are kept for the figure."""
+
+SMALLEST_STRESS = 0.05
+"""Stress of which the figure still draws parts, over the largest."""
 
 
 @dataclass(frozen=True)
@@ -250,8 +245,8 @@ class FreeFunctions:
         after = self._square_left_out(term, self._folds[kind])
         surely = before - least > REMAINDER.certain * np.sqrt(2.0 / len(self._missing)) * least
         explained = 1.0 - (after - least) / (before - least) if surely else 0.0
-        rank = explained - PER_COEFFICIENT * term.size - PER_PHASE * (term.when is not None)
-        return Trial(term, explained, kind, rank - IN_PARTS * (kind == "parts" and len(self._slices) > 1))
+        rank = explained - REMAINDER.per_coefficient * term.size - REMAINDER.per_phase * (term.when is not None)
+        return Trial(term, explained, kind, rank - REMAINDER.on_parts * (kind == "parts" and len(self._slices) > 1))
 
     def _is_elsewhere(self, term: Term) -> bool:
         """Whether there are several records with what the function says something about: each group of a category."""
@@ -265,7 +260,7 @@ class FreeFunctions:
         count = self._tangent.shape[1]
         solved = self._beside(term)
         followed = self._tangent @ solved[:count]
-        least = 0.05 * float(np.max(np.abs(self._stress)))
+        least = SMALLEST_STRESS * float(np.max(np.abs(self._stress)))
         size = np.copysign(np.maximum(np.abs(self._stress), least), self._stress) / 100.0
         scale = size if term.acts == "factor" else np.ones(len(self._missing))
         inside, x = self.inside(term.when), term.variable.values
@@ -360,7 +355,7 @@ def _regular(normal: FloatArray, precision: FloatArray, *, smooth: bool) -> Floa
         diagonal = np.diag(normal)
         bent = np.diff(np.eye(size), 2, axis=0) if smooth else np.zeros((0, size))
         own = max(float(diagonal[count:].mean()), 1e-12 * max(float(diagonal.max()), 1e-300))
-        normal[count:, count:] += own * (RIDGE * np.eye(size) + SMOOTH * bent.T @ bent)
+        normal[count:, count:] += own * (REMAINDER.ridge * np.eye(size) + REMAINDER.smoothness * bent.T @ bent)
     normal[:count, :count] += np.diag(precision)
     return normal
 

@@ -55,7 +55,7 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
                 continue
             column = columns.columns[entries[0][1]]
             start = chosen[0].parameters.copy()
-            start[base.model.base_count] = 0.3 * column.cause.form.amplitude.scale
+            start[base.model.base_count] = SEARCH.sharp_start * column.cause.form.amplitude.scale
             try:
                 chosen = [refit(chosen[0].problem, start, most_steps=SEARCH.sharp_steps)]
             except UNSOLVABLE as error:

@@ -67,7 +67,7 @@ def next_test_of(
         entries += [
             (other.refit.model, other.refit.parameters, float(each.probability * part), each.effects)
             for other, part in zip(close, weight / weight.sum(), strict=True)
-            if part > 0.01
+            if part > DESIGN.least_form_weight
         ]
     found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed, progress=progress)
     return () if found is None else as_answer(found.ranking, found.probability_before)

@@ -48,6 +48,6 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
     return GapTester(
         base.whitened.with_residual(both[:, 0], both[:, 1:]),
         scatter=scatter and scatter.seen_by(lambda columns: jointly_whitened(allowed, columns)),
-        size=2000,
+        size=EVIDENCE.remaining_draws,
         seed=seed,
     )()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.diagnosis.calibration import Calibration
+from probation.diagnosis.calibration_check import CalibrationCheck
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.rendering import Result
@@ -288,7 +288,7 @@ class Diagnosis(Result, Stored):
         The best test of every kind that helps, the most worth first.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
-    calibration : Calibration
+    calibration : CalibrationCheck
         Whether the probabilities were calibrated on campaigns such as this one.
     """
 
@@ -327,7 +327,7 @@ class Diagnosis(Result, Stored):
     hangs_on_scatter: bool = False
     tolerance: float = DETECTION.tolerance
     matters: bool = True
-    calibration: Calibration = field(default_factory=lambda: Calibration(inside=True))
+    calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
 
     def to_dataframe(self, what: Literal["causes", "where", "curves"] = "causes") -> Any:
         """As a pandas DataFrame.

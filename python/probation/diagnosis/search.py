@@ -134,7 +134,7 @@ class Search:
 
     def _singles(self, columns: WhitenedColumns) -> None:
         found = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
-        for start in self.base.screened_starts:
+        for start in self.base.other_starts if self.base.screens_other_starts else ():
             found += self._candidates_at(start)
         candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
@@ -232,7 +232,7 @@ class Search:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
         left = self.base.whitened.with_residual(before.residual, before.jacobian)
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
-        steps = {step.record: step.p_value for step in find_steps(left, size=500)}
+        steps = {step.record: step.p_value for step in find_steps(left)}
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
 
         def credible(each: Candidate) -> bool:

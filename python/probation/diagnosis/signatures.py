@@ -47,7 +47,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
         if line.p_value < DETECTION.signature_level:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"
             found.append(Signature("line", line.record, line.p_value, text))
-    for step in find_steps(left, size=500):
+    for step in find_steps(left):
         if step.p_value < DETECTION.signature_level:
             text = (
                 f"a step of {-step.size_MPa:+.2g} MPa in {step.record} at {step.time_s:.4g} s "

@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
-COVERED, FEWEST = 0.03, 20
-"""Part of all samples, and samples, that a phase must hold, and that must lie outside it."""
-
 PHASES: Mapping[str, str] = {
     "loading": "while the strain grows",
     "unloading": "on unloading only",
@@ -139,7 +136,7 @@ def phases_of(views: Sequence[RecordView]) -> dict[str, NDArray[np.bool_]]:
     """
     phases = every_phase(views, least_below(views))
     total = sum(len(view.data) for view in views)
-    enough = max(COVERED * total, FEWEST)
+    enough = max(REMAINDER.least_phase * total, REMAINDER.fewest_of_a_phase)
     return {name: inside for name, inside in phases.items() if enough < int(inside.sum()) < total - enough}
 
 

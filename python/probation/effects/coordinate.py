@@ -32,9 +32,6 @@ CoordinateHook: TypeAlias = "Callable[[RecordView, Sequence[float] | FloatArray]
 NEARLY = 1e-6
 """Range of a coordinate over its largest value, below which it is one value."""
 
-LEAST: Mapping[Coordinate, float] = {"strain_rate": 0.1}
-"""Range below which it is one value: a tenth of a decade for the rate, which is never quite steady."""
-
 
 def coordinate_of(
     view: RecordView, coordinate: Coordinate | CoordinateHook, values: Sequence[float] | FloatArray
@@ -46,7 +43,7 @@ def coordinate_of(
 
 def is_one_value(low: float, high: float, coordinate: Coordinate | CoordinateHook) -> bool:
     """Whether a coordinate between these ends is one and the same value, along which no form can be wrong."""
-    least = LEAST.get(coordinate, 0.0) if isinstance(coordinate, str) else 0.0
+    least = EFFECTS.least_rate_range if coordinate == "strain_rate" else 0.0
     return high - low <= max(NEARLY * max(abs(low), abs(high)), least)
 
 

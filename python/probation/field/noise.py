@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.normal import SD_OF_MEDIAN
+from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.field.samples import IndexArray
     from probation.field.source import Samples
-
-SPAN, MOST = 10, 16
-"""Samples of a part of the record with a noise of its own, at least, and parts at most."""
 
 _FEW = 3.8  # over the number of differences: by how much the square of their median is too large in the mean
 
@@ -44,7 +42,7 @@ def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> Flo
     weight /= np.linalg.norm(weight, axis=1, keepdims=True)
     last = values.shape[1] - 3
     difference = np.abs(sum(weight[:, k] * values[:, k : k + last] for k in range(4)))
-    parts = int(np.clip(values.shape[1] // SPAN, 1, MOST))
+    parts = int(np.clip(values.shape[1] // FIELD.noise_part, 1, FIELD.most_noise_parts))
     pieces = np.array_split(difference, parts, axis=1)
     shape = np.stack([_pooled(_deviation(piece), neighbourhood) for piece in pieces], axis=1)
     of_differences = np.repeat(shape, [piece.shape[1] for piece in pieces], axis=1)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.field.samples import bridged
+from probation.settings.field import FIELD
 from probation.settings.smoothing import SMOOTHING
 
 if TYPE_CHECKING:
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from probation.field.samples import BoolArray
     from probation.field.source import Samples
 
-ORDER = 4
-"""Derivative that is penalised. A lower one bends the start of a history, where the unrelaxed modulus is."""
 STIFFNESS: FloatArray = 10.0 ** np.arange(-3.0, 14.1, 0.5)
 """Tried, with times in steps of the median between instants."""
 
@@ -31,7 +30,7 @@ def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
     Parameters
     ----------
     time : ndarray, shape (n_times,) [s]
-        Increasing; more than `ORDER`.
+        Increasing; more than `FIELD.penalised_derivative`.
     strain : ndarray, shape (pixels, n_times) [-]
         Finite.
 
@@ -55,7 +54,7 @@ def smoothed_records(time: FloatArray, strain: Samples, used: BoolArray) -> Floa
     """
     found: FloatArray = np.full(strain.shape, np.nan)
     for pixels, samples, values in bridged(time, strain, used):
-        if np.count_nonzero(samples) > ORDER:
+        if np.count_nonzero(samples) > FIELD.penalised_derivative:
             found[np.ix_(pixels, samples)] = smoothed(time[samples], values)
     found[~used] = np.nan
     return found
@@ -67,9 +66,9 @@ def _shapes(instants: bytes) -> tuple[FloatArray, FloatArray]:
     time = np.frombuffer(instants)
     time = time / np.median(np.diff(time))
     bent = np.eye(len(time))
-    for order in range(1, ORDER + 1):  # divided differences, again and again
+    for order in range(1, FIELD.penalised_derivative + 1):  # divided differences, again and again
         bent = order * np.diff(bent, axis=0) / (time[order:] - time[:-order])[:, None]
-    spans = (time[ORDER:] - time[:-ORDER]) / ORDER
+    spans = (time[FIELD.penalised_derivative :] - time[: -FIELD.penalised_derivative]) / FIELD.penalised_derivative
     # Of the root, for the smooth shapes' roughness is far below the last digit of the rough ones'.
     size, rows = np.linalg.svd(np.sqrt(spans)[:, None] * bent)[1:]
-    return np.concatenate([size**2, np.zeros(ORDER)]), np.ascontiguousarray(rows.T)
+    return np.concatenate([size**2, np.zeros(FIELD.penalised_derivative)]), np.ascontiguousarray(rows.T)

@@ -24,6 +24,7 @@ from probation.records.campaign import Campaign
 from probation.records.record import Record
 from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -36,13 +37,6 @@ TRUTH = {"unrelaxed_modulus": 3224.0, "tau_max": 5.207, "hardening_modulus": 2.5
 """Table 1's reference [MPa], [s], [MPa]."""
 
 STRAIN_RATE, END_STRAIN, SAMPLES = 0.005, 2.0, 300
-
-NOMINAL = 0.95
-CONFIDENCE = 0.99
-"""Of the interval of a coverage, which must contain `NOMINAL`."""
-
-LEAST_COVERAGE = 0.85
-"""A study says that intervals hold if its draws can exclude intervals of this coverage."""
 
 RECOMMENDED: Weighting = "auto"
 JUDGED: tuple[Weighting, ...] = ("plain", "strain-noise-frozen", "auto")
@@ -101,13 +95,13 @@ class Counted:
         return self.hits[name] / self.draws
 
     def interval(self, name: str) -> tuple[float, float]:
-        """Exact binomial interval of the coverage at `CONFIDENCE` (Clopper & Pearson 1934)."""
+        """Exact binomial interval of the coverage at `IDENTIFICATION.coverage_confidence` (Clopper & Pearson 1934)."""
         return exact_interval(self.hits[name], self.draws)
 
     def holds(self, name: str) -> bool:
-        """Whether that interval contains `NOMINAL`."""
+        """Whether that interval contains `IDENTIFICATION.nominal_coverage`."""
         low, high = self.interval(name)
-        return low <= NOMINAL <= high
+        return low <= IDENTIFICATION.nominal_coverage <= high
 
     @property
     def decides(self) -> bool:
@@ -174,7 +168,7 @@ class Coverage(Summarised, Plotted, Stored):
             return (
                 f"{draws} draws are too few to tell whether the 95 % intervals of weighting {RECOMMENDED!r} hold: they "
                 f"allow a coverage of {100 * lowest:.0f} %. {needed} draws can tell 95 % from "
-                f"{100 * LEAST_COVERAGE:.0f} %."
+                f"{100 * IDENTIFICATION.least_coverage:.0f} %."
             )
         return (
             f"The 95 % intervals of weighting {RECOMMENDED!r} hold: over {draws} draws of each of {len(recommended)} "
@@ -187,16 +181,16 @@ class Coverage(Summarised, Plotted, Stored):
 
 
 def exact_interval(hits: int, draws: int) -> tuple[float, float]:
-    """Clopper and Pearson's interval of a proportion, at `CONFIDENCE`."""
-    tail = 0.5 * (1.0 - CONFIDENCE)
+    """Clopper and Pearson's interval of a proportion, at `IDENTIFICATION.coverage_confidence`."""
+    tail = 0.5 * (1.0 - IDENTIFICATION.coverage_confidence)
     low = float(betaincinv(hits, draws - hits + 1, tail)) if hits else 0.0
     high = float(betaincinv(hits + 1, draws - hits, 1.0 - tail)) if hits < draws else 1.0
     return low, high
 
 
 def enough_draws(draws: int) -> bool:
-    """Whether the interval of a coverage counted at `NOMINAL` would exclude `LEAST_COVERAGE`."""
-    return exact_interval(round(NOMINAL * draws), draws)[0] >= LEAST_COVERAGE
+    """Whether the interval of a coverage counted at the nominal one would exclude `IDENTIFICATION.least_coverage`."""
+    return exact_interval(round(IDENTIFICATION.nominal_coverage * draws), draws)[0] >= IDENTIFICATION.least_coverage
 
 
 def study(

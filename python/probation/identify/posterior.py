@@ -15,6 +15,7 @@ from probation.inference.problem import Problem
 from probation.inference.residual_noise import with_residual_noise
 from probation.records.record import Noise, Record
 from probation.results.extras import needed
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from probation.identify.record_fit import RecordFit
     from probation.law.modal import Law
     from probation.law.schemes import Scheme
-
-WALKERS, BURN_IN, THIN = 16, 300, 10
-"""Of the ensemble: how many, steps that are dropped, and one step kept of so many. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,8 +90,8 @@ def walk(posterior: Posterior, count: int, seed: int, around: FloatArray) -> Flo
     emcee = needed("emcee", "method = 'emcee'")
     sampler = emcee.EnsembleSampler(len(around), around.shape[1], posterior)
     random = np.random.RandomState(seed)
-    state = sampler.run_mcmc(around, BURN_IN, rstate0=random.get_state())
+    state = sampler.run_mcmc(around, IDENTIFICATION.burn_in, rstate0=random.get_state())
     sampler.reset()
-    sampler.run_mcmc(state, -(-count // len(around)) * THIN)
-    drawn: FloatArray = sampler.get_chain(flat=True, thin=THIN)
+    sampler.run_mcmc(state, -(-count // len(around)) * IDENTIFICATION.thinned)
+    drawn: FloatArray = sampler.get_chain(flat=True, thin=IDENTIFICATION.thinned)
     return drawn[:count]

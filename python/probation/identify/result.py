@@ -20,6 +20,7 @@ from probation.results.data import Stored, from_curves
 from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.labelled import LabelledMatrix
 from probation.results.rendering import Result, rendered
+from probation.settings.identification import IDENTIFICATION
 from probation.wording import percentage
 
 if TYPE_CHECKING:
@@ -311,9 +312,9 @@ class Fit(Result, Stored):
         random = np.random.default_rng(number)
         if how == "laplace":
             return Draws(names, normal_draws(centre, self.covariance, n, random))
-        from probation.identify.posterior import WALKERS, Posterior, walk  # noqa: PLC0415 - it solves the law again
+        from probation.identify.posterior import Posterior, walk  # noqa: PLC0415 - it solves the law again
 
-        start = normal_draws(centre, self.covariance, max(WALKERS, 2 * len(names) + 2), random)
+        start = normal_draws(centre, self.covariance, max(IDENTIFICATION.walkers, 2 * len(names) + 2), random)
         posterior = Posterior.of(
             self.law,
             self.names,

@@ -1,8 +1,8 @@
 """Generalised least squares: the residual weighed by the covariance of its noise, re-evaluated as the law moves.
 
-Minimises r^T Sigma(theta)^-1 r, Sigma = Sigma_y + sigma_x^2 D D^T, D = d stress / d measured strain, without the
+Minimises r^T Sigma(theta)^-1 r, Sigma = Sigma_y + A A^T, A = sigma_eps d stress / d measured strain, without the
 determinant of Sigma: structured errors in variables, to first order in the strain's errors. The smallest errors of the
-strain that reconcile it with the law are delta = sigma_x^2 D^T Sigma^-1 r.
+strain that reconcile it with the law are delta = A^T Sigma^-1 r, in standard deviations.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ from probation.identify.covariance import Covariance, covariance, noise_widening
 from probation.identify.errors_by_strain_noise import left_over, propagated_at_end, resampled, share_of_error
 from probation.identify.search import by_least_squares, first_guess
 from probation.inference.residual_noise import with_residual_noise
-from probation.inference.strain_noise import LARGEST, StrainNoise
+from probation.inference.strain_noise import StrainNoise
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.identification import IDENTIFICATION
+from probation.settings.noise import NOISE
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.excitation import excite
 
@@ -131,7 +132,9 @@ def _smoothly_driven(
     """
     views = [
         view.smoothed_as(excite(view.record, "spline")).with_scheme("sa3")
-        if len(view.record) <= LARGEST and view.excitation.strain_noise >= SMOOTHING.clean and _is_bare(view)
+        if len(view.record) <= NOISE.most_with_strain_noise
+        and view.excitation.strain_noise >= SMOOTHING.clean
+        and _is_bare(view)
         else view
         for view in problem.views
     ]
@@ -156,7 +159,7 @@ def _strain_noises(
     found: list[StrainNoise | None] = []
     added: FloatArray | None = None
     for view, gain in zip(problem.views, gains, strict=True):
-        if len(view.record) > LARGEST:
+        if len(view.record) > NOISE.most_with_strain_noise:
             found.append(None)
             enough = IDENTIFICATION.early_part_of_strain_noise * CERTIFICATE.strain_noise_matters
             if propagated_at_end(view, law) > enough * left_over(view, law):

@@ -47,8 +47,9 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
     from probation.records.specimens import Specimens
 
-ROUNDS = 3
-"""Noise and parameters are found in turns; they settle within two."""
+ROUNDS, MOST_STEPS, SETTLED = 3, 12, 1e-5
+"""Noise and parameters are found in turns, which settle within two: turns, steps of a refit, and the largest relative
+change of a parameter that ends them."""
 
 NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseModel, ...]]"
 """The noise of all records from what a fit leaves of them."""
@@ -82,8 +83,8 @@ class BaseFit:
         The same as it would be if specimens were alike.
     other_starts : tuple of ndarray, shape (n_base,)
         Where causes are looked for, too: a law that lacks an effect may fit best far from where it is right.
-    screened_starts : tuple of ndarray, shape (n_base,)
-        Those of them from which causes look so different that they are screened there, too.
+    screens_other_starts : bool
+        Whether causes look so different from there that they are screened there, too.
     signals : tuple of Column
         Of the effects that are considered, by `inference.screen`.
     reference : ndarray, shape (n_base,), optional
@@ -105,7 +106,7 @@ class BaseFit:
     scatter: Scatter
     alike: Whitened
     other_starts: tuple[FloatArray, ...] = ()
-    screened_starts: tuple[FloatArray, ...] = ()
+    screens_other_starts: bool = False
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
     reference: FloatArray | None = None
@@ -357,11 +358,11 @@ def _settled(
     """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
     for _ in range(ROUNDS):
         noises = fitted_noises(residuals)
-        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=12)
+        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=MOST_STEPS)
         moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = found.parameters
         residuals = residuals_at(residuals, found)
-        if moved.size == 0 or float(moved.max()) < 1e-5:
+        if moved.size == 0 or float(moved.max()) < SETTLED:
             break
     return found, noises, list(residuals)
 
@@ -383,7 +384,7 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
         base = replace(base, scatter=scatter)
     noises = base.noises_of(records)
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
-    steps = 0 if base.scatter.any else 12
+    steps = 0 if base.scatter.any else MOST_STEPS
     found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
     return replace(base, refit=found, whitened=Whitened.of(residuals_at(records, found), noises))
 

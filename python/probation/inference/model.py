@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from probation.errors import InputError
 from probation.inference.own_force import SETTLED, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -47,9 +48,11 @@ class Specimen:
 
 
 class CampaignModel:
-    """A base law and causes, on the records of a campaign.
+    """A base law and causes, on the records of a campaign: the forward model, which a `Problem` holds with the noise.
 
-    Several threads may use one model: it keeps nothing between calls, and the law sees to its own.
+    It knows of no noise: screens, designs and predictions of records that were held out ask it alone for stresses and
+    derivatives in MPa. It is never changed, and several threads may use it: it keeps nothing between calls, and the law
+    sees to its own.
 
     Parameters
     ----------
@@ -73,9 +76,9 @@ class CampaignModel:
     """
 
     def __init__(self, law: GapLaw, views: Sequence[RecordView], causes: Iterable[Cause] = ()) -> None:
-        self.law = law
-        self.views = tuple(views)
-        self.causes = tuple(causes)
+        self.law: Final = law
+        self.views: Final = tuple(views)
+        self.causes: Final = tuple(causes)
         ids = [view.id for view in self.views]
         for each in self.causes:
             for record in each.records or ():
@@ -86,10 +89,10 @@ class CampaignModel:
         names = (*law.parameter_names, *(name for each in self.causes for name in each.parameter_names))
         if len(set(names)) < len(names):
             raise InputError("a cause is given twice for the same records")
-        self.parameter_names = tuple(names)
+        self.parameter_names: Final = tuple(names)
         ends = np.cumsum([len(view.data) for view in self.views]).tolist()
         self._rows = {view.id: slice(end - len(view.data), end) for view, end in zip(self.views, ends, strict=True)}
-        self.data = np.concatenate([view.data for view in self.views])
+        self.data: Final = np.concatenate([view.data for view in self.views])
 
     @property
     def base_count(self) -> int:
@@ -195,7 +198,7 @@ class CampaignModel:
         for view in self.views:
             predicted = self.recorded(view, base, causes)
             missing = view.data - view.sampled(predicted)
-            window = 2 * (len(missing) // 50) + 1
+            window = 2 * (len(missing) // NOISE.quieting_window) + 1
             if window > _PARABOLA:
                 missing = moving_parabola(missing, window)
             between = np.interp(view.time, view.sampled(view.time), missing)

@@ -22,7 +22,7 @@ KEPT = 2
 
 @dataclass(frozen=True, eq=False)
 class MovingNoise:
-    r"""What strain noise adds to the covariance of a fit residual, :math:`\Sigma(\theta) = \Sigma_y + C C^T`.
+    r"""What strain noise adds to the covariance of a fit residual, :math:`\Sigma(\theta) = \Sigma_y + A A^T`.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class MovingNoise:
         return self._made[key]
 
     def slopes(self, law: Law, residual: FloatArray, wanted: Sequence[int]) -> FloatArray:
-        """(d C / d theta) delta for the law's parameters number `wanted`, shape (n_samples, wanted) [MPa per unit].
+        """(d A / d theta) delta for the law's parameters number `wanted`, shape (n_samples, wanted) [MPa per unit].
 
         delta are the likeliest strain errors of a fit residual (n_samples,) [MPa].
         """

@@ -40,7 +40,7 @@ class Problem:
     Attributes
     ----------
     model : CampaignModel
-        Law, records and effects.
+        Law, records and effects: stresses and derivatives in MPa, without the noise.
     whitener : Whitener
         Of the noise, as far as no parameter moves it.
     moving : MovingNoise or None
@@ -134,7 +134,7 @@ class Problem:
     def residual_and_jacobian(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Fit residual (n_samples,), and the derivatives (n_samples, n_parameters) that make its exact gradient.
 
-        Where strain noise moves with the law, J - (d C / d theta) delta stands in for J, delta the strain errors that
+        Where strain noise moves with the law, J - (d A / d theta) delta stands in for J, delta the strain errors that
         reconcile record and law: Gauss-Newton then descends along the gradient of r^T Sigma(theta)^-1 r.
         """
         residual, jacobian = self.model.residual_and_jacobian(parameters)

@@ -1,4 +1,4 @@
-"""What the noise of the measured strain does to the stress that a law predicts: J Sigma_strain J^T."""
+"""What the noise of the measured strain does to the stress that a law predicts: A A^T = J_eps Sigma_eps J_eps^T."""
 
 from __future__ import annotations
 

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
     from probation.records.specimens import Specimens
 
 
-DRAWS, BURN = 6000, 1000
-"""Metropolis steps, and the first of them that are left out."""
+FIRST_STEP, ACCEPTED, ADAPTED = 0.7, 0.44, 0.2
+"""Metropolis: the first step of a logarithm, the acceptance that steps are adapted to (Roberts & Rosenthal 2001), and
+by how much each time."""
 
 _TITLES = {outside_name(name): symbol for name, symbol in SYMBOLS.items()}
 _TITLES |= {AREA: "the section", START: "the start of the strain"}
@@ -237,9 +238,9 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
     rng = np.random.default_rng(0)
     at = np.zeros(count)
     here = log_density(at)
-    drawn = np.empty((DRAWS, count))
-    reach = np.full(count, 0.7)
-    for step in range(DRAWS):
+    drawn = np.empty((NOISE.scatter_draws, count))
+    reach = np.full(count, FIRST_STEP)
+    for step in range(NOISE.scatter_draws):
         which = step % count
         tried = at.copy()
         tried[which] += reach[which] * rng.standard_normal()
@@ -247,10 +248,10 @@ def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
         taken = np.log(rng.random()) < there - here
         if taken:
             at, here = tried, there
-        if step < BURN:  # towards an acceptance of 0.44 (Roberts & Rosenthal 2001)
-            reach[which] *= np.exp((0.56 if taken else -0.44) * 0.2)
+        if step < NOISE.scatter_burn_in:
+            reach[which] *= np.exp(((1.0 - ACCEPTED) if taken else -ACCEPTED) * ADAPTED)
         drawn[step] = at
-    return np.exp(drawn[BURN:])
+    return np.exp(drawn[NOISE.scatter_burn_in :])
 
 
 def with_scatter(

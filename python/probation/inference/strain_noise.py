@@ -21,25 +21,23 @@ if TYPE_CHECKING:
 _SPARE, _PER_FREEDOM = 30, 6.0
 """Directions kept of a smoother: its singular values fall as the fourth power beyond its degrees of freedom."""
 
-LARGEST = 3000
-"""Samples of a record up to which its strain noise has a matrix (that of 3000 takes about 3 s to make and factor)."""
-
 _STEP = 1e-3
 """Relative change of a parameter over which the propagated noise is differenced."""
 
 
 @dataclass(frozen=True, eq=False)
 class StrainNoise:
-    r"""Strain noise of one record as stress, :math:`\sigma_x D` with D = d stress / d measured strain.
+    r"""Strain noise of one record as stress: the factor A of its covariance :math:`A A^T`.
 
-    The law is taken on the samples: in the record's own scheme where that takes no substeps, else in the one that is
-    exact between samples, SA3 for strains with rates and SA2 for the straight lines between bare samples.
+    :math:`A = \sigma_\varepsilon J_\varepsilon`, J_eps the derivative of the stress by the measured strain. The law is
+    taken on the samples: in the record's own scheme where that takes no substeps, else in the one that is exact between
+    samples, SA3 for strains with rates and SA2 for the straight lines between bare samples.
 
     Attributes
     ----------
     solver : Solver
     deviation : float
-        Standard deviation sigma_x of the strain noise [-].
+        Standard deviation sigma_eps of the strain noise [-].
     strain, rate : ndarray, shape (n_times, n_directions) [-], [1/s], or None
         Independent unit errors as they arrive at the law, behind the smoother. None: every strain sample is one.
     """
@@ -59,7 +57,7 @@ class StrainNoise:
         return cls(solver, _deviation(excitation), *(_directions(excitation) or (None, None)))
 
     def propagated(self, law: Law) -> FloatArray:
-        """Stress made by each unit error, shape (n_times, n_directions) [MPa]."""
+        """A: the stress made by each error of one standard deviation, shape (n_times, n_directions) [MPa]."""
         key = law.parameters.tobytes()
         if key not in self._made:
             while len(self._made) > 1:  # two: a search compares a law with the one that it came from

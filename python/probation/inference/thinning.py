@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.settings.search import SEARCH
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.records.campaign import Campaign
     from probation.records.record import Record
-
-MOST = 3000
-"""Samples of a record: gaps are slow, and a search costs in proportion."""
 
 
 def thin(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
@@ -23,7 +22,7 @@ def thin(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
     """
     records, notes = [], []
     for record in campaign.records:
-        step = -(-len(record.time) // MOST)
+        step = -(-len(record.time) // SEARCH.most_samples)
         if step > 1:
             notes.append(f"{record.id}: one of every {step} of its {len(record.time)} samples was used")
             record = _every(record, step)  # noqa: PLW2901

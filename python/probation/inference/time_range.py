@@ -6,20 +6,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.settings.identification import IDENTIFICATION
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from probation.law.modal import Law
     from probation.records.record import Record
 
-BEYOND = 1e3
-"""How far beyond the records' own times, and how far from 1 for alpha, is searched [-]."""
-
 
 def time_range(records: Iterable[Record], law: Law) -> tuple[float, float]:
     """Range of tau_max [s] (or alpha [-]): from far below the shortest step to far beyond the longest record."""
     if law.companion is not None:
-        return 1.0 / BEYOND, BEYOND
+        return 1.0 / IDENTIFICATION.beyond_records, IDENTIFICATION.beyond_records
     times = [record.time for record in records]
     shortest = min(float(np.min(np.diff(instants))) for instants in times)
-    return shortest / BEYOND, BEYOND * max(float(np.ptp(instants)) for instants in times)
+    return shortest / IDENTIFICATION.beyond_records, IDENTIFICATION.beyond_records * max(
+        float(np.ptp(instants)) for instants in times
+    )

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 UNKNOWN = "unknown"
 """What it is called among the names of effects."""
 
-SIZES = np.geomspace(*EVIDENCE.unknown_range, 17)
+SIZES = np.geomspace(*EVIDENCE.unknown_range, EVIDENCE.unknown_sizes)
 """Squared sizes of an unknown effect in one record, in units of the noise's variance per wave; log-uniform."""
 
 
@@ -112,7 +112,7 @@ def _in_each(problem: Linearised, discrepancy: Discrepancy, start: FloatArray) -
                 value = problem.log_integral(discrepancy.variances(tried))
                 if value > score:
                     best, score = tried, value
-        if score - before < 0.1:
+        if score - before < EVIDENCE.unknown_settled:
             break
     # A peak in the logarithm of a size is about two of the grid's steps wide.
     return float(score - len(best) * np.log(len(SIZES) / 2.0))

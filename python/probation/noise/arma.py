@@ -23,7 +23,7 @@ START_UP = 150
 """Most steps of the exact start; the innovation variance settles like theta^2t."""
 
 
-_EDGES = np.geomspace(2e-3, np.pi * (1.0 + 1e-9), NOISE.spectrum_bins + 1)
+_EDGES = np.geomspace(NOISE.lowest_frequency, np.pi * (1.0 + 1e-9), NOISE.spectrum_bins + 1)
 _CENTRES = np.sqrt(_EDGES[1:] * _EDGES[:-1])
 
 
@@ -165,9 +165,9 @@ class Periodogram:
         place = np.clip(np.searchsorted(_EDGES, self.frequency, side="right") - 1, 0, NOISE.spectrum_bins - 1)
         weight: FloatArray = np.bincount(place, self.weight, NOISE.spectrum_bins).astype(np.float64)
         power = np.bincount(place, self.weight * self.power, NOISE.spectrum_bins) / np.maximum(weight, 1e-300)
-        solid = weight >= 10.0
+        solid = weight >= NOISE.solid_bin
         if np.any(solid):
-            weight = np.where(solid & (power < NOISE.dim_bin * np.max(power[solid])), 0.02 * weight, weight)
+            weight = np.where(solid & (power < NOISE.dim_bin * np.max(power[solid])), NOISE.dim_weight * weight, weight)
         return Periodogram(_CENTRES, power, weight)
 
 
@@ -208,10 +208,10 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     """
     binned = [each.binned() for each in periodograms]
     deviance, best = float(_deviance(binned, np.zeros((1, 1, NOISE.spectrum_bins)))[0, 0]), (0.0, 0.0)
-    tried, shape_of = _search(binned, max(1.0 - 3.0 * lowest, 0.1))
+    tried, shape_of = _search(binned, max(1.0 - NOISE.no_rise_margin * lowest, NOISE.least_largest_phi))
     if deviance - tried > NOISE.least_gain:
         deviance, best = tried, shape_of
-    tried, shape_of = _search(binned, max(1.0 - 0.7 * lowest, 0.1))
+    tried, shape_of = _search(binned, max(1.0 - NOISE.low_rise_margin * lowest, NOISE.least_largest_phi))
     if deviance - tried > (NOISE.least_gain_of_low_rise if Arma(*best).rise < NOISE.steep_rise else 0.0):
         deviance, best = tried, shape_of
     shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
@@ -226,10 +226,10 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
 
 def _search(binned: list[Periodogram], most_phi: float) -> tuple[float, tuple[float, float]]:
     """Least deviance over phi and theta, on ever finer grids, and where it is."""
-    steps = np.array([np.arctanh(most_phi) + np.arctanh(0.7), 2.0 * np.arctanh(NOISE.largest_moving_average)]) / (
-        GRID - 1
-    )
-    middle = np.array([np.arctanh(most_phi) - np.arctanh(0.7), 0.0]) / 2.0
+    steps = np.array(
+        [np.arctanh(most_phi) - np.arctanh(NOISE.smallest_phi), 2.0 * np.arctanh(NOISE.largest_moving_average)]
+    ) / (GRID - 1)
+    middle = np.array([np.arctanh(most_phi) + np.arctanh(NOISE.smallest_phi), 0.0]) / 2.0
     reach, deviance, best = (GRID - 1) // 2, np.inf, (0.0, 0.0)
     for _ in range(4):
         offsets = np.arange(-reach, reach + 1)
@@ -286,7 +286,7 @@ def _shape_variance(binned: list[Periodogram], best: tuple[float, float]) -> flo
         information += 0.5 * ((slope - mean).T * each.weight) @ (slope - mean)
         means.append(mean)
         weights.append(each.weight.sum())
-    extrapolation = slopes(np.array([1e-3]))[0] - np.average(means, axis=0, weights=weights)
+    extrapolation = slopes(np.array([NOISE.long_run_frequency]))[0] - np.average(means, axis=0, weights=weights)
     if best == (0.0, 0.0):  # both slopes are the same: one direction is left, phi + theta
         return float(extrapolation[0] ** 2 / max(information[0, 0], 1e-300))
     values, vectors = np.linalg.eigh(information + 1.0 * np.eye(2))  # phi and theta are below 1 in size

@@ -81,8 +81,7 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
     size = float(np.max(np.abs(record.residual if record.measured is None else record.measured), initial=0.0))
     level = max(each.white, record.given_noise or 0.0, 1e-7 * size, 1e-12)
     if not record.given_noise and len(record) < NOISE.fewest_for_a_spectrum:
-        # Median of few differences: its own error, and never less than a third of what scatters at all.
-        level = max(level, 0.1 * float(np.std(np.diff(record.residual))))
+        level = max(level, NOISE.least_level_of_few * float(np.std(np.diff(record.residual))))
     return NoiseModel(
         record.name,
         Arma(innovation=level),
@@ -92,7 +91,7 @@ def _fallback(each: NoiseEvidence) -> NoiseModel:
         each.white,
         each.quantum,
         _propagated(record),
-        0.0 if record.given_noise else 5.0 / len(record),
+        0.0 if record.given_noise else NOISE.level_variance_of_few / len(record),
         0.0,
         each.outliers,
         "as given" if record.given_noise and record.given_noise >= each.white else each.source,

@@ -12,8 +12,8 @@ from probation.noise.arma import Periodogram
 from probation.noise.growth import growth_of
 from probation.noise.outliers import find_outliers, without_outliers
 from probation.noise.quantisation import quantisation_noise, quantisation_step
-from probation.noise.segments import DEGREE, in_segments, legendre
-from probation.noise.smooth_basis import WAVES, smooth_basis, waves
+from probation.noise.segments import in_segments, legendre
+from probation.noise.smooth_basis import smooth_basis, waves
 from probation.noise.span import span_of
 from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
@@ -90,12 +90,14 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
         rough = _rough(segments, [np.ones(len(part)) for part in segments], degree=3, robust=False)
         return replace(nothing, rough=rough, source="dwells and pre-load")
     growth, profile = growth_of(record, residual, coarse)
-    rough = _rough(in_segments(residual, record.jumps), in_segments(profile, record.jumps), DEGREE, robust=True)
+    rough = _rough(
+        in_segments(residual, record.jumps), in_segments(profile, record.jumps), NOISE.segment_degree, robust=True
+    )
     if rough is None:
         return nothing
     smooth = smooth_basis(record.time, record.jumps).columns
     basis = span_of(np.hstack([record.tangent, smooth]))
-    whole = _whole(residual, basis, WAVES, profile)
+    whole = _whole(residual, basis, NOISE.smooth_waves, profile)
     return replace(
         nothing, growth=growth, profile=profile, rough=rough, whole=whole, source="what no smooth curve takes"
     )
@@ -111,7 +113,12 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
         return None
     if robust and len(rows) >= 3:
         # Low against high: a burst of noise has both.
-        low = np.array([np.mean(power[:8]) / max(float(np.mean(power[8:])), 1e-300) for _, power, _ in rows])
+        low = np.array(
+            [
+                np.mean(power[: NOISE.low_coefficients]) / max(float(np.mean(power[NOISE.low_coefficients :])), 1e-300)
+                for _, power, _ in rows
+            ]
+        )
         rows = [row for row, size in zip(rows, low, strict=True) if size <= NOISE.transient_ratio * np.median(low)]
     frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
     return Periodogram(frequency, power, weight)
@@ -126,6 +133,6 @@ def _whole(values: FloatArray, basis: FloatArray, lowest: int, profile: FloatArr
     power = dct(left, type=2, norm="ortho") ** 2
     weight = 1.0 - np.sum(dct(basis, type=2, norm="ortho", axis=0) ** 2, axis=1)
     frequency = np.pi * np.arange(len(values)) / len(values)
-    keep = np.flatnonzero(weight > 0.3)
+    keep = np.flatnonzero(weight > NOISE.least_left)
     keep = keep[keep >= lowest]
     return Periodogram(frequency[keep], power[keep] / weight[keep], weight[keep])

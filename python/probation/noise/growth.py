@@ -9,6 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from probation.noise.local_size import local_size
 from probation.noise.segments import leftover
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -29,10 +30,10 @@ def growth_of(record: RecordResidual, residual: FloatArray, coarse: bool) -> tup
     left = leftover(residual, record.jumps)
     # Second differences see no transient of the model; a correlated noise keeps its size in them.
     size = np.abs(np.convolve(left, [1.0, -2.0, 1.0], mode="same"))
-    size = uniform_filter1d(size, 5, mode="nearest")
+    size = uniform_filter1d(size, NOISE.growth_window, mode="nearest")
     if not np.any(size > 0.0):
         return "constant", np.ones(count)
-    size = np.maximum(size, 0.05 * float(np.mean(size)))
+    size = np.maximum(size, NOISE.least_size * float(np.mean(size)))
     strain = record.true_strain - record.true_strain.mean()
     spread = float(strain @ strain)
     growth: Growth = "constant"
@@ -40,9 +41,8 @@ def growth_of(record: RecordResidual, residual: FloatArray, coarse: bool) -> tup
     if spread > 0.0:
         logs = np.log(size)
         slope = float(strain @ logs) / spread
-        # Neighbouring sizes share samples: about 7 of them are one.
-        error = float(np.std(logs - logs.mean() - slope * strain)) * np.sqrt(7.0 / spread)
-        if slope > 0.5 and slope > 3.0 * error:
+        error = float(np.std(logs - logs.mean() - slope * strain)) * np.sqrt(NOISE.growth_memory / spread)
+        if slope > NOISE.force_slope and slope > NOISE.force_slope_errors * error:
             growth, profile = "force", np.exp(record.true_strain)
     profile = profile / np.sqrt(np.mean(profile**2))
     local = local_size(left / profile)

@@ -15,7 +15,10 @@ LEAST_SEEN = 3e-5
 
 
 def joint_directions(more: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Q (n, k) and shrink (k,) with (I + U U^T)^(-1/2) = I - Q diag(shrink) Q^T for noise U of shape (n, m)."""
+    """Q (n, k) and shrink (k,) with (I + U U^T)^(-1/2) = I - Q diag(shrink) Q^T, U (n, m).
+
+    U is all noise beyond the white one, in white coordinates: L [A D S] of docs/diagnosis-method.md, section 1.
+    """
     wide = more.shape[0] < more.shape[1]
     variance, vectors = np.linalg.eigh(more @ more.T if wide else more.T @ more)
     # A tenth of the time of singular values; their squares keep seven digits of what is kept here.

@@ -13,6 +13,9 @@ from probation.settings.noise import NOISE
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
+MEDIAN_OF_NORMAL = 0.6745
+"""Median of the modulus of a standard normal variable."""
+
 
 def local_size(noise: FloatArray) -> FloatArray | None:
     """Size of the noise at every sample over its usual one, (n,); None where it is the same all along.
@@ -34,7 +37,7 @@ def _bursts(rough: FloatArray) -> FloatArray | None:
     if len(rough) < 4 * NOISE.shortest_burst or typical == 0.0:
         return None
     ratio = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
-    scatter = float(np.median(np.abs(np.log(ratio)))) / 0.6745
+    scatter = float(np.median(np.abs(np.log(ratio)))) / MEDIAN_OF_NORMAL
     least = max(NOISE.burst_ratio, float(np.exp(NOISE.burst_errors * scatter)))
     if not np.any(ratio > least):
         return None
@@ -48,14 +51,14 @@ def _bursts(rough: FloatArray) -> FloatArray | None:
 def _followed(noise: FloatArray) -> FloatArray | None:
     """By a moving mean, drawn towards 1 by as much as chance would move it, where neighbouring sizes are alike."""
     size = np.abs(noise)
-    size = np.minimum(size, 5.0 * float(np.mean(size)))
-    thin = uniform_filter1d(np.abs(np.diff(noise, append=noise[-1])), 3)[::6]
-    if len(thin) <= 12 or _clusters(thin) <= NOISE.clustered_size:
+    size = np.minimum(size, NOISE.clipped_size * float(np.mean(size)))
+    thin = uniform_filter1d(np.abs(np.diff(noise, append=noise[-1])), 3)[:: NOISE.cluster_spacing]
+    if len(thin) <= NOISE.fewest_for_clusters or _clusters(thin) <= NOISE.clustered_size:
         return None
     mean = uniform_filter1d(size, NOISE.size_window, mode="reflect")
-    mean = np.maximum(mean, 0.1 * float(np.median(mean)))
+    mean = np.maximum(mean, NOISE.least_followed_size * float(np.median(mean)))
     logs = np.log(mean / np.mean(mean))
-    chance = 1.5 * 0.57 / NOISE.size_window
+    chance = NOISE.chance_of_sizes * NOISE.size_variance / NOISE.size_window
     keep = max(1.0 - chance / max(float(np.var(logs)), 1e-12), 0.0)
     return np.asarray(np.exp(keep * logs), dtype=np.float64)
 

@@ -41,7 +41,7 @@ class NoiseModel:
     quantum : float
         Step of the readings [MPa or as the force over its area], 0 if there is none.
     propagated : ndarray, shape (n, k) [MPa]
-        Stress noise that independent unit errors of the strain make; k may be 0.
+        A: the stress noise that independent unit errors of the strain make; k may be 0.
     level_variance, shape_variance : float
         Of the logarithm of the noise spectrum at low frequency: by this record's own level, and by the shape, which
         records may share.
@@ -150,7 +150,7 @@ class NoiseModel:
         return rough + self._root.log_determinant
 
     def strain_errors(self, residual: FloatArray) -> FloatArray:
-        """Likeliest strain errors of a residual (n,), in standard deviations: C^T Sigma^-1 r; (k,)."""
+        """Likeliest strain errors of a residual (n,), in standard deviations: A^T Sigma^-1 r; (k,)."""
         white = self._root.whiten_transposed(self.whiten(residual))
         return np.asarray(self.arma.whiten(self.propagated / self.profile[:, None]).T @ white)
 

@@ -44,7 +44,9 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     away = residual - 0.5 * (later + earlier)
     spread = SD_OF_MEDIAN * float(np.median(np.abs(away)))
     spread = max(spread, float(np.quantile(np.abs(away), 0.9)) / UPPER_95, 1e-300)
-    out = (np.abs(away) > NOISE.outlier_distance * spread) & (np.abs(later - earlier) < 0.25 * np.abs(away))
+    out = (np.abs(away) > NOISE.outlier_distance * spread) & (
+        np.abs(later - earlier) < NOISE.outlier_sides * np.abs(away)
+    )
     for border in (0, *jumps):
         out[max(border - reach, 0) : border + reach + 1] = False
     found = np.flatnonzero(out)

@@ -9,6 +9,7 @@ import numpy as np
 
 from probation._arrays import as_samples
 from probation.errors import InputError
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -95,7 +96,7 @@ class RecordResidual:
 
     @property
     def phase(self) -> FloatArray:
-        """+1 loading, -1 unloading, 0 dwell; shape (n,). A dwell strains below 2 % of the record's typical rate."""
+        """+1 loading, -1 unloading, 0 dwell; shape (n,). A dwell strains below `NOISE.dwell_rate`."""
         speed = float(np.median(np.abs(self.strain_rate[self.strain_rate != 0.0]))) if self.strain_rate.any() else 0.0
-        moving = np.abs(self.strain_rate) > 0.02 * speed
+        moving = np.abs(self.strain_rate) > NOISE.dwell_rate * speed
         return np.asarray(np.sign(self.strain_rate) * moving, dtype=np.float64)

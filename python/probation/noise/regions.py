@@ -61,10 +61,10 @@ def time_regions(records: Sequence[RecordResidual]) -> list[Region]:
 
 
 def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
-    """Sixths of the strain range, decades of the rate, and loading, dwell and unloading, over all records together."""
+    """Parts of the strain range, decades of the rate, and loading, dwell and unloading, over all records together."""
     found = []
     strain = [record.true_strain for record in records]
-    ends = np.linspace(min(s.min() for s in strain), max(s.max() for s in strain), 7)
+    ends = np.linspace(min(s.min() for s in strain), max(s.max() for s in strain), NOISE.strain_regions + 1)
     for low, high in pairwise(ends):
         inside = [(s >= low) & ((s < high) | (high == ends[-1])) for s in strain]
         found += _region("strain", f"true strain {low:.3g} to {high:.3g}", inside)
@@ -76,8 +76,8 @@ def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
         logs = [np.log10(np.abs(record.strain_rate)) for record in records]
     moving = np.concatenate([log[phase != 0.0] for log, phase in zip(logs, phases, strict=True)])
     if moving.size:
-        low, high = np.quantile(moving, [0.01, 0.99])
-        pieces = int(min(np.ceil(high - low), 5)) if high - low > 0.3 else 1
+        low, high = np.quantile(moving, NOISE.rate_ends)
+        pieces = int(min(np.ceil(high - low), NOISE.most_rate_regions)) if high - low > NOISE.least_rate_range else 1
         borders = np.linspace(low, high, pieces + 1)
         for first, last in pairwise(borders):
             inside = [

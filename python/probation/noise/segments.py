@@ -15,9 +15,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-BLOCKS, DEGREE = 12, 5
-"""The finest smooth basis: polynomials of this degree on so many segments of a record."""
-
 
 def in_segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
     """Segments of nearly equal length that end at the jumps, without those that are too short to tell anything."""
@@ -28,7 +25,7 @@ def leftover(values: FloatArray, jumps: Sequence[int]) -> FloatArray:
     """What polynomials on segments leave, every sample; short segments give zeros."""
     parts = []
     for part in _segments(values, jumps):
-        basis = legendre(len(part), min(DEGREE, max(len(part) - 2, 0))) if len(part) else np.zeros((0, 1))
+        basis = legendre(len(part), min(NOISE.segment_degree, max(len(part) - 2, 0))) if len(part) else np.zeros((0, 1))
         parts.append(part - basis @ (basis.T @ part))
     return np.concatenate(parts)
 
@@ -41,7 +38,7 @@ def legendre(count: int, degree: int) -> FloatArray:
 
 
 def _segments(values: FloatArray, jumps: Sequence[int]) -> list[FloatArray]:
-    target = max(len(values) // BLOCKS, NOISE.shortest_segment)
+    target = max(len(values) // NOISE.segments, NOISE.shortest_segment)
     borders = [0, *sorted(jumps), len(values)]
     return [
         part

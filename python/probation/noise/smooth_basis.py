@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-WAVES = 12
-"""Cosine waves along a record: half periods 0 to 11."""
-
 
 @dataclass(frozen=True, eq=False)
 class SmoothBasis:
@@ -46,7 +43,7 @@ def waves(count: int, most: int, time: FloatArray | None = None) -> FloatArray:
     return np.asarray(columns, dtype=np.float64)
 
 
-def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES) -> SmoothBasis:
+def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = NOISE.smooth_waves) -> SmoothBasis:
     """Slow waves by sample, and exponential fades after the start and after every rate discontinuity.
 
     Waves follow nothing sharp; a law's error after a jump is sharp and its place is known, so it has its own columns.
@@ -66,7 +63,7 @@ def smooth_basis(time: FloatArray, jumps: Sequence[int] = (), most: int = WAVES)
     borders = [0, *sorted(jumps), count - 1]
     segments = sorted(pairwise(borders), key=lambda ends: ends[0] - ends[1])[: NOISE.transient_segments]
     for first, last in sorted(segments):
-        if last - first < 20:
+        if last - first < NOISE.fewest_for_a_transient:
             continue
         since = (time[first : last + 1] - time[first]) / (time[last] - time[first])
         for constant, order in NOISE.transient_times:

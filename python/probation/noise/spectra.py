@@ -48,8 +48,10 @@ def _groups(parts: list[Periodogram], bottom: float, pool: bool) -> list[tuple[l
         if len(parts) == 1:
             return [(everyone, shared)]
     alone = [fit_arma([part], bottom) for part in parts]
-    extra = 2.0 * (len(parts) - 1)  # chi-square: mean + 3 standard deviations
-    if pool and shared.deviance - sum(each.deviance for each in alone) <= extra + 3.0 * np.sqrt(2.0 * extra):
+    extra = 2.0 * (len(parts) - 1)  # mean of a chi-square
+    if pool and shared.deviance - sum(each.deviance for each in alone) <= extra + NOISE.own_shape_errors * np.sqrt(
+        2.0 * extra
+    ):
         return [(everyone, shared)]
     return [([index], each) for index, each in enumerate(alone)]
 
@@ -60,7 +62,7 @@ def _agrees(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bo
     A bias shows first at the lowest frequencies. Power beyond the prediction is allowed for 1.5 standard errors of the
     logarithm of the predicted spectrum.
     """
-    allowed = float(np.exp(1.5 * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
+    allowed = float(np.exp(NOISE.prediction_margin * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
     below = np.flatnonzero(whole.frequency < own.frequency.min())
     for part in (below[: NOISE.lowest_coefficients], below):
         weight = whole.weight[part]

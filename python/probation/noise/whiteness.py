@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 def correlation_lags(residual: FloatArray) -> int:
     """Lags over which a residual is correlated: 0 for a white one, else four times its correlation length."""
     inflation = mean_inflation(residual)
-    return 0 if inflation < CERTIFICATE.white_ratio else min(max(int(4.0 * inflation), 1), len(residual) // 2)
+    return (
+        0
+        if inflation < CERTIFICATE.white_ratio
+        else min(max(int(NOISE.correlation_lengths * inflation), 1), len(residual) // 2)
+    )
 
 
 def mean_inflation(residual: FloatArray) -> float:
@@ -25,7 +29,7 @@ def mean_inflation(residual: FloatArray) -> float:
     count = len(residual)
     centred = residual - residual.mean()
     variance = float(centred @ centred) / count
-    if variance == 0.0 or count < 20:
+    if variance == 0.0 or count < NOISE.fewest_for_inflation:
         return 1.0
     spectrum = np.abs(np.fft.rfft(centred, 2 * count)) ** 2
     autocovariance = np.fft.irfft(spectrum)[: count // 2] / count / variance

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.identify.coverage import NOMINAL, TRUTH
+from probation.identify.coverage import TRUTH
 from probation.inference.parameter import SYMBOLS
 from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,7 +25,7 @@ def coverage_figure(coverage: Coverage) -> Figure:
     with styled_figure(9.0, 0.9 + 0.55 * len(cases)) as figure:
         panels = figure.subplots(1, len(TRUTH), sharey=True)
         for axes, name in zip(panels, TRUTH, strict=True):
-            axes.axvline(100 * NOMINAL, color=colour("muted"), lw=0.8)
+            axes.axvline(100 * IDENTIFICATION.nominal_coverage, color=colour("muted"), lw=0.8)
             for at, method in enumerate(methods):
                 rows = [coverage.of(case, method) for case in cases]
                 centre = np.array([100 * row.coverage(name) for row in rows])

@@ -37,6 +37,10 @@ class CompanionSettings:
     searched_alpha: tuple[float, float] = chosen(
         (1e-2, 1e2), "-", "Range of a record's own alpha: beyond a hundredfold error a relation predicts nothing."
     )
+    searched_times: tuple[float, float] = chosen(
+        (0.1, 1e3), "shortest step, longest record", "Range of tau_max: below, E_u grows without end."
+    )
+    rate_ends: tuple[float, float] = chosen((5.0, 95.0), "%", "Percentiles of a record's rate that are its range.")
 
 
 COMPANION = CompanionSettings()

@@ -35,6 +35,18 @@ class ComparisonSettings:
     branch_ends: int = chosen(
         3, "samples", "Samples at the ends of a branch that are taken as they are, not as a smooth curve."
     )
+    graded_intervals: int = chosen(
+        3, "intervals", "Intervals at the start of a branch that get finer towards it: onsets are steep."
+    )
+    grading: float = chosen(0.7, "-", "Factor by which they get finer.")
+    samples_per_interval: int = chosen(4, "samples", "Samples per interval of a branch, at least.")
+    samples_at_start: float = chosen(1.5, "samples", "The same of the finest one.")
+    farthest_answer: float = chosen(
+        3.0, "standard deviations", "Standard deviations up to which the law's answer to another history may err."
+    )
+    beyond_reference: int = chosen(
+        3, "orders", "Beyond a reference's end the rest is a constant, a line and a parabola."
+    )
 
 
 COMPARISON = ComparisonSettings()

@@ -76,6 +76,12 @@ class DesignSettings:
     )
     listed_tests: int = chosen(5, "tests", "Tests that are listed.")
     moving_rate: float = chosen(0.01, "largest rate", "Rate from which on a specimen of a planned test is straining.")
+    least_form_weight: float = chosen(0.01, "probability", "Share of an explanation from which on a form is predicted.")
+    rate_contrast: float = chosen(10.0, "-", "Ratio of the rates of planned tests, and of their times, at least.")
+    planned_samples: tuple[int, int] = chosen((200, 1000), "samples", "Least and most samples of a planned test.")
+    loading_samples: int = chosen(20, "samples", "Samples of the loading by a dead weight.")
+    loading_one_in: float = chosen(50.0, "-", "The loading takes one over this of the test at most.")
+    early_unloading: float = chosen(0.25, "largest strain", "Strain from which a test is unloaded just behind yield.")
 
 
 DESIGN = DesignSettings()

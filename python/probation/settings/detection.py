@@ -144,6 +144,24 @@ class DetectionSettings:
         "draws",
         "Draws beyond the observed value that make a bootstrap p-value; with fewer the tail is extrapolated.",
     )
+    oversampling: int = chosen(
+        2,
+        "-",
+        "Frequencies per natural spacing at which lines and strain periods are looked for; each counts as independent.",
+        source="Scargle 1982",
+    )
+    fewest_for_lines: int = chosen(
+        8, "slowest_line", "Samples over that from which on a record is looked through for lines, periods and bumps."
+    )
+    fewest_for_steps: int = chosen(4, "slowest_line", "The same for steps.")
+    least_strain_share: float = chosen(
+        0.3, "largest strain range", "Strain range of a record from which on it is looked through for strain periods."
+    )
+    step_draws: int = chosen(500, "draws", "Draws of the null distribution of the largest step.")
+    region_draws: int = chosen(2000, "draws", "Draws of the null distribution of the least probable region.")
+    effective_one_in: int = chosen(
+        100, "draws", "The largest one in so many draws tells how many independent directions the effects amount to."
+    )
 
 
 DETECTION = DetectionSettings()

@@ -78,6 +78,9 @@ class EffectsSettings:
         "true strain",
         "Largest strain of a campaign from which on crystals may form, or be transformed: beyond yield.",
     )
+    least_rate_range: float = chosen(
+        0.1, "decades", "Range of the strain rate below which it is one value: it is never quite steady."
+    )
 
 
 EFFECTS = EffectsSettings()

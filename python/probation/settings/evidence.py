@@ -171,6 +171,13 @@ class EvidenceSettings:
     same_amplitude: float = chosen(
         0.01, "probability", "p-value below which an amplitude is said to differ from record to record."
     )
+    remaining_draws: int = chosen(2000, "draws", "Draws of the null of the test of what an explanation leaves.")
+    unknown_sizes: int = chosen(
+        17, "sizes", "Sizes of an unknown effect that are weighed, evenly spaced in the logarithm."
+    )
+    unknown_settled: float = chosen(
+        0.1, "log evidence", "Gain of a round over the records below which their own sizes are found."
+    )
 
 
 EVIDENCE = EvidenceSettings()

@@ -30,6 +30,11 @@ class FieldSettings:
         "Variance of that logarithm times the samples: 1/2 for even noise that is known, more where the noise grows "
         "along the record and is estimated.",
     )
+    noise_part: int = chosen(10, "samples", "Samples of a part of the record with a noise of its own, at least.")
+    most_noise_parts: int = chosen(16, "parts", "Such parts at most.")
+    penalised_derivative: int = chosen(
+        4, "-", "Derivative that smoothing penalises; a lower one bends the start, where the unrelaxed modulus is."
+    )
 
 
 FIELD = FieldSettings()

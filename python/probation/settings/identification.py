@@ -29,6 +29,19 @@ class IdentificationSettings:
         "-",
         "Part of what makes strain noise matter from which on it is drawn again on a record too long for a matrix.",
     )
+    beyond_records: float = chosen(
+        1e3, "-", "How far beyond the records' own times tau_max is searched, and how far from 1 alpha."
+    )
+    walkers: int = chosen(16, "walkers", "Walkers of the ensemble that samples the posterior.")
+    burn_in: int = chosen(300, "steps", "Its first steps, which are dropped.")
+    thinned: int = chosen(10, "steps", "Of the others one step in so many is kept.")
+    nominal_coverage: float = chosen(0.95, "probability", "Coverage that intervals should have.")
+    coverage_confidence: float = chosen(
+        0.99, "probability", "Confidence of the interval of a coverage that was counted, which must contain it."
+    )
+    least_coverage: float = chosen(
+        0.85, "probability", "A study says that intervals hold if its draws can exclude intervals of this coverage."
+    )
 
 
 IDENTIFICATION = IdentificationSettings()

@@ -216,6 +216,84 @@ class NoiseSettings:
         8, "parts", "Parts of a record in which the local noise variance is estimated for that choice."
     )
     least_local_variance: float = chosen(0.01, "-", "Least local noise variance in that choice, over its mean.")
+    smooth_waves: int = chosen(12, "half periods", "Cosine waves along a record that a gap, not noise, may hold.")
+    fewest_for_a_transient: int = chosen(
+        20, "samples", "Intervals from which on a segment has transients of a smooth gap."
+    )
+    segments: int = chosen(12, "segments", "Segments of a record on which polynomials take all but the noise.")
+    segment_degree: int = chosen(5, "-", "Degree of these polynomials.")
+    lowest_frequency: float = chosen(2e-3, "rad per sample", "Lower end of the bins of a spectrum.")
+    long_run_frequency: float = chosen(
+        1e-3, "rad per sample", "Frequency at which a spectrum's shape counts as uncertain: the noise of slow averages."
+    )
+    solid_bin: float = chosen(10.0, "coefficients", "Coefficients of a bin from which on it may be dim.")
+    dim_weight: float = chosen(0.02, "-", "Part of its weight that a dim bin keeps.")
+    no_rise_margin: float = chosen(
+        3.0,
+        "lowest frequency",
+        "Distance of phi from 1, over the lowest frequency that was looked at, of noise that does not rise there.",
+    )
+    low_rise_margin: float = chosen(0.7, "lowest frequency", "The same of noise that may rise there.")
+    least_largest_phi: float = chosen(0.1, "-", "Largest phi that is tried however short a record.")
+    smallest_phi: float = chosen(-0.7, "-", "Smallest phi that is tried.")
+    low_coefficients: int = chosen(
+        8, "coefficients", "Lowest coefficients of a segment, whose power over the others' shows a transient."
+    )
+    least_left: float = chosen(
+        0.3, "-", "Part of a cosine coefficient that a projection must leave for it to count in a spectrum."
+    )
+    own_shape_errors: float = chosen(
+        3.0, "standard deviations", "Gain of a spectrum's shape for each record, beyond chance, that shared ones lack."
+    )
+    prediction_margin: float = chosen(
+        1.5, "standard errors", "Standard errors of a predicted spectrum by which its power may be exceeded."
+    )
+    level_variance_of_few: float = chosen(
+        5.0, "over the samples", "Variance of the logarithm of a level by robust differences, times the samples."
+    )
+    least_level_of_few: float = chosen(
+        0.1, "scatter of differences", "Least noise of a short record: the median of few differences is uncertain."
+    )
+    growth_window: int = chosen(
+        5,
+        "samples",
+        "Second differences over which a size of the noise is averaged before it is held against the strain.",
+    )
+    least_size: float = chosen(0.05, "mean size", "Least of these sizes.")
+    growth_memory: float = chosen(7.0, "samples", "Of these sizes so many count as one: neighbours share samples.")
+    force_slope: float = chosen(0.5, "-", "Slope of the logarithm of the size over the strain of force noise; it is 1.")
+    force_slope_errors: float = chosen(3.0, "standard errors", "Standard errors of that slope, too.")
+    clipped_size: float = chosen(5.0, "mean size", "Largest size that the moving mean of sizes sees.")
+    least_followed_size: float = chosen(0.1, "median size", "Least value of that moving mean.")
+    cluster_spacing: int = chosen(6, "samples", "Distance of the sizes whose correlation shows clusters.")
+    fewest_for_clusters: int = chosen(12, "sizes", "Such sizes up to which nothing is said of clusters.")
+    size_variance: float = derived(
+        0.57, "-", "Variance of one size over its squared mean.", source="normal noise: pi/2 - 1"
+    )
+    chance_of_sizes: float = chosen(1.5, "-", "Factor of the variance that a moving mean of sizes has by chance.")
+    outlier_sides: float = chosen(0.25, "distance", "Most that the two sides of an outlier may differ.")
+    strain_regions: int = chosen(6, "regions", "Regions of the strain range.")
+    most_rate_regions: int = chosen(5, "regions", "Regions of the strain rate at most, one a decade.")
+    least_rate_range: float = chosen(0.3, "decades", "Range of the rates from which on they are parted in regions.")
+    rate_ends: tuple[float, float] = chosen((0.01, 0.99), "-", "Quantiles of the rate that are the ends of that range.")
+    dwell_rate: float = chosen(0.02, "median rate", "Strain rate below which a record dwells.")
+    fewest_for_inflation: int = chosen(20, "samples", "Samples below which a residual is taken as white.")
+    correlation_lengths: float = chosen(
+        4.0, "correlation lengths", "Lags, over the correlation length, over which a residual is correlated."
+    )
+    quieting_window: int = chosen(
+        50,
+        "-",
+        "Where effects hand the recorded stress back, half the window that smooths it is one over this of a record.",
+    )
+    scatter_draws: int = chosen(6000, "steps", "Metropolis steps of the posterior of the specimens' scatter.")
+    scatter_burn_in: int = chosen(1000, "steps", "The first of them, which adapt the steps and are left out.")
+    most_with_strain_noise: int = chosen(
+        3000,
+        "samples",
+        "Samples up to which a record's strain noise has a matrix; that of 3000 takes about 3 s to make and factor.",
+    )
+    tenfold: float = chosen(10.0, "-", "Ratio of the records' noise from which on it is noted.")
 
 
 NOISE = NoiseSettings()

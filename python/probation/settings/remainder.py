@@ -56,6 +56,25 @@ class RemainderSettings:
     )
     rate_window: int = chosen(60, "-", "The strain rate is a mean over one over this of a record.")
     least_range: float = chosen(1e-3, "-", "Range of a variable, over its largest value, below which it is one value.")
+    ridge: float = chosen(
+        1e-6, "mean information", "Precision of a coefficient of a free function: none where samples are."
+    )
+    smoothness: float = chosen(
+        1e-4,
+        "mean information",
+        "Precision of its difference from the mean of its neighbours: where no sample is, a function runs straight.",
+    )
+    per_coefficient: float = chosen(0.002, "remainder", "What a function must explain more for each coefficient.")
+    per_phase: float = chosen(0.01, "remainder", "What it must explain more for acting in one phase only.")
+    on_parts: float = chosen(
+        0.2,
+        "remainder",
+        "What it must explain more where it was judged on parts of records though there are several.",
+    )
+    least_phase: float = chosen(
+        0.03, "samples", "Part of all samples that a phase must hold, and that must lie outside it."
+    )
+    fewest_of_a_phase: int = chosen(20, "samples", "Samples that it must hold, and that must lie outside it.")
 
 
 REMAINDER = RemainderSettings()

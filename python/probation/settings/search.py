@@ -90,6 +90,14 @@ class SearchSettings:
     budget_of_design: float = chosen(
         0.75, "budget", "Part of the budget after which isolability and the next test are not begun."
     )
+    most_samples: int = chosen(
+        3000, "samples", "Longer records are thinned: gaps are slow, and a search costs in proportion."
+    )
+    sharp_start: float = chosen(
+        0.3,
+        "prior scales",
+        "Amplitude from which an effect with a frequency or an instant is refitted where there is no gap.",
+    )
 
 
 SEARCH = SearchSettings()

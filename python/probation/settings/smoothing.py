@@ -107,6 +107,21 @@ class SmoothingSettings:
         12.0, "-", "Twice the log odds against lags at a start from which on they are left out."
     )
     least_strain_noise: float = chosen(1e-6, "-", "Noise of a strain without noise, over the lags at its start.")
+    smallest_jump_window: int = chosen(
+        8, "samples", "Samples on each side through which lines show a discontinuity of the rate, at least."
+    )
+    largest_jump_window: int = chosen(60, "samples", "The same at most, before it is widened.")
+    jump_windows: int = chosen(60, "-", "Between these the window is one over this of a record.")
+    wider_jump_windows: tuple[int, ...] = chosen(
+        (1, 3, 5), "-", "Windows so many times larger are searched: noisier jumps stand out in the larger ones."
+    )
+    sines_in_vain: int = chosen(3, "sines", "Sines that are added in vain before the search ends.")
+    sine_blocks: int = chosen(400, "means", "Means of neighbouring samples in which sines are looked for.")
+    sine_spacing: float = chosen(0.25, "cycles per record", "Spacing of the frequencies at which a sine begins.")
+    lag_times: tuple[float, ...] = chosen(
+        (0.5, 1.0, 2.0, 4.0), "sampling interval", "Time constants of the lags at a start."
+    )
+    border_samples: int = chosen(12, "samples", "Samples next to a border whose slope is the rate there.")
 
 
 SMOOTHING = SmoothingSettings()

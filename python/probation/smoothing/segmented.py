@@ -11,7 +11,7 @@ import numpy as np
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import Smoothed, Smoother, polynomial
-from probation.smoothing.transient import SIDE, Transient, rate_change
+from probation.smoothing.transient import Transient, rate_change
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -115,7 +115,7 @@ class _Segment:
         inside = slice(skip, len(whole) - drop)
         values = true_strain[first : last + 1][inside]
         few = len(values) < SMOOTHING.shortest_curve
-        if lagging is not None and len(values) > SIDE:
+        if lagging is not None and len(values) > SMOOTHING.border_samples:
             change = rate_change(time, true_strain, first, borders[at - 1] if at else first, last)
             smoother = partial(lagging, lags=Transient.after(whole, change).of_samples(inside))
         smoothed = polynomial(whole[inside], values, 1) if few else smoother(whole[inside], values)

@@ -17,10 +17,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-SMALLEST_WINDOW, LARGEST_WINDOW = 8, 60
-WIDER = (1, 3, 5)
-"""Windows so many times larger are searched: noisier jumps stand out in the larger ones, such as the end of a wait."""
-
 
 @dataclass(frozen=True)
 class _Slopes:
@@ -68,7 +64,7 @@ def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[
     """Indices at which the slope of noisy samples is discontinuous, increasing."""
     jumps: list[int] = []
     smallest = _smallest_window(time)
-    for window in (factor * smallest for factor in WIDER):
+    for window in (factor * smallest for factor in SMOOTHING.wider_jump_windows):
         if len(time) >= 4 * window:
             jumps += _jumps_in_windows(time, values, noise, window, jumps)
     borders = [0, *sorted(jumps), len(time) - 1]
@@ -79,7 +75,9 @@ def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[
 
 
 def _smallest_window(time: FloatArray) -> int:
-    return int(np.clip(len(time) // 60, SMALLEST_WINDOW, LARGEST_WINDOW))
+    return int(
+        np.clip(len(time) // SMOOTHING.jump_windows, SMOOTHING.smallest_jump_window, SMOOTHING.largest_jump_window)
+    )
 
 
 def _with_stress(
@@ -95,7 +93,7 @@ def _with_stress(
     needs no search.
     """
     found = sorted(jumps)
-    reach = WIDER[-1] * _smallest_window(time)
+    reach = SMOOTHING.wider_jump_windows[-1] * _smallest_window(time)
     for corner in corners:
         near = min(found, key=lambda jump: abs(jump - corner), default=None)
         others = [jump for jump in found if jump != near]
@@ -109,7 +107,7 @@ def _with_stress(
 
 def _around(time: FloatArray, first: int, last: int, others: Sequence[int]) -> slice:
     """The samples before `first` and after `last` up to the next jump or end, no more than the widest window."""
-    most = WIDER[-1] * _smallest_window(time)
+    most = SMOOTHING.wider_jump_windows[-1] * _smallest_window(time)
     before = max((other for other in others if other < first), default=0)
     after = min((other for other in others if other > last), default=len(time) - 1)
     return slice(max(before, first - most), min(after, last + most) + 1)

@@ -16,12 +16,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-PATIENCE = 3
-"""Sines that are added in vain before the search ends."""
-
-BLOCKS = 400
-"""Means of neighbouring samples that the search looks at."""
-
 
 @dataclass(frozen=True, eq=False)
 class Sines:
@@ -83,7 +77,9 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
     x, means, sums = _blocks((time - start) / duration, residual, weight)  # frequencies in cycles per record
     fit = partial(_Fit, x, sums, sums * means)
     count = len(x)
-    grid = np.arange(SMOOTHING.slowest_sine, min(SMOOTHING.fastest_sine, count / SMOOTHING.samples_per_cycle), 0.25)
+    grid = np.arange(
+        SMOOTHING.slowest_sine, min(SMOOTHING.fastest_sine, count / SMOOTHING.samples_per_cycle), SMOOTHING.sine_spacing
+    )
     turns = np.exp(2j * np.pi * np.outer(grid, x))
     found = [fit(np.empty(0))]
     while len(found) <= min(SMOOTHING.most_sines, len(grid) // 4) and not _settled(found):
@@ -95,8 +91,10 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
 
 
 def _settled(found: Sequence[_Fit]) -> bool:
-    """Whether the last `PATIENCE` sines were not wanted."""
-    return len(found) > PATIENCE and int(np.argmin(_criteria(found))) < len(found) - PATIENCE
+    """Whether the last `SMOOTHING.sines_in_vain` sines were not wanted."""
+    return (
+        len(found) > SMOOTHING.sines_in_vain and int(np.argmin(_criteria(found))) < len(found) - SMOOTHING.sines_in_vain
+    )
 
 
 def _criteria(found: Sequence[_Fit]) -> list[float]:
@@ -112,8 +110,8 @@ def _criteria(found: Sequence[_Fit]) -> list[float]:
 
 
 def _blocks(t: FloatArray, values: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted means of neighbouring samples and one over their noise: `BLOCKS` of them know what slow sines need."""
-    size = max(len(t) // BLOCKS, 1)
+    """Weighted means of neighbouring samples and one over their noise: they know what slow sines need."""
+    size = max(len(t) // SMOOTHING.sine_blocks, 1)
     first = np.arange(0, len(t), size)
     total = np.add.reduceat(weight**2, first)
     times, means = (np.add.reduceat(weight**2 * samples, first) / total for samples in (t, values))

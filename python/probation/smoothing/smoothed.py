@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from probation.settings.noise import NOISE
 from probation.smoothing.operators import Operators
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ def inflation(residual: FloatArray) -> float:
     """
     count = len(residual)
     total = float(residual @ residual)
-    if total == 0.0 or count < 20:
+    if total == 0.0 or count < NOISE.fewest_for_inflation:
         return 1.0
     spectrum = np.abs(np.fft.rfft(residual, 2 * count)) ** 2
     correlation = np.fft.irfft(spectrum)[1 : count // 2] / total

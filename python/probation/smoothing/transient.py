@@ -20,12 +20,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-INTERVALS = (0.5, 1.0, 2.0, 4.0)
-"""Time constants of the lags, over the sampling interval."""
-
-SIDE = 12
-"""Samples next to a border whose slope is the rate there."""
-
 
 @dataclass(frozen=True, eq=False)
 class Transient:
@@ -43,8 +37,8 @@ class Transient:
     @classmethod
     def after(cls, time: FloatArray, change: float) -> Transient:
         """After a change of the rate [1/s] at the first sample."""
-        interval = float(np.median(np.diff(time[: SIDE + 1])))
-        constants = np.array(INTERVALS) * interval
+        interval = float(np.median(np.diff(time[: SMOOTHING.border_samples + 1])))
+        constants = np.array(SMOOTHING.lag_times) * interval
         fading = np.exp(-(time - time[0])[:, None] / constants)
         return cls(change * constants * fading, -change * fading)
 
@@ -62,7 +56,9 @@ def rate_change(time: FloatArray, true_strain: FloatArray, at: int, before: int,
     def slope(part: slice) -> float:
         return float(np.polyfit(time[part] - time[at], true_strain[part], 1)[0]) if part.stop - part.start > 1 else 0.0
 
-    return slope(slice(at, min(at + SIDE, after) + 1)) - slope(slice(max(at - SIDE, before), at + 1))
+    return slope(slice(at, min(at + SMOOTHING.border_samples, after) + 1)) - slope(
+        slice(max(at - SMOOTHING.border_samples, before), at + 1)
+    )
 
 
 @dataclass(frozen=True, eq=False)

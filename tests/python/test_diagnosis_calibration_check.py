@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import pytest
 
 import probation
-from probation.diagnosis import calibration
-from probation.diagnosis.calibration import Calibration, Extent
+from probation.diagnosis import calibration_check
+from probation.diagnosis.calibration_check import CalibrationCheck, Extent
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind import laboratory
@@ -30,8 +30,8 @@ def test_a_campaign_of_the_calibration_lies_inside(folder):
 
 
 def test_an_answer_set_holds_more_where_nothing_was_calibrated():
-    assert Calibration(inside=True).covered == EVIDENCE.credible_set == 0.95
-    assert Calibration(inside=False, why=("another law",)).covered == CALIBRATED.credible_set_outside > 0.95
+    assert CalibrationCheck(inside=True).covered == EVIDENCE.credible_set == 0.95
+    assert CalibrationCheck(inside=False, why=("another law",)).covered == CALIBRATED.credible_set_outside > 0.95
 
 
 def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
@@ -50,7 +50,7 @@ def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
 
 def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):
     extent = Extent(records=4, samples=(300.0, 300.0), noise=(0.001, 0.001), strain_noise=(0.0, 0.0), gap=184.3)
-    monkeypatch.setattr(calibration, "extent_of", lambda *_: extent)
+    monkeypatch.setattr(calibration_check, "extent_of", lambda *_: extent)
     base = SimpleNamespace(scatter=SimpleNamespace(any=False))
-    told = calibration.calibration_of(None, base, own_law=True).why[-1]
+    told = calibration_check.check_calibration(None, base, own_law=True).why[-1]
     assert told == f"a misfit over the noise of 184, where 0 to {CALIBRATED.gap[1]:.2g} are covered"

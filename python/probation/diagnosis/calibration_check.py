@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Calibration:
+class CalibrationCheck:
     """Whether a campaign lies within the ranges of those on which the probabilities were calibrated.
 
     Attributes
@@ -100,7 +100,7 @@ def extent_of(campaign: Campaign, base: BaseFit) -> Extent:
     )
 
 
-def calibration_of(campaign: Campaign, base: BaseFit, *, own_law: bool) -> Calibration:
+def check_calibration(campaign: Campaign, base: BaseFit, *, own_law: bool) -> CalibrationCheck:
     """Hold a campaign against the ranges of `CALIBRATED`.
 
     Parameters
@@ -127,7 +127,7 @@ def calibration_of(campaign: Campaign, base: BaseFit, *, own_law: bool) -> Calib
         why.append("specimens that differ, where they are alike in those covered")
     if not own_law:
         why.append("another law than the modal one")
-    return Calibration(not why, tuple(why))
+    return CalibrationCheck(not why, tuple(why))
 
 
 def _two_digits(value: float) -> str:
