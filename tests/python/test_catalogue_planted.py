@@ -208,6 +208,76 @@ def test_triaxiality_of_a_neck():
     named(campaign(replace(each, control="displacement-rate") for each in made), "neck_triaxiality")
 
 
+def saw(strain, period, first):
+    """Straight up to 0, down to -1 at once, one pitch over the strain."""
+    pitch = (strain - first) / period
+    return pitch - np.floor(pitch) - 1.0
+
+
+def serrated(size, firsts=(0.03, 0.03, 0.03), added=lambda time, strain: 0.0):
+    """Three rates; drops of up to `size` in true stress grow in proportion to the strain from 0.2 on, up to 0.5."""
+    made = []
+    for seed, (rate, first) in enumerate(zip((SLOW, 5e-3, FAST), firsts, strict=True)):
+        strain = np.linspace(0.0, 1.0, 400 * FINE + 1)
+        time = strain / rate
+        grown = np.clip((strain - 0.2) / 0.3, 0.0, 1.0)
+        teeth = 0.0 if first is None else size * grown * saw(strain, 0.06, first)
+        made.append(record(f"at-{rate:g}", time, strain, LAW.stress(time, strain) + teeth + added(time, strain), seed))
+    return campaign(made)
+
+
+@pytest.mark.parametrize("firsts", [(0.03, 0.03, 0.03), (0.03, 0.05, 0.07)], ids=["in step", "out of step"])
+def test_serrated_flow(firsts):
+    """Whether the drops of three specimens are at one strain or not: their pitch is the material's."""
+    found = named(serrated(0.3, firsts), "serrated_flow")
+    assert value(found, "period_strain") == pytest.approx(0.06, rel=0.01)
+    assert value(found, "drop_MPa") == pytest.approx(0.3, rel=0.1)
+    assert set(found.best.records) == {"at-0.002", "at-0.005", "at-0.01"}
+
+
+def test_serrated_flow_at_one_rate():
+    """An alloy is serrated within a range of rates only."""
+    found = named(serrated(0.5, (None, 0.03, None)), "serrated_flow")
+    assert found.best.records == ("at-0.005",)
+
+
+def without_teeth(found):
+    return not any("serrated_flow" in each for each in found.answer_set)
+
+
+def test_waves_in_time_are_no_serrated_flow():
+    """At one rate they are periodic in the strain, too, but a wave is no saw; and at three rates they have no pitch."""
+
+    def wave(time, strain):
+        return 0.3 * np.sin(2.0 * np.pi * time / 15.0 + 0.4) * np.exp(strain)
+
+    for firsts, added in (
+        ((None,) * 3, wave),
+        ((None,) * 3, lambda time, strain: wave(time, strain) if time[-1] == 200.0 else 0.0),
+    ):
+        found = diagnosed(serrated(0.0, firsts, added))
+        assert found.effects[0].name == "periodic_disturbance", found.headline
+        assert without_teeth(found)
+
+
+def test_loops_without_teeth_are_no_serrated_flow():
+    """Neither where the law describes them nor where Mullins softening opens them, six times at one distance."""
+
+    def softened(law, time, strain):
+        lost = -0.06 * np.expm1((strain - largest(strain)) / 0.06)
+        return law.stress(time, strain, modification=Modification(load_bearing_area=1.0 - lost))
+
+    corners = [each for turn in np.arange(1, 7) * 0.14 for each in (turn, turn - 0.05)]
+    for of_record in (softened, lambda law, time, strain: law.stress(time, strain)):
+        made = []
+        for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+            time, strain = path(rate, [*corners, 0.9])
+            made.append(record(f"at-{rate:g}", time, strain, of_record(LAW, time, strain), seed))
+        found = diagnosed(campaign(made))
+        assert (found.verdict == "no_gap") == (of_record is not softened), found.headline
+        assert without_teeth(found)
+
+
 def at_temperature(celsius, rate=5e-3, seed=0):
     """Arrhenius with 70 kJ/mol for the times; E_u and G fall by 0.2 and 0.4 % a degree."""
     time, strain = path(rate, [0.8])

@@ -636,6 +636,33 @@ def test_waves_on_force_stress_and_strain():
     np.testing.assert_allclose(found - 1000.0 * strain, 0.1 * (wave - wave[0]), atol=1e-10)
 
 
+@pytest.mark.parametrize("first", [0.02, 0.055, 0.08])
+def test_drops_recur_at_one_pitch_from_where_the_record_has_its_first(first):
+    """2 MPa down at first + 0.1 k, then back along a straight line; away from the drops, which take 4 % of a pitch.
+
+    Below the largest strain so far, on the way back from 1.5 to 1.3, nothing more falls.
+    """
+    strain = np.append(np.linspace(0.0, 1.5, 1501), np.linspace(1.5, 1.3, 201)[1:])
+    pitch = (np.maximum.accumulate(strain) - first) / 0.1
+    saw = pitch - np.floor(pitch) - 1.0
+    quiet = np.abs(pitch - np.round(pitch)) > 0.06
+    record = Record(
+        id="teeth",
+        time=np.arange(1701.0),
+        true_strain=strain,
+        true_stress=1000.0 * strain + 2.0 * np.exp(strain) * saw,
+        noise=Noise(0.04, 0.0),
+    )
+    for form, size in (("force", 2.0 * np.exp(strain)), ("stress", 2.0)):
+        # Grown after 3 % of strain; along a straight line within 4 %.
+        found, _ = predicted(bar(), record, "serrated_flow", form, (2.0, 0.1, 10.0, 0.0, 0.006))
+        seen = quiet & (strain > 0.03)
+        np.testing.assert_allclose(found[seen] - 1000.0 * strain[seen], (size * saw)[seen], atol=0.05 * np.max(size))
+    found, _ = predicted(bar(), record, "serrated_flow", "proportional", (0.02, 0.1, 10.0, 0.0))
+    seen = quiet & (strain > 0.1)
+    np.testing.assert_allclose(found[seen] / (1000.0 * strain[seen]) - 1.0, 0.02 * saw[seen], atol=1e-3)
+
+
 def test_a_warmer_day_is_another_law():
     """3 degrees: tau_max e^(-0.3), G e^(-0.015); from test to test the last record has it all, the first nothing."""
     first, last = ramp(1e-3), ramp(2e-2)
