@@ -336,6 +336,47 @@ def test_a_measured_temperature_that_stays_acquits_self_heating():
     assert all("self_heating" not in each.effects for each in found.explanations)
 
 
+def cavitated(*, poisson=None, measured_section=False):
+    """Three rates; the volume grows by 15 % from 0.2 on; the true stress takes it for constant, or has it right.
+
+    The transverse strain is measured with noise of 2e-4; with a Poisson ratio it says something else.
+    """
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [1.0])
+        grown = -0.15 * np.expm1(-((np.maximum(strain - 0.2, 0.0) / 0.3) ** 2))
+        across = 0.5 * (grown - strain) if poisson is None else -poisson * strain
+        noise = 2e-4 * np.random.default_rng(7 + seed).standard_normal(len(time))
+        stress = LAW.stress(time, strain) * (1.0 if measured_section else np.exp(grown))
+        made.append(
+            replace(record(f"at-{rate:g}", time, strain, stress, seed), transverse_strain=(across + noise)[::FINE])
+        )
+    return campaign(made)
+
+
+def test_a_measured_growth_of_the_volume_explains_the_stress():
+    found = named(cavitated(), "volume_change")
+    assert found.best.forms == ("as_measured",)
+    assert value(found, "overlooked_part") == pytest.approx(1.0, abs=0.05)
+    # e^0.15 less the little that 1.0 leaves open; 95 % of the samples lie below that of the last.
+    assert any(
+        "at-0.01 was measured to change its volume by up to 15." in note or "up to 14." in note
+        for note in found.best.checks.notes
+    )
+
+
+def test_a_measured_volume_that_stays_acquits_its_growth():
+    """The same stress, but the transverse strain is half the strain all along: another cause has to be found."""
+    found = diagnosed(cavitated(poisson=0.5))
+    assert found.verdict != "no_gap"
+    assert not any("volume_change" in each.effects for each in found.explanations)
+
+
+def test_a_section_that_was_measured_leaves_nothing_to_explain():
+    """The volume grew, and the true stress was made of the section as it was."""
+    assert diagnosed(cavitated(measured_section=True)).verdict == "no_gap"
+
+
 def seen(records):
     """Names of the effects that these records could show."""
     return {each.name for each in visible(effects(), views_of(campaign(records)))}

@@ -615,6 +615,18 @@ def test_a_growing_volume_overstates_the_true_stress():
     np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * np.maximum(strain - 0.3, 0.0)), rtol=1e-12)
 
 
+def test_a_measured_poisson_ratio_says_by_how_much_the_true_stress_is_overstated():
+    """nu = 0.4: the volume strain is (1 - 2 nu) e = 0.2 e; half of it overlooked is a factor of e^(0.1 e)."""
+    record = replace(ramp(), transverse_strain=-0.4 * ramp().true_strain)
+    for substeps in (1, 4):
+        found, _ = predicted(bar(), record, "volume_change", "as_measured", (0.5,), substeps=substeps)
+        strain = record.true_strain
+        np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.1 * strain), rtol=1e-12)
+    constant = replace(record, transverse_strain=-0.5 * record.true_strain)
+    found, _ = predicted(bar(), constant, "volume_change", "as_measured", (1.0,))
+    np.testing.assert_allclose(found, 1000.0 * record.true_strain, rtol=1e-12)
+
+
 @pytest.mark.parametrize(("form", "values", "cut"), [("fresh", (2.0,), 0.0), ("held", (2.0, 0.1), 0.1)])
 def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
     """a sum u_j e^(-t / tau_j), u_j ~ p_j e^(-cut tau_max / tau_j), on top of the ramp: the law is linear."""

@@ -37,11 +37,12 @@ def assemble(
     found = extract(table, reading, options, film=film)
     measure = next(name for name in STRESS_ROLES if name in found.samples)
     area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
+    transverse = found.samples.get("transverse_strain")
     record = Record(
         id=record_id,
         time=found.samples["time"],
         true_strain=found.true_strain,
-        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area),
+        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area, transverse),
         **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
         control=control,
         role=role,
@@ -52,7 +53,7 @@ def assemble(
         warnings=(
             *found.warnings,
             *dimension_warning(table, reading, options, "area_mm2", area),
-            *_volume_warning(measure),
+            *_section_warning(measure, measured=transverse is not None),
         ),
         profile=profile,
         clock=found.clock,
@@ -60,7 +61,8 @@ def assemble(
     return as_started(record, start)
 
 
-def _volume_warning(measure: str) -> tuple[str, ...]:
+def _section_warning(measure: str, *, measured: bool) -> tuple[str, ...]:
     if measure == "true_stress":
         return ()
-    return (f"true stress made from {measure.replace('_', ' ')} by constant volume",)
+    how = "the measured transverse strain, taken alike in width and thickness" if measured else "constant volume"
+    return (f"true stress made from {measure.replace('_', ' ')} by {how}",)

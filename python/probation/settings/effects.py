@@ -51,6 +51,9 @@ class EffectsSettings:
         "Difference of temperatures that is more than their scatter: a laboratory keeps its room to 2 °C.",
         source="ISO 291",
     )
+    different_volume: float = chosen(
+        0.01, "-", "Volume strain, exceeded in 5 % of a record, that is more than the errors of two measured strains."
+    )
     usual_heating: float = derived(
         0.5,
         "°C/MPa",
