@@ -372,6 +372,12 @@ def test_a_measured_volume_that_stays_acquits_its_growth():
     assert not any("volume_change" in each.effects for each in found.explanations)
 
 
+def test_a_width_that_shrinks_more_than_half_the_strain_judges_no_volume():
+    """Of a film that grows narrower than thinner the width alone says nothing of the volume, for or against it."""
+    assert "volume_change" in seen(cavitated(poisson=0.55).records)
+    assert "volume_change" not in seen(cavitated(poisson=0.5).records)
+
+
 def test_a_section_that_was_measured_leaves_nothing_to_explain():
     """The volume grew, and the true stress was made of the section as it was."""
     assert diagnosed(cavitated(measured_section=True)).verdict == "no_gap"

@@ -13,6 +13,7 @@ from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
+from probation.records.conversions import volume_strain_from
 from probation.records.noise import stress_noise
 from probation.settings.effects import EFFECTS
 from probation.smoothing.excitation import excite
@@ -206,7 +207,7 @@ class RecordView:
         if self.transverse_strain is None:
             return None
         across = np.interp(self.time, self.sampled(self.time), self.transverse_strain)
-        return np.asarray(self.recorded_strain + 2.0 * across)
+        return volume_strain_from(self.recorded_strain, np.asarray(across))
 
     @cached_property
     def nominal_data(self) -> FloatArray:

@@ -1,11 +1,15 @@
 r"""What machines measure to true strain and true stress.
 
 The cross-section is that of the measured transverse strain, :math:`A = A_0 e^{2\varepsilon_t}`, alike in width and
-thickness; where none was measured it is taken to shrink at constant volume, :math:`A = A_0/\lambda`.
+thickness; where none was measured it is taken to shrink at constant volume, :math:`A = A_0/\lambda`. So it is where the
+measured one would mean a volume that shrinks in tension: no solid does that, but a film that is drawn may grow narrower
+than thinner.
 """
 
 import numpy as np
 from numpy.typing import NDArray
+
+from probation.settings.effects import EFFECTS
 
 FloatArray = NDArray[np.float64]
 
@@ -94,3 +98,14 @@ def true_stress_from(
         case "force" if area is not None:
             return values / area * shrunk
     raise RuntimeError(f"no true stress from {role} with area {area}")
+
+
+def volume_strain_from(true_strain: FloatArray, transverse_strain: FloatArray) -> FloatArray:
+    r"""Logarithm of the volume over the first, :math:`\varepsilon + 2\varepsilon_t`, width and thickness alike."""
+    return true_strain + 2.0 * transverse_strain
+
+
+def shrinks_in_tension(true_strain: FloatArray, transverse_strain: FloatArray) -> bool:
+    """Whether the volume would shrink under tension, or grow under compression, by more than errors of the strains."""
+    against = -volume_strain_from(true_strain, transverse_strain) * np.sign(true_strain)
+    return bool(np.quantile(against, EFFECTS.most_of_a_record) > EFFECTS.different_volume)

@@ -52,8 +52,9 @@ class EffectsSettings:
         source="ISO 291",
     )
     different_volume: float = chosen(
-        0.01, "-", "Volume strain, exceeded in 5 % of a record, that is more than the errors of two measured strains."
+        0.01, "-", "Volume strain that is more than the errors of the two measured strains it is made of."
     )
+    most_of_a_record: float = chosen(0.95, "record", "Quantile that stands for the largest value of noisy samples.")
     usual_heating: float = derived(
         0.5,
         "°C/MPa",
