@@ -1,6 +1,7 @@
 """Effects planted by closed forms or integrations of this file, none of them the catalogue's own, and found again."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -231,7 +232,8 @@ def test_serrated_flow(firsts):
     """Whether the drops of three specimens are at one strain or not: their pitch is the material's."""
     found = named(serrated(0.3, firsts), "serrated_flow")
     assert value(found, "period_strain") == pytest.approx(0.06, rel=0.01)
-    assert value(found, "drop_MPa") == pytest.approx(0.3, rel=0.1)
+    drop = value(found, "drop_MPa") * -np.expm1((value(found, "onset_strain") - 0.8) / value(found, "growth_strain"))
+    assert drop * np.exp(0.8 * value(found, "power_of_stretch")) == pytest.approx(0.3, rel=0.1)
     assert set(found.best.records) == {"at-0.002", "at-0.005", "at-0.01"}
 
 
@@ -276,6 +278,36 @@ def test_loops_without_teeth_are_no_serrated_flow():
         found = diagnosed(campaign(made))
         assert (found.verdict == "no_gap") == (of_record is not softened), found.headline
         assert without_teeth(found)
+
+
+def with_waits(read, faulty=(0, 1, 2)):
+    """Three rates; half-way the strain waits for as long as 1.5 loadings; `read(part of time, strain, stress)`."""
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        corners = np.cumsum([0.0, 0.45 / rate, 0.675 / rate, 0.45 / rate])
+        time = np.append(0.0, np.concatenate([np.linspace(a, b, 70 * FINE + 1)[1:] for a, b in pairwise(corners)]))
+        strain = np.interp(time, corners, [0.0, 0.45, 0.45, 0.9])
+        stress = LAW.stress(time, strain)
+        stress = read(time / time[-1], strain, stress) if seed in faulty else stress
+        made.append(record(f"at-{rate:g}", time, strain, stress, seed))
+    return campaign(made)
+
+
+@pytest.mark.parametrize("faulty", [(1,), (0, 1, 2)], ids=["in one test", "in every test"])
+def test_a_force_that_jumps_at_one_part_of_a_test(faulty):
+    found = named(with_waits(lambda part, e, s: s + 0.5 * np.exp(e) * (part > 0.8), faulty), "force_offset")
+    assert found.best.forms == ("jump",)
+    assert len(found.best.records) == len(faulty)
+    assert value(found, "offset_MPa") == pytest.approx(0.5, rel=0.05)
+    assert value(found, "instant_of_record") == pytest.approx(0.8, abs=0.01)
+
+
+@pytest.mark.parametrize("faulty", [(1,), (0, 1, 2)], ids=["in one test", "in every test"])
+def test_a_gain_that_drifts_while_a_test_runs(faulty):
+    """The bridge of the cell settles at 3 % more, by a time constant as long as a test: 1.9 % are reached."""
+    found = named(with_waits(lambda part, e, s: s * (1.0 - 0.03 * np.expm1(-part)), faulty), "force_gain")
+    assert found.best.forms == ("drifting",)
+    assert value(found, "gain_drift") == pytest.approx(0.019, rel=0.15)
 
 
 def at_temperature(celsius, rate=5e-3, seed=0):

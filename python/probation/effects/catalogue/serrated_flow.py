@@ -25,17 +25,21 @@ _HARMONICS = 12
 _NEWTON_STEPS = 3
 _GRID = np.arange(256) / 256.0
 
-_SHAPES = (
+_PERIOD = EffectParameter(
+    name="period_strain",
+    unit="",
+    lower=1e-4,
+    upper=1.0,
+    centre=0.05,
+    scale=float("inf"),
+    log=True,
+    reason="a thousandth in metals, some hundredths in a drawn polyester: any",
+)
+_PARAMETERS = (
     EffectParameter(
-        name="period_strain",
-        unit="",
-        lower=1e-4,
-        upper=1.0,
-        centre=0.05,
-        scale=float("inf"),
-        log=True,
-        reason="a thousandth in metals, some hundredths in a drawn polyester: any",
+        "drop_MPa", "MPa", 0.0, 50.0, 1.0, "some tenths of a MPa to some MPa; a drop, so that it has one sign"
     ),
+    _PERIOD,
     EffectParameter(
         name="recovery_of_period",
         unit="",
@@ -57,12 +61,6 @@ _SHAPES = (
         starts=(_ONSET,),
         reason="none before yield; the critical strain of an alloy is some per cent, that of a neck some tenths",
     ),
-)
-_GROWING = (
-    EffectParameter(
-        "drop_MPa", "MPa", 0.0, 50.0, 1.0, "some tenths of a MPa to some MPa; a drop, so that it has one sign"
-    ),
-    *_SHAPES,
     EffectParameter(
         name="growth_strain",
         unit="",
@@ -74,10 +72,16 @@ _GROWING = (
         starts=(_GROWTH,),
         reason="drops grow over some per cent to some tenths of strain, then stay",
     ),
-)
-_PROPORTIONAL = (
-    EffectParameter("relative_drop", "", 0.0, 0.9, 0.03, "one to ten per cent of the stress"),
-    *_SHAPES,
+    EffectParameter(
+        name="power_of_stretch",
+        unit="",
+        lower=-1.0,
+        upper=3.0,
+        centre=1.0,
+        scale=0.7,
+        starts=(1.0,),
+        reason="drops alike in force have 1, in true stress 0; in proportion to a hardening stress more",
+    ),
 )
 
 
@@ -125,7 +129,8 @@ def _coefficients(
     behind, ahead = strain - 0.5 * period, strain + 0.5 * period
     mean = (np.interp(ahead, strain, area) - np.interp(behind, strain, area)) / period
     inside = (behind >= strain[0]) & (ahead <= strain[-1])
-    weighted = np.where(inside, view.sampled(size)[flowing] * (force - mean), 0.0)
+    step = np.gradient(strain)  # an integral over the strain: samples of a wait count for nothing
+    weighted = np.where(inside, view.sampled(size)[flowing] * (force - mean) * step, 0.0)
     wave = np.exp(-2j * np.pi / period * strain)
     return np.asarray(np.cumprod(np.broadcast_to(wave, (len(orders), len(wave))), axis=0) @ weighted)
 
@@ -142,39 +147,20 @@ def _best_phase(orders: NDArray[np.intp], answers: NDArray[np.complex128]) -> fl
     return phase
 
 
-def _grown(view: RecordView, values: Values) -> FloatArray:
-    """a(1 - e^(-x / w)), x the strain beyond the onset, shape (n,)."""
-    return np.asarray(-values[0] * np.expm1(-np.maximum(view.largest_strain - values[3], 0.0) / values[4]))
-
-
-def _of_the_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """Drops of the nominal stress: of the force."""
-    return stress + _teeth(view, values[1], values[2], _grown(view, values)) * view.stretch
-
-
-def _of_the_stress(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """Drops of the true stress."""
-    return stress + _teeth(view, values[1], values[2], _grown(view, values))
-
-
-def _in_proportion(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """Drops of the part a of the stress, in full a period beyond the onset."""
-    begun = values[0] * np.clip((view.largest_strain - values[3]) / values[1], 0.0, 1.0)
-    return stress * (1.0 + _teeth(view, values[1], values[2], begun))
+def _dropping(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """True stress falls by a(1 - e^(-x / w)) e^(n e), x the strain beyond the onset, e the strain."""
+    drop, period, recovery, onset, growth, power = values
+    grown = -np.expm1(-np.maximum(view.largest_strain - onset, 0.0) / growth)
+    return stress + _teeth(view, period, recovery, drop * grown * np.exp(power * view.largest_strain))
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """The likeliest periods of the residuals; without residuals the prior's centre."""
-    period = _SHAPES[0]
-    found = [period.centre]
+    found = [_PERIOD.centre]
     if residuals is not None:
         found = likely_periods([view.sampled(view.largest_strain) for view in views], residuals)
-    inside = [float(np.clip(likely, period.lower, period.upper)) for likely in found]
-    return [(likely, recovery, _ONSET) for likely in inside for recovery in _RECOVERIES]
-
-
-def _starts_growing(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    return [(*shapes, _GROWTH) for shapes in _starts(views, residuals)]
+    inside = [float(np.clip(likely, _PERIOD.lower, _PERIOD.upper)) for likely in found]
+    return [(likely, recovery, _ONSET, _GROWTH, 1.0) for likely in inside for recovery in _RECOVERIES]
 
 
 EFFECT = Effect(
@@ -183,7 +169,7 @@ EFFECT = Effect(
     physics=(
         "Beyond an onset the stress drops again and again, at one distance in strain, and recovers as straining goes "
         "on: bands of an alloy that ages as it is strained, a neck that runs and stops.\n"
-        "Amplitude: fall of the nominal or true stress far beyond the onset, or part of it."
+        "Amplitude: fall of the stress far beyond the onset, over a power of the stretch."
     ),
     source=(
         "Penning 1972, Acta Metall. 20, 1169; Kubin & Estrin 1985, Acta Metall. 33, 397; Andrianova, Kechekyan & "
@@ -195,27 +181,9 @@ EFFECT = Effect(
     coordinate="largest_strain",
     forms=(
         Form(
-            "force",
-            _GROWING,
-            recorded_stress=_of_the_force,
-            placements=("all", "one"),
-            starts=_starts_growing,
-            sharp="strain_period",
-            variant=True,
-        ),
-        Form(
-            "stress",
-            _GROWING,
-            recorded_stress=_of_the_stress,
-            placements=("all", "one"),
-            starts=_starts_growing,
-            sharp="strain_period",
-            variant=True,
-        ),
-        Form(
-            "proportional",
-            _PROPORTIONAL,
-            recorded_stress=_in_proportion,
+            "recurring_drops",
+            _PARAMETERS,
+            recorded_stress=_dropping,
             placements=("all", "one"),
             starts=_starts,
             sharp="strain_period",
