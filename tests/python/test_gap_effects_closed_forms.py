@@ -615,6 +615,18 @@ def test_a_growing_volume_overstates_the_true_stress():
     np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * np.maximum(strain - 0.3, 0.0)), rtol=1e-12)
 
 
+def test_a_measured_poisson_ratio_says_by_how_much_the_true_stress_is_overstated():
+    """nu = 0.4: the volume strain is (1 - 2 nu) e = 0.2 e; half of it overlooked is a factor of e^(0.1 e)."""
+    record = replace(ramp(), transverse_strain=-0.4 * ramp().true_strain)
+    for substeps in (1, 4):
+        found, _ = predicted(bar(), record, "volume_change", "as_measured", (0.5,), substeps=substeps)
+        strain = record.true_strain
+        np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.1 * strain), rtol=1e-12)
+    constant = replace(record, transverse_strain=-0.5 * record.true_strain)
+    found, _ = predicted(bar(), constant, "volume_change", "as_measured", (1.0,))
+    np.testing.assert_allclose(found, 1000.0 * record.true_strain, rtol=1e-12)
+
+
 @pytest.mark.parametrize(("form", "values", "cut"), [("fresh", (2.0,), 0.0), ("held", (2.0, 0.1), 0.1)])
 def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
     """a sum u_j e^(-t / tau_j), u_j ~ p_j e^(-cut tau_max / tau_j), on top of the ramp: the law is linear."""
@@ -634,6 +646,31 @@ def test_waves_on_force_stress_and_strain():
     np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave, atol=1e-10)
     found, _, strain = faulty("periodic_disturbance", "strain", (1e-4, 0.05, 0.7))
     np.testing.assert_allclose(found - 1000.0 * strain, 0.1 * (wave - wave[0]), atol=1e-10)
+
+
+@pytest.mark.parametrize("first", [0.02, 0.055, 0.08])
+@pytest.mark.parametrize("power", [0.0, 1.0], ids=["true stress", "force"])
+def test_drops_recur_at_one_pitch_from_where_the_record_has_its_first(first, power):
+    """2 MPa down at first + 0.1 k, then back along a straight line; away from the drops, which take 4 % of a pitch.
+
+    A wait at 1.5, in which the force relaxes, does not hide the first drop; on the way back to 1.3 nothing more falls.
+    """
+    wait = np.arange(1.0, 401.0)
+    strain = np.concatenate([np.linspace(0.0, 1.5, 1501), 1.5 + 1e-8 * wait, np.linspace(1.5, 1.3, 201)[1:]])
+    relaxed = np.concatenate([np.ones(1501), 0.7 + 0.3 * np.exp(-wait / 50.0), np.full(200, 0.7)])
+    pitch = (np.maximum.accumulate(strain) - first) / 0.1
+    saw = 2.0 * np.exp(power * np.maximum.accumulate(strain)) * (pitch - np.floor(pitch) - 1.0)
+    record = Record(
+        id="teeth",
+        time=np.arange(len(strain), dtype=np.float64),
+        true_strain=strain,
+        true_stress=(1000.0 * strain + saw) * relaxed,
+        noise=Noise(0.04, 0.0),
+    )
+    found, _ = predicted(bar(), record, "serrated_flow", "recurring_drops", (2.0, 0.1, 10.0, 0.0, 0.006, power))
+    # Grown after 3 % of strain; between two drops along a straight line within 3 % of a drop.
+    seen = (np.abs(pitch - np.round(pitch)) > 0.06) & (strain > 0.03)
+    np.testing.assert_allclose(found[seen] - 1000.0 * strain[seen], saw[seen], atol=0.04 * np.max(np.abs(saw)))
 
 
 def test_a_warmer_day_is_another_law():

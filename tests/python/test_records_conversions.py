@@ -76,6 +76,25 @@ def test_engineering_stress_and_force_grow_with_the_stretch(read, heading, value
     assert any("constant volume" in warning for warning in record.warnings) == (expected == 6.0)
 
 
+@pytest.mark.parametrize(("force", "value"), [("Engineering stress (MPa)", 3.0), ("Force (N)", 24.0)])
+@pytest.mark.parametrize("poisson", [0.5, 0.4, 0.0])
+def test_a_measured_transverse_strain_gives_the_section(read, force, value, poisson):
+    """At λ = 2 the section is A0 e^(-2 ν ln 2) = A0 / 4^ν: of constant volume at ν = 1/2, as it was at ν = 0."""
+    rows = [(*row, -poisson * math.log1p(row[1])) for row in doubling(1.0, value)]
+    record = read(f"Time (s),Engineering strain,{force},transverse_strain", rows, specimen={"area_mm2": AREA})
+    assert record.true_stress[-1] == pytest.approx(3.0 * 4.0**poisson, rel=1e-14)
+    assert any("measured transverse strain" in warning for warning in record.warnings)
+    assert not any("constant volume" in warning for warning in record.warnings)
+
+
+def test_a_film_that_grows_narrower_than_thinner_has_no_section_from_its_width(read):
+    """A Poisson ratio of 0.6 across the width: the volume would shrink by 0.2 ln 2 = 14 %, which no solid does."""
+    rows = [(*row, -0.6 * math.log1p(row[1])) for row in doubling(1.0, 3.0)]
+    record = read("Time (s),Engineering strain,Engineering stress (MPa),transverse_strain", rows)
+    assert record.true_stress[-1] == pytest.approx(6.0, rel=1e-14)
+    assert any("constant volume: by the measured transverse strain" in warning for warning in record.warnings)
+
+
 def test_small_engineering_strain_keeps_its_digits():
     """ln(1 + e) = e - e²/2 + …: at e = 1e-10 the second term is below the sixteenth digit of 1."""
     strain = conversions.true_strain_from("engineering_strain", np.array([1e-10]))

@@ -46,6 +46,7 @@ STATISTICS = (
 """Rooms whose constants stand in the settings. Priors of effects stand in their catalogue, each with its reason."""
 
 NUMERICAL = {
+    "effects/instants.py": {"_EVEN"},
     "noise/arma.py": {"LEAST_WEIGHT", "START_UP", "_EDGES", "GRID", "REFINED"},
     "noise/drift.py": {"SIZES", "BIASES"},
     "noise/joint_noise.py": {"LEAST_SEEN"},

@@ -84,7 +84,11 @@ def considered(names: Iterable[str] | None = None) -> tuple[Effect, ...]:
         For a name that is none of them, suggesting the nearest.
     """
     rig = [each for each in effects() if each.kind == "rig" and each.name not in LEFT_OUT]
-    smooth = [each for each in rig if all(form.sharp is None for form in each.forms)]
+    smooth = [
+        replace(each, forms=tuple(form for form in each.forms if form.sharp is None))
+        for each in rig
+        if each.forms[0].sharp is None
+    ]
     known = {each.name: each for each in (*map(_of_crosshead, smooth), MATERIAL)}
     if names is None:
         return tuple(known.values())

@@ -16,9 +16,12 @@ from scipy.special import gammaincc
 
 from probation.detection.lines_and_steps import left_by_slow_waves, running_median, speed_wander_in
 from probation.detection.tail import smallest_of_many
+from probation.noise.smooth_basis import waves
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
@@ -139,6 +142,37 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     share = np.tile(orders**-2.0, 4)
     size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     return np.asarray(columns / size * np.sqrt(share / share.sum())), found.log_share
+
+
+def likely_periods(strains: Sequence[FloatArray], values: Sequence[FloatArray], most: int = 3) -> list[float]:
+    """Periods in the strain of the highest peaks of power that records share, slow waves taken out.
+
+    Of samples as they are, in no particular units: where searches begin.
+
+    Parameters
+    ----------
+    strains, values : sequence of ndarray, shape (n_r,)
+        By record.
+    most : int
+        Peaks.
+    """
+    longest = max(float(np.ptp(strain)) for strain in strains)
+    if not longest > 0.0:
+        return []
+    spacing = 1.0 / (FINE * longest)
+    count = max(len(strain) for strain in strains) * FINE // DETECTION.shortest_strain_period + 1
+    total = np.zeros(count)
+    for strain, own in zip(strains, values, strict=True):
+        slow = waves(len(own), DETECTION.slowest_line)
+        total += _power(strain, own - slow @ (slow.T @ own), spacing, count)
+    total[: FINE * DETECTION.slowest_line // 2] = 0.0
+    found = []
+    for _ in range(most):
+        top = int(np.argmax(total))
+        if total[top] > 0.0:
+            found.append(1.0 / (top * spacing))
+        total[max(top - FINE, 0) : top + FINE + 1] = 0.0
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,13 +15,24 @@ import numpy as np
 from probation.detection.tail import chi_square_tail
 from probation.diagnosis.result import Checks
 from probation.effects.visible_temperature import measured_beside_work
+from probation.effects.visible_volume import measured_volume
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
+    from probation.effects.record_view import RecordView
     from probation.inference.refit import Refit
     from probation.noise.whitening import Whitened
+
+
+MEASURED_BESIDE: Mapping[str, Callable[[RecordView], str]] = {
+    "self_heating": measured_beside_work,
+    "volume_change": measured_volume,
+}
+"""What a record was measured to do, in one sentence, of the effects that a measurement judges."""
 
 
 def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_value: float) -> Checks:
@@ -55,8 +66,9 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
         # An amplitude at zero is an effect that is not there; a shape at its bound asks for another form.
         if low[index] or high[index]:
             notes.append(f"{name.rsplit('.', 1)[-1]} ended at its {'lower' if low[index] else 'upper'} bound")
-    if any(cause.effect.name == "self_heating" for cause in hypothesis.causes):
-        notes += [said for view in found.model.views if (said := measured_beside_work(view))]
+    for name in dict.fromkeys(cause.effect.name for cause in hypothesis.causes):
+        if (say := MEASURED_BESIDE.get(name)) is not None:
+            notes += [said for view in found.model.views if (said := say(view))]
     return Checks(left_out, p_value, remaining_p_value, tuple(notes))
 
 

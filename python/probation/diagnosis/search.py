@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.lines_and_steps import find_lines, find_steps
+from probation.detection.strain_periodic import find_strain_periodic
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
+    from probation.noise.whitening import Whitened
 
 
 _USUAL = 20
@@ -233,6 +235,7 @@ class Search:
         left = self.base.whitened.with_residual(before.residual, before.jacobian)
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left)}
+        periodic = self._periodic_in_strain(left)
         smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
 
         def credible(each: Candidate) -> bool:
@@ -244,10 +247,17 @@ class Search:
                 return True
             if sharp == "line":
                 return bool(places & lines)
+            if sharp == "strain_period":
+                return bool(places & periodic)
             level = SEARCH.soft_step_level if each.gain > smooth + SEARCH.soft_step_lead else SEARCH.line_or_step_level
             return min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
         return [each for each in candidates if credible(each)]
+
+    def _periodic_in_strain(self, left: Whitened) -> set[str]:
+        """Records in which something is periodic in the strain: all of them, where it shows in all together."""
+        seen = {each.record for each in find_strain_periodic(left) if each.p_value < SEARCH.line_or_step_level}
+        return {record.name for record in left.records if None in seen or record.name in seen}
 
     def _parts_of_the_leader(self) -> None:
         """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead."""

@@ -23,7 +23,7 @@ Values: TypeAlias = "Sequence[float] | FloatArray"
 
 Kind = Literal["material", "rig"]
 Placement = Literal["all", "one"]
-Sharp = Literal["line", "step"]
+Sharp = Literal["line", "step", "strain_period"]
 
 ModificationHook: TypeAlias = "Callable[[RecordView, Values], Modification | None]"
 StrainHook: TypeAlias = "Callable[[RecordView, Values], FloatArray]"
@@ -153,9 +153,9 @@ class Form:
     threshold : bool
         The effect sets in beyond some amplitude, so that its derivative at 0 says nothing: `starts` gives the
         amplitude first, then the shapes, and screens take the secant.
-    sharp : {"line", "step"}, optional
-        The effect shows as a line of one frequency or a step at one instant, and is only sought in records that have
-        one: among all frequencies or instants chance alone always finds something.
+    sharp : {"line", "step", "strain_period"}, optional
+        The effect shows as a line of one frequency, a step at one instant or with one period in the strain, and is only
+        sought in records that have one: among all frequencies, instants or periods chance always finds something.
     needs : callable, optional
         ``needs(views)``: whether records like these could show it at all, such as an unloading; left out: any could.
         Where none of an effect's forms could be seen, the effect is not considered, and costs no probability.

@@ -13,6 +13,7 @@ from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
+from probation.records.conversions import volume_strain_from
 from probation.records.noise import stress_noise
 from probation.settings.effects import EFFECTS
 from probation.smoothing.excitation import excite_each
@@ -70,6 +71,8 @@ class RecordView:
         Whose difference of the strain is meant.
     temperature : ndarray, shape (n_samples,) [°C], or None
         Declared, if it is one number all along; else measured.
+    transverse_strain : ndarray, shape (n_samples,) [-], or None
+        Logarithmic, as it was measured.
     index, count : int
         Place among the records of the campaign, in order of test, and how many there are.
     quiet_stress : ndarray, shape (n,) [MPa], or None
@@ -108,6 +111,7 @@ class RecordView:
     measured: Measured | None = None
     reference_temperature: float | None = None
     same_data: RecordView | None = None
+    transverse_strain: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -196,6 +200,14 @@ class RecordView:
         if self.temperature is None or not self.temperature_is_measured:
             return None
         return np.asarray(np.interp(self.time, self.sampled(self.time), self.temperature - self.temperature[0]))
+
+    @cached_property
+    def volume_strain(self) -> FloatArray | None:
+        """Logarithm of the volume over the first, shape (n,) [-]; None where no transverse strain was measured."""
+        if self.transverse_strain is None:
+            return None
+        across = np.interp(self.time, self.sampled(self.time), self.transverse_strain)
+        return volume_strain_from(self.recorded_strain, np.asarray(across))
 
     @cached_property
     def nominal_data(self) -> FloatArray:
@@ -340,6 +352,7 @@ def view_of(
         stride=substeps,
         scheme=scheme,
         temperature=record.temperature,
+        transverse_strain=record.transverse_strain,
         index=index,
         count=count,
         reference_rate=reference_rate_of([excitation]) if reference_rate is None else reference_rate,

@@ -1,6 +1,6 @@
 """A specimen's table to a record."""
 
-from probation.records.conversions import true_stress_from
+from probation.records.conversions import shrinks_in_tension, true_stress_from
 from probation.records.extraction import dimension, dimension_warning, extract
 from probation.records.joining import Film
 from probation.records.options import ReadOptions
@@ -37,11 +37,14 @@ def assemble(
     found = extract(table, reading, options, film=film)
     measure = next(name for name in STRESS_ROLES if name in found.samples)
     area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
+    transverse = found.samples.get("transverse_strain")
+    shrinks = transverse is not None and shrinks_in_tension(found.true_strain, transverse)
+    section = None if shrinks else transverse
     record = Record(
         id=record_id,
         time=found.samples["time"],
         true_strain=found.true_strain,
-        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area),
+        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area, section),
         **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
         control=control,
         role=role,
@@ -52,7 +55,7 @@ def assemble(
         warnings=(
             *found.warnings,
             *dimension_warning(table, reading, options, "area_mm2", area),
-            *_volume_warning(measure),
+            *_section_warning(measure, measured=section is not None, shrinks=shrinks),
         ),
         profile=profile,
         clock=found.clock,
@@ -60,7 +63,15 @@ def assemble(
     return as_started(record, start)
 
 
-def _volume_warning(measure: str) -> tuple[str, ...]:
+def _section_warning(measure: str, *, measured: bool, shrinks: bool) -> tuple[str, ...]:
     if measure == "true_stress":
         return ()
-    return (f"true stress made from {measure.replace('_', ' ')} by constant volume",)
+    made = f"true stress made from {measure.replace('_', ' ')} by"
+    if measured:
+        return (f"{made} the measured transverse strain, taken alike in width and thickness",)
+    if shrinks:
+        return (
+            f"{made} constant volume: by the measured transverse strain the volume would shrink in tension, so that "
+            "width and thickness do not shrink alike",
+        )
+    return (f"{made} constant volume",)

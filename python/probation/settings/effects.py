@@ -51,6 +51,10 @@ class EffectsSettings:
         "Difference of temperatures that is more than their scatter: a laboratory keeps its room to 2 °C.",
         source="ISO 291",
     )
+    different_volume: float = chosen(
+        0.01, "-", "Volume strain that is more than the errors of the two measured strains it is made of."
+    )
+    most_of_a_record: float = chosen(0.95, "record", "Quantile that stands for the largest value of noisy samples.")
     usual_heating: float = derived(
         0.5,
         "°C/MPa",

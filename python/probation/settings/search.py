@@ -39,7 +39,9 @@ class SearchSettings:
         "shows whether their deviations hold a strong gap.",
     )
     line_or_step_level: float = chosen(
-        0.01, "-", "p-value of a line or a step, over all records, below which causes that make them are sought there."
+        0.01,
+        "-",
+        "p-value of a line, a step or a strain period, over all records, below which causes of it are sought there.",
     )
     soft_step_level: float = chosen(
         0.1, "-", "p-value up to which step effects are tried where they gain more than the best smooth effect."

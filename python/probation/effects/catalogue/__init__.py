@@ -35,6 +35,7 @@ NAMES = (
     "cell_hysteresis",
     "slack_strip",
     "neck_triaxiality",
+    "serrated_flow",
 )
 
 

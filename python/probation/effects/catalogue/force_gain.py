@@ -15,15 +15,22 @@ def _gain(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     return (1.0 + values[0]) * stress
 
 
+def _drifting(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """From nothing at the start of a record to a at its end."""
+    return (1.0 + values[0] * view.elapsed / view.duration) * stress
+
+
 EFFECT = Effect(
     name="force_gain",
     title="gain of the force",
     physics=(
-        "The load cell's sensitivity, or the measured initial section, is wrong by a factor.\n"
-        "Amplitude: relative excess of the recorded stress. In all records alike it hides in E_u and G."
+        "The load cell's sensitivity, or the measured initial section, is wrong by a factor; or the bridge of the cell "
+        "warms, and its sensitivity drifts while the test runs.\n"
+        "Amplitude: relative excess of the recorded stress, or by the end of a record. In all records alike a factor "
+        "hides in E_u and G."
     ),
-    source="ISO 7500-1; ISO 527-1 (measurement of the section)",
-    shows_in="one record compared with others; never in all of them, unless E_u or G is held",
+    source="ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell)",
+    shows_in="one record compared with others; a factor never in all of them, unless E_u or G is held",
     kind="rig",
     coordinate="force",
     forms=(
@@ -31,6 +38,12 @@ EFFECT = Effect(
             "factor",
             (EffectParameter("gain_error", "", -0.5, 0.5, 0.02, "class 1 cells and sections to 1 to 2 %"),),
             recorded_stress=_gain,
+        ),
+        Form(
+            "drifting",
+            (EffectParameter("gain_drift", "", -0.2, 0.2, 0.005, "0.1 to 1 % for a bridge that warms by 10 to 50 °C"),),
+            recorded_stress=_drifting,
+            variant=True,
         ),
     ),
 )

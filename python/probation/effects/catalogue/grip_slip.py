@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.instants import INSTANT, likely_instants, passed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -14,7 +16,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
-_INSTANTS = tuple(np.linspace(0.05, 0.95, 19).tolist())
 _DURATION = 0.004
 _PULL = EffectParameter(
     name="holding_stress_MPa",
@@ -30,16 +31,7 @@ _FADING = (0.03, 0.1, 0.3)
 _SLIP = EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm")
 _PARAMETERS = (
     _SLIP,
-    EffectParameter(
-        name="instant_of_record",
-        unit="",
-        lower=0.0,
-        upper=1.0,
-        centre=0.5,
-        scale=float("inf"),
-        starts=_INSTANTS,
-        reason="at any time",
-    ),
+    INSTANT,
     EffectParameter(
         name="duration_of_record",
         unit="",
@@ -55,9 +47,7 @@ _PARAMETERS = (
 
 def _slip(view: RecordView, values: Values) -> FloatArray:
     """Around the instant (a fraction of the record) the specimen loses a; within its duration, a sample at least."""
-    width = view.stride * float(np.median(np.diff(view.time))) + values[2] * view.duration
-    passed = np.clip((view.elapsed - values[1] * view.duration) / width + 0.5, 0.0, 1.0)
-    return view.true_strain - values[0] * passed**2 * (3.0 - 2.0 * passed)
+    return view.true_strain - values[0] * passed(view, values[1], values[2])
 
 
 def _creeping(view: RecordView, values: Values) -> FloatArray:
@@ -79,18 +69,7 @@ def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) 
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """An even grid and, with residuals, the two instants where they jump most."""
-    found = list(_INSTANTS)
-    for view, residual in zip(views, residuals or (), strict=False):
-        window = max(len(residual) // 100, 2)
-        means = np.convolve(residual, np.ones(window) / window, mode="valid")
-        jump = np.abs(means[window:] - means[:-window])
-        for _ in range(2):
-            best = int(np.argmax(jump))
-            instant = view.sampled(view.elapsed)[best + window] / view.duration
-            found.append(float(np.clip(instant, 0.0, 1.0)))
-            jump[max(best - 2 * window, 0) : best + 2 * window] = 0.0
-    return [(instant, _DURATION) for instant in found]
+    return [(instant, _DURATION) for instant in likely_instants(views, residuals)]
 
 
 EFFECT = Effect(
@@ -124,16 +103,7 @@ EFFECT = Effect(
             "creeping",
             (
                 _SLIP,
-                EffectParameter(
-                    name="instant_of_record",
-                    unit="",
-                    lower=0.0,
-                    upper=1.0,
-                    centre=0.5,
-                    scale=float("inf"),
-                    starts=tuple(np.linspace(0.1, 0.9, 9).tolist()),
-                    reason="at any time",
-                ),
+                replace(INSTANT, starts=tuple(np.linspace(0.1, 0.9, 9).tolist())),
                 EffectParameter(
                     name="time_constant_of_record",
                     unit="",

@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.visible_volume import section_measured, volume_changes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
@@ -25,21 +28,32 @@ def _from_onset(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
     return stress * np.exp(values[0] * np.maximum(view.true_strain - values[1], 0.0))
 
 
+def _as_measured(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The true stress overlooks the part a of the measured volume strain."""
+    return stress if view.volume_strain is None else stress * np.exp(values[0] * view.volume_strain)
+
+
+def _not_all_measured(views: Sequence[RecordView]) -> bool:
+    return not section_measured(views)
+
+
 EFFECT = Effect(
     name="volume_change",
     title="change of volume",
     physics=(
         "Voids make the section larger than constant volume says: the true stress is overstated.\n"
-        "Amplitude: volume strain per true strain."
+        "Amplitude: volume strain per true strain; where every record has its measured transverse strain, the part of "
+        "the measured volume strain that the true stress overlooks."
     ),
     source="Farge et al. 2015, J. Polym. Sci. B 53, 1470; Bucknall & Clayton 1972",
-    shows_in="records reaching large strains; it goes back on unloading",
+    shows_in="records reaching large strains; it goes back on unloading; a measured transverse strain judges it",
     kind="rig",
     forms=(
         Form(
             "steady",
             (EffectParameter("volume_per_strain", "", 0.0, 1.0, 0.1, _REASON),),
             recorded_stress=_steady,
+            needs=_not_all_measured,
         ),
         Form(
             "from_onset",
@@ -57,6 +71,22 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_from_onset,
+            needs=_not_all_measured,
+        ),
+        Form(
+            "as_measured",
+            (
+                EffectParameter(
+                    "overlooked_part",
+                    "",
+                    0.0,
+                    1.5,
+                    1.0,
+                    "all of it where the section was taken from constant volume, nothing where it was measured",
+                ),
+            ),
+            recorded_stress=_as_measured,
+            needs=volume_changes,
         ),
     ),
 )

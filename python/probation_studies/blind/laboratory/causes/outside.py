@@ -158,7 +158,7 @@ CAUSES = (
         draws=2,
         known_as="change_between_tests",
     ),
-    _outside("serrations", 1.0, _pitch, record=_serrations, placements=("all", "one")),
+    _outside("serrations", 1.0, _pitch, record=_serrations, placements=("all", "one"), known_as="serrated_flow"),
     _reversed(
         "cell_hysteresis",
         0.03,

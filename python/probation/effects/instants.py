@@ -1,0 +1,50 @@
+"""What happens at one instant of a record: where it may be, and how samples follow it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.effects.effect import EffectParameter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+
+_EVEN = tuple(np.linspace(0.05, 0.95, 19).tolist())
+
+INSTANT = EffectParameter(
+    name="instant_of_record",
+    unit="",
+    lower=0.0,
+    upper=1.0,
+    centre=0.5,
+    scale=float("inf"),
+    starts=_EVEN,
+    reason="at any time",
+)
+
+
+def passed(view: RecordView, instant: float, duration: float = 0.0) -> FloatArray:
+    """0 before an instant, 1 after it, both parts of the record; it lasts a duration, a sample at least; shape (n,)."""
+    width = view.stride * float(np.median(np.diff(view.time))) + duration * view.duration
+    part = np.clip((view.elapsed - instant * view.duration) / width + 0.5, 0.0, 1.0)
+    return np.asarray(part**2 * (3.0 - 2.0 * part))
+
+
+def likely_instants(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[float]:
+    """An even grid and, with residuals, the two instants of each record where they jump most."""
+    found = list(_EVEN)
+    for view, residual in zip(views, residuals or (), strict=False):
+        window = max(len(residual) // 100, 2)
+        means = np.convolve(residual, np.ones(window) / window, mode="valid")
+        jump = np.abs(means[window:] - means[:-window])
+        for _ in range(2):
+            best = int(np.argmax(jump))
+            instant = view.sampled(view.elapsed)[best + window] / view.duration
+            found.append(float(np.clip(instant, 0.0, 1.0)))
+            jump[max(best - 2 * window, 0) : best + 2 * window] = 0.0
+    return found
