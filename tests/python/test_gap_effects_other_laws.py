@@ -73,7 +73,7 @@ def test_threads_make_the_same_screen():
 def test_with_one_record_all_and_one_are_the_same_and_given_once():
     single = CampaignModel(DnlrLaw(LAW), MODEL.views[:1])
     columns = screen(single, single.start, effects(["force_offset", "grip_slip"]))
-    assert [c.cause.records for c in columns if c.cause.effect.name == "force_offset"] == [None]
+    assert [c.cause.records for c in columns if c.cause.form.name == "constant"] == [None]
     slips = {c.cause.form.name: c.cause.records for c in columns if c.cause.effect.name == "grip_slip"}
     here = ("at-0.001",)
     assert slips == {"recorded_section": here, "measured_section": here, "creeping": here, "progressive": None}

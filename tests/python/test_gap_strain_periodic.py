@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.detection.strain_periodic import find_strain_periodic, strain_periodic_waves
+from probation.detection.strain_periodic import find_strain_periodic, likely_periods, strain_periodic_waves
 from probation.noise.arma import Arma
 from probation.noise.record_residual import RecordResidual
 from probation.noise.whitening import Whitened
@@ -111,3 +111,18 @@ def test_records_without_strain_have_none():
     time = np.linspace(0.0, 1.0, COUNT)
     still = RecordResidual("r", time, np.zeros(COUNT), np.zeros(COUNT), noise(0, 1)[0], np.ones((COUNT, 1)))
     assert find_strain_periodic(Whitened.of([still], [problem.white(COUNT, "r")])) == ()
+
+
+def test_the_likeliest_period_is_that_of_teeth_out_of_step_below_a_slow_gap():
+    """Two records whose teeth begin elsewhere, a gap of ten times their size that bends once, and as much noise."""
+    rng = np.random.default_rng(2)
+    strains = [np.linspace(0.0, end, COUNT) for end in (1.0, 0.8)]
+    values = [
+        ((strain - first) / 0.055) % 1.0 + 10.0 * np.cos(3.0 * strain) + 0.3 * rng.standard_normal(COUNT)
+        for strain, first in zip(strains, (0.01, 0.04), strict=True)
+    ]
+    assert likely_periods(strains, values)[0] == pytest.approx(0.055, rel=0.01)
+
+
+def test_without_strain_no_period_is_likely():
+    assert likely_periods([np.zeros(COUNT)], [np.ones(COUNT)]) == []

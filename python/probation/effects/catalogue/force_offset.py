@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.instants import INSTANT, likely_instants, passed
+from probation.effects.visible import unloads
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,6 +26,11 @@ def _offset(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
 def _jump(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The same from an instant on: one part of every record."""
     return stress + values[0] * passed(view, values[1]) * view.stretch
+
+
+def _never_taken_back(views: Sequence[RecordView]) -> bool:
+    """Where the strain is taken back, what the material does at the reversal would be taken for a jump."""
+    return not unloads(views)
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -49,6 +55,14 @@ EFFECT = Effect(
             (_OFFSET,),
             recorded_stress=_offset,
         ),
-        Form("jump", (_OFFSET, INSTANT), recorded_stress=_jump, starts=_starts, sharp="step", variant=True),
+        Form(
+            "jump",
+            (_OFFSET, INSTANT),
+            recorded_stress=_jump,
+            starts=_starts,
+            sharp="step",
+            needs=_never_taken_back,
+            variant=True,
+        ),
     ),
 )
