@@ -73,6 +73,26 @@ def test_no_effect_that_is_added_leaves_more_and_no_part_of_the_leader_beats_it(
             assert judged.evidence.log_evidence <= leader.evidence.log_evidence
 
 
+def test_the_same_effect_in_another_record_is_not_the_end_of_the_search():
+    """Offsets of the force of their own in two of four ramps, and a material that loses section: all three are told."""
+    random = np.random.default_rng(5)
+    law = probation.Law(unrelaxed_modulus=1500.0, tau_max=30.0, hardening_modulus=2.0)
+    offsets, records = {"b": 3.0, "d": -2.0}, []
+    for name, rate in (("a", 1e-3), ("b", 3e-3), ("c", 1e-2), ("d", 2e-2)):
+        time = np.linspace(0.0, 0.4 / rate, SAMPLES)
+        stress = law.stress(time, rate * time, "exact") * (1.0 - 0.1 * (rate * time) ** 2) + offsets.get(name, 0.0)
+        stress = stress + NOISE * random.standard_normal(SAMPLES)
+        records.append(probation.Record(id=name, time=time, true_strain=rate * time, true_stress=stress))
+    made = probation.Campaign(name="two", records=tuple(records), specimens=probation.Specimens(scatter="none"))
+    chosen = effects(("damage", "force_offset"))
+    base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
+    search = Search(base, chosen)
+    search.run(base.columns_with_starts(chosen))
+    leader = search.ranked()[0]
+    assert leader.effects == ("damage", "force_offset")
+    assert {cause.records for cause in leader.causes} == {None, ("b",), ("d",)}
+
+
 def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     """Their deviations cost little beside a gap of forty times the noise; a refit must not end where they hold it."""
     made = waiting.campaign(waiting.DIAGNOSED["strong gap"])

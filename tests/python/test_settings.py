@@ -76,7 +76,7 @@ NUMERICAL = {
     "inference/deviations.py": {"_STEP"},
     "inference/discrepancy.py": {"DEPENDENT"},
     "inference/information.py": {"SINGULAR"},
-    "inference/laplace.py": {"UNKNOWN"},
+    "inference/laplace.py": {"UNDETERMINED"},
     "inference/least_squares.py": {"FIRST_DAMPING", "LEAST_DAMPING", "MOST_DAMPING", "ALL_DIGITS"},
     "inference/modal_law.py": {"_BOUNDS"},
     "inference/model.py": {"_PROBE", "_PARABOLA"},

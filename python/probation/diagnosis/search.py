@@ -77,7 +77,7 @@ class Search:
         self._try_with_unknown()
         self._begin(0.5, 0.65)
         size = 1
-        while size < SEARCH.most_effects:
+        for _ in range(SEARCH.most_effects):
             leading = self.ranked(size)
             if not leading:
                 break
@@ -90,9 +90,10 @@ class Search:
             if size == 1 and left:
                 self._swaps()
             self._try_with_unknown()
-            if not self.ranked(size + 1) or self.ranked()[0].effects in {each.effects for each in leading}:
+            best = self.ranked()[0]
+            if best in leading or len(best.causes) >= SEARCH.most_effects:
                 break
-            size += 1
+            size = len(best.effects)  # the same where an effect acts in another record, too
             self._begin(0.65, 0.8)
         self._begin(0.8, 1.0)
         self._parts_of_the_leader()

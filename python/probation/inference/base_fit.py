@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from probation.effects.record_view import views_of
 from probation.inference.candidate import WhitenedColumns
@@ -23,7 +24,7 @@ from probation.inference.speed_wander import speed_wander
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
-from probation.noise.drift import estimate_drift, with_drift
+from probation.noise.drift import counted_as_noise, estimate_drift, with_drift
 from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
@@ -59,7 +60,11 @@ def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    return tuple(with_drift(noise, drift, record.time) for noise, record in zip(noises, residuals, strict=True))
+    counted = counted_as_noise(drift)
+    return tuple(
+        with_drift(noise, counted, drift - counted, record.time)
+        for noise, record in zip(noises, residuals, strict=True)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,10 +148,13 @@ class BaseFit:
 
     @cached_property
     def covariance(self) -> FloatArray:
-        """Of the material's parameters, by noise and by specimens, shape (n_base, n_base)."""
-        solver = np.linalg.pinv(self.refit.jacobian)
-        slopes = self.refit.coordinates.slopes(self.refit.parameters)
-        return np.asarray(solver @ solver.T * np.outer(slopes, slopes))
+        """Of the material's parameters, by noise with all of its drift and by specimens, shape (n_base, n_base)."""
+        found = self.refit
+        solver = np.linalg.pinv(found.jacobian)
+        moved = solver @ self.rest_of_drift()
+        covariance = solver @ solver.T + moved @ moved.T
+        slopes = found.coordinates.slopes(found.parameters)
+        return np.asarray(covariance * np.outer(slopes, slopes))
 
     @cached_property
     def covariance_of_tested(self) -> FloatArray:
@@ -214,6 +222,21 @@ class BaseFit:
             only=lambda form: form.variant or form.starts is not None,
         )
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
+
+    def drifting(self) -> BaseFit:
+        """The same in white coordinates that count all of the drift as noise: for a test, not for fits."""
+        noises = tuple(noise.drifting() for noise in self.whitened.noises)
+        found = refit(replace(self.problem, whitener=Whitener(noises)), self.parameters, most_steps=0)
+        alike = Whitened.of(self.alike.records, tuple(noise.drifting() for noise in self.alike.noises))
+        return replace(self, refit=found, whitened=Whitened.of(self.whitened.records, noises), alike=alike)
+
+    def rest_of_drift(self) -> FloatArray:
+        """What these coordinates do not count of the drift, white, of one standard deviation each; (N, k)."""
+        parts = [
+            np.zeros((len(record), 0)) if noise.rest_of_drift is None else noise.whiten(noise.rest_of_drift)
+            for record, noise in zip(self.whitened.records, self.whitened.noises, strict=True)
+        ]
+        return np.asarray(block_diag(*parts), dtype=np.float64)
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:

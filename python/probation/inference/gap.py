@@ -220,19 +220,20 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter)
+    drifting = base.drifting()
+    test = _survivor(drifting.whitened, base.signals, sizes, seed, drifting.uncertain_scatter)
     alike = None
     if base.scatter.any and not test.rejected:
-        alike = _tested(base.alike, base.signals, seed)
+        alike = _tested(drifting.alike, base.signals, seed)
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
-        whitened = Whitened.of([record], [noise])
+        whitened = Whitened.of([record], [noise.drifting()])
         view = next(view for view in base.views if view.id == record.name)
         model = CampaignModel(base.law, [view])
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise))
+        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise.drifting()))
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
@@ -244,7 +245,7 @@ def _survivor(
     seed: int,
     scatter: UncertainScatter | None,
 ) -> GapTest:
-    """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
+    """The test of some records with all of their drift; of a gap that is a fraction of the noise, the doubtful answer.
 
     Such a gap rests on the model of the noise, and is declared only where it survives a level 1.25 times as high.
     """

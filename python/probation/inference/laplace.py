@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from probation.inference.discrepancy import Discrepancy
     from probation.inference.refit import Refit
 
-UNKNOWN = 1e-10
+UNDETERMINED = 1e-10
 """Eigenvalue of the normal matrix of unit diagonal below which nothing is known of a direction but rounding."""
 
 
@@ -103,8 +103,8 @@ class Linearised:
         size = np.sqrt(np.maximum(np.diag(total), 1e-300))
         values, vectors = np.linalg.eigh(total / np.outer(size, size))
         # A direction that neither data nor priors know is left where it is: its slope is rounding.
-        turned = np.where(values > UNKNOWN, vectors.T @ (pull / size), 0.0)
-        values = np.maximum(values, UNKNOWN)
+        turned = np.where(values > UNDETERMINED, vectors.T @ (pull / size), 0.0)
+        values = np.maximum(values, UNDETERMINED)
         step = (vectors @ (turned / values)) / size
         quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
         deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size

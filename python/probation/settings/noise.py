@@ -51,6 +51,13 @@ class NoiseSettings:
         "Relative variance at the first half period that is assumed in any case: less cannot be distinguished from "
         "none.",
     )
+    least_counted_drift: float = chosen(
+        0.25, "-", "Least variance, at the first half period, of a drift that fits count, over the noise's."
+    )
+    counted_share_of_drift: float = chosen(0.2, "-", "Part of a drift that fits count as noise along any direction.")
+    most_counted_drift: float = chosen(
+        2.0, "-", "Largest variance, at the first half period, of a drift that fits count, over the noise's."
+    )
     lowest_drift_order: int = chosen(
         8, "half periods", "Orders from here on are looked at: further down a bias is all there is."
     )

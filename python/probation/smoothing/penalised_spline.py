@@ -160,7 +160,7 @@ class Score:
         left = 1.0 - self.cost * float(shrink.sum()) / len(self.basis.values)
         return self.squares(shrink) / left**2 if left > 0.0 else np.inf
 
-    def unknown(self, shrink: FloatArray, variance: float) -> FloatArray:
+    def posterior(self, shrink: FloatArray, variance: float) -> FloatArray:
         r"""Covariance of the functions' weights around those smoothed, over the noise's; shape (n_basis, n_basis).
 
         Cross-validation cannot see a machine that wanders by less than the noise, and a smoothness says that it does
@@ -247,7 +247,7 @@ def _with_knots(
     strain, rate = basis.values @ (shrink * score.weights), basis.slopes @ (shrink * score.weights)
     freedom = float(shrink.sum()) + spent
     noise = grown * float(np.sum((true_strain - strain - taken) ** 2)) / max(len(strain) - freedom, 1.0)
-    unknown = score.unknown(shrink, max(noise, SMOOTHING.clean**2))
+    posterior = score.posterior(shrink, max(noise, SMOOTHING.clean**2))
     # Wahba 1983, Nychka 1988: the posterior variance s^2 S, rather than s^2 S S^T of the noise alone, also covers the
     # bias of a smoother that pulls down peaks, on average along the curve.
     variance, rate_variance = basis.values**2 @ shrink, basis.slopes**2 @ shrink
@@ -266,7 +266,7 @@ def _with_knots(
         float(np.sum((true_strain - strain) ** 2)),
         grown,
         partial(basis.operators, shrink, joint),
-        partial(basis.errors, shrink, unknown, joint),
+        partial(basis.errors, shrink, posterior, joint),
     )
 
 
