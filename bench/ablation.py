@@ -38,6 +38,8 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
         "noise.least_rise": 0.0,
     },
     "drift of the noise": {"noise.least_drift": 1e-6, "noise.drift_margin": 0.0, "noise.records_apart": 1e-9},
+    "drift along an effect": {"noise.least_drift_of_effects": 1e-6, "noise.most_drift_of_effects": 1e-6},
+    "nuisance drift": {"noise.nuisance_drift_size": 1e-6},
     "wander of the speed": {"noise.speed_wander": 1e-9},
     "transients left out of the noise's estimate": {"noise.transient_ratio": NEVER},
     "quiet parts of a record": {"noise.quiet_samples": NEVER},

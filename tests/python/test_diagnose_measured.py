@@ -77,10 +77,8 @@ def test_what_leaves_nine_times_the_noise_stands_beside_something_unknown():
 
 
 def test_hardening_and_a_published_spectrum_describe_two_rates_of_vhb_nearly_down_to_the_noise():
-    """1.3 times the noise are left of 42, as any smooth curve leaves; the power of tau alone leaves five times it.
-
-    Whether those are noise hangs on how far the noise drifts, of which two records say little.
-    """
+    """1.3 times the noise are left of 42, as any smooth curve leaves; the power of tau alone leaves five times it."""
     found = two_rates_of_vhb((HARDENING, "spectrum_shape"))
+    assert found.verdict == "explained"
     assert found.best.effects == (HARDENING, "spectrum_shape")
     assert found.shrink.identify.after_MPa < 1.5 * found.noise_MPa

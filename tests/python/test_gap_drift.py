@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.fft import idct
 
 from campaigns import linear_problem as problem
-from probation.noise.drift import counted_as_noise, estimate_drift, with_drift
+from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.record_residual import RecordResidual
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
@@ -87,14 +87,13 @@ def test_too_few_samples_say_nothing():
 
 
 def test_whitening_with_a_drift_is_the_inverse_root_of_its_covariance():
-    """sigma^2 (I + W diag(c/k) W^T), W cosine waves, c ln(n) for the zeroth; W C W^T = I."""
+    """sigma^2 (I + W diag(c/k) W^T), W cosine waves, the zeroth as the first; W C W^T = I."""
     count, drift = 120, 30.0
-    noise = with_drift(problem.white(count), 0.2 * drift, 0.8 * drift).drifting()
-    kept = noise.drift.shape[1] // 2
+    noise = with_drift(problem.white(count), drift)
+    kept = noise.drift.shape[1]
     waves = idct(np.eye(count), type=2, norm="ortho", axis=0)[:, :kept]
-    power = drift / np.maximum(np.arange(kept), 1)
-    power[0] = drift * np.log(count)
-    covariance = problem.SIGMA**2 * (np.eye(count) + (waves * power) @ waves.T)
+    order = np.maximum(np.arange(kept), 1)
+    covariance = problem.SIGMA**2 * (np.eye(count) + (waves * drift / order) @ waves.T)
     whitener = noise.whiten(np.eye(count))
     assert kept > 20
     assert_allclose(whitener @ covariance @ whitener.T, np.eye(count), atol=1e-9)
@@ -127,24 +126,10 @@ def test_a_drift_that_is_let_be_does_not_count_as_measured_noise():
     )
 
 
-def test_the_mean_of_a_record_drifts_from_the_zero_that_was_set_before_it():
-    """Pink noise by its spectrum, c / (2 n f) of the white noise's, set to zero on the reading before the record."""
-    rng = np.random.default_rng(3)
-    count, size, long = 400, 6.0, 400 * 64
-    frequency = np.fft.rfftfreq(long)
-    spectrum = np.concatenate([[0.0], size / (2.0 * count * frequency[1:])])
-    means = []
-    for _ in range(400):
-        pink = np.fft.irfft(np.fft.rfft(rng.standard_normal(long)) * np.sqrt(spectrum), long)
-        means.append(pink[5000 : 5000 + count].mean() - pink[4999])
-    drift = with_drift(problem.white(count), 1.0, size - 1.0).drifting().drift / problem.SIGMA
-    assert count * np.var(means) == pytest.approx(float(np.sum(drift.mean(axis=0) ** 2)) * count, rel=0.2)
-
-
-def test_of_a_drift_that_a_gap_makes_look_large_fits_count_little():
-    """A law is not let run away from records that it misses by far; the test for a gap counts all of a drift."""
-    assert counted_as_noise(5.0) == pytest.approx(0.2 * 5.0)
-    found = [counted_as_noise(drift) for drift in (0.0, 1.0, 3.0, 8.0, 100.0, 1e6)]
+def test_the_more_drifts_the_more_of_it_may_go_along_with_an_effect_up_to_a_bound():
+    """A form known to a fifth of its variance leaves a fifth of a drift along an effect's direction."""
+    assert like_an_effect(5.0) == pytest.approx(0.2 * 5.0)
+    found = [like_an_effect(drift) for drift in (0.0, 1.0, 3.0, 8.0, 100.0, 1e6)]
     assert found == sorted(found)
     assert found[0] > 0.0
     assert found[-1] < 4.0

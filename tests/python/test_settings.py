@@ -125,6 +125,7 @@ IN_FUNCTIONS = {
     "noise/local_noise.py": {6.0},  # second differences of white noise
     "noise/local_size.py": {1e-3},  # the logarithm of nothing
     "noise/moving_parabola.py": {5.0},  # Savitzky and Golay's weights
+    "noise/nuisance_drift.py": {1e-4},  # rounding of what a refit leaves
     "noise/outliers.py": {0.9},  # the quantile of UPPER_95
     "noise/quantisation.py": {4.0**power for power in range(2, 7)} | {12.0},  # reaches; variance of a uniform variable
     "noise/segments.py": {256},  # a cache

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.tail import chi_square_tail, family_p_value, normal_tail
+from probation.noise.joint_noise import jointly_whitened
 from probation.noise.local_noise import local_noise_sd, samples_within
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import orthonormal, span_of, without
@@ -108,7 +109,9 @@ class GapTester:
         given = {name: np.reshape(columns, (len(whitened), -1)) for name, columns in (directions or {}).items()}
         self._reduced = whitened.reduced(np.hstack([waves, *given.values()]))
         span = self._reduced.of(whitened.span)
-        waves = without(self._reduced.of(waves), span_of(span))
+        # No wave is a sign of an effect that the rest of the drift makes, too.
+        waves = self._with_drift(self._reduced.of(waves))
+        waves = without(waves, span_of(self._with_drift(span)))
         smooth, kept = orthonormal(waves)
         full_order, order, parts = order, order[kept], [smooth]
         self._families: list[tuple[str, slice]] = []
@@ -167,7 +170,7 @@ class GapTester:
         seen = self._reduced.of(z)
         smooth, directed = np.split(self._features, [self._effect_slice.start], axis=1)
         directed_scores = directed.T @ seen / local_noise_sd(self._directions, z, whitened.slices)
-        products = np.concatenate([smooth.T @ seen, directed_scores])[None]
+        products = np.concatenate([smooth.T @ self._with_drift(seen), directed_scores])[None]
         single = self._p_values(products)
         levels = (1.0, DETECTION.low_noise, DETECTION.high_noise)
         p = [float(family_p_value(self._smallest(products / noise)[0], self._drawn)) for noise in levels]
@@ -188,6 +191,17 @@ class GapTester:
         return GapTest(
             p[0], p[1], p[2], level, statistics, values, scores, dict(zip(names, share.tolist(), strict=True))
         )
+
+    def _with_drift(self, values: FloatArray) -> FloatArray:
+        """Reduced coordinates in which the rest of the drift is white, too."""
+        found = values.copy()
+        first = 0
+        for frame, noise in zip(self._reduced.frames, self.whitened.noises, strict=True):
+            part = slice(first, first + frame.shape[1])
+            first = part.stop
+            if noise.nuisance_drift is not None:
+                found[part] = jointly_whitened(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
+        return found
 
     def _p_values(self, products: FloatArray) -> dict[str, FloatArray]:
         return {

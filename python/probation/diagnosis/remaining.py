@@ -42,7 +42,7 @@ def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVID
     forms = form_freedom(found, base.whitener)
     done = forms.variance * discrepancy.energy(found.residual - base.refit.residual)
     rest = discrepancy.factor((EVIDENCE.form_rest * error) ** 2 * done)
-    allowed = np.hstack([rest, error * forms.columns, base.rest_of_drift()])
+    allowed = np.hstack([rest, error * forms.columns])
     scatter = base.uncertain_scatter
     both = jointly_whitened(allowed, np.column_stack([found.residual, found.jacobian]))
     return GapTester(

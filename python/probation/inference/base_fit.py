@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from probation.effects.record_view import views_of
 from probation.inference.candidate import WhitenedColumns
@@ -24,7 +23,7 @@ from probation.inference.speed_wander import speed_wander
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
-from probation.noise.drift import counted_as_noise, estimate_drift, with_drift
+from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
@@ -60,9 +59,9 @@ def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]
     """Every record's noise, its drift included."""
     noises = estimate_noise(residuals)
     drift = estimate_drift(Whitened.of(residuals, noises))
-    counted = counted_as_noise(drift)
+    of_effects = like_an_effect(drift)
     return tuple(
-        with_drift(noise, counted, drift - counted, record.time)
+        with_drift(noise, of_effects, drift - of_effects, record.time)
         for noise, record in zip(noises, residuals, strict=True)
     )
 
@@ -149,10 +148,13 @@ class BaseFit:
     @cached_property
     def covariance(self) -> FloatArray:
         """Of the material's parameters, by noise with all of its drift and by specimens, shape (n_base, n_base)."""
-        found = self.refit
+        found, whitened = self.refit, self.whitened
         solver = np.linalg.pinv(found.jacobian)
-        moved = solver @ self.rest_of_drift()
-        covariance = solver @ solver.T + moved @ moved.T
+        covariance = solver @ solver.T
+        for noise, part in zip(whitened.noises, whitened.slices, strict=True):
+            if noise.nuisance_drift is not None:
+                moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
+                covariance += moved @ moved.T
         slopes = found.coordinates.slopes(found.parameters)
         return np.asarray(covariance * np.outer(slopes, slopes))
 
@@ -178,7 +180,7 @@ class BaseFit:
     @cached_property
     def discrepancy(self) -> Discrepancy:
         """Smooth waves over the identify records, along which a form may be wrong."""
-        return Discrepancy.of(self.whitened, periodic=self.periodic)
+        return Discrepancy.of(self.whitened, self.columns.smooth, periodic=self.periodic)
 
     @cached_property
     def columns(self) -> WhitenedColumns:
@@ -222,21 +224,6 @@ class BaseFit:
             only=lambda form: form.variant or form.starts is not None,
         )
         return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
-
-    def drifting(self) -> BaseFit:
-        """The same in white coordinates that count all of the drift as noise: for a test, not for fits."""
-        noises = tuple(noise.drifting() for noise in self.whitened.noises)
-        found = refit(replace(self.problem, whitener=Whitener(noises)), self.parameters, most_steps=0)
-        alike = Whitened.of(self.alike.records, tuple(noise.drifting() for noise in self.alike.noises))
-        return replace(self, refit=found, whitened=Whitened.of(self.whitened.records, noises), alike=alike)
-
-    def rest_of_drift(self) -> FloatArray:
-        """What these coordinates do not count of the drift, white, of one standard deviation each; (N, k)."""
-        parts = [
-            np.zeros((len(record), 0)) if noise.rest_of_drift is None else noise.whiten(noise.rest_of_drift)
-            for record, noise in zip(self.whitened.records, self.whitened.noises, strict=True)
-        ]
-        return np.asarray(block_diag(*parts), dtype=np.float64)
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:

@@ -76,6 +76,11 @@ class WhitenedColumns:
             places.setdefault(column.cause.effect.name, []).append(index)
         return {name: self.matrix[:, own] for name, own in places.items()}
 
+    @property
+    def smooth(self) -> FloatArray:
+        """Those that are not sharp, shape (N, m)."""
+        return self.matrix[:, [column.cause.form.sharp is None for column in self.columns]]
+
     def candidates(self, residual: FloatArray, span: FloatArray) -> list[Candidate]:
         """Every cause at its best starts, best first; the second-best of a cause comes further down.
 

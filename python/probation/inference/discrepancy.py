@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.strain_periodic import strain_periodic_waves
+from probation.noise.nuisance_drift import nuisance_drift
 from probation.noise.smooth_basis import smooth_basis
 from probation.noise.span import span_of
 from probation.settings.evidence import EVIDENCE
@@ -35,6 +36,8 @@ class Discrepancy:
         Rows of each record.
     places : tuple of slice
         Its waves among all.
+    drift : ndarray, shape (d, d)
+        Covariance of the slow noise along the waves that whitening has left; see `noise.nuisance_drift`.
     common : ndarray, shape (N, m)
         Whitened waves over the strain, the same in all records; the energies of all sum to 1.
     specimens : ndarray, shape (N, m)
@@ -49,18 +52,21 @@ class Discrepancy:
     spectrum: tuple[FloatArray, ...]
     slices: tuple[slice, ...]
     places: tuple[slice, ...]
+    drift: FloatArray
     common: FloatArray
     specimens: FloatArray
     strain_periodic: FloatArray
     log_strain_periodic_share: float
 
     @classmethod
-    def of(cls, whitened: Whitened, *, periodic: bool = True) -> Discrepancy:
+    def of(cls, whitened: Whitened, signals: FloatArray | None = None, *, periodic: bool = True) -> Discrepancy:
         """Of the identify records.
 
         Parameters
         ----------
         whitened : Whitened
+        signals : ndarray, shape (N, n_signals), optional
+            Whitened signals of effects, of which the slow noise is known to hold little.
         periodic : bool
             Whether to look for what is periodic in the strain.
         """
@@ -75,6 +81,7 @@ class Discrepancy:
             spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
+        drift = nuisance_drift(whitened, columns, signals)
         nothing = np.zeros((len(whitened), 0)), 0.0
         strain_periodic, log_strain_periodic_share = strain_periodic_waves(whitened) if periodic else nothing
         return cls(
@@ -82,6 +89,7 @@ class Discrepancy:
             spectrum=tuple(spectrum),
             slices=whitened.slices,
             places=tuple(places),
+            drift=drift,
             common=_over_strain(whitened),
             specimens=_own_tangents(whitened),
             strain_periodic=strain_periodic,

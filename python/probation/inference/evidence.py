@@ -4,15 +4,16 @@ A catalogue's form of an effect is never quite nature's. Taken at their word, tw
 MPa^2 of a gap of 10 000 would differ by hundreds of log units; taken as forms known to some per cent, both have found
 nearly all of it. So what an explanation leaves is let be noise, the freedom of its form, and a smooth discrepancy,
 
-    y ~ N(J d, I + s^2 F F^T + B D B^T),
+    y ~ N(J d, I + s^2 F F^T + B (D + H) B^T),
 
 y the whitened residual, J the whitened Jacobian, d the parameters' distance from the optimum with their prior. F are
 the effects' contributions times smooth functions of their own coordinates (`form_freedom`), alike in all records; s is
-the relative error of a form. B are smooth waves over every record, D = (s/4)^2 lambda_r v the variance of a
-discrepancy that is no function of the coordinate: lambda_r what the explanation does to record r, v the spectrum of
-smooth curves. s is a quarter as large, in F and in D, for a fault of the rig. s is integrated out, so that a form that
-is right is not charged for a freedom that it does not need. "Unknown" has nothing but a discrepancy of any size, of
-several kinds (`inference.unknown`; Kennedy & O'Hagan 2001; docs/diagnosis-method.md, sections 4 and 7).
+the relative error of a form. B are smooth waves over every record, H slow noise along them that whitening has left
+(`noise.nuisance_drift`), D = (s/4)^2 lambda_r v the variance of a discrepancy that is no function of the coordinate:
+lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is a quarter as large, in F and in D,
+for a fault of the rig. s is integrated out, so that a form that is right is not charged for a freedom that it does not
+need. "Unknown" has nothing but a discrepancy of any size, of several kinds (`inference.unknown`; Kennedy & O'Hagan
+2001; docs/diagnosis-method.md, sections 4 and 7).
 """
 
 from __future__ import annotations

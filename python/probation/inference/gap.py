@@ -220,20 +220,19 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    drifting = base.drifting()
-    test = _survivor(drifting.whitened, base.signals, sizes, seed, drifting.uncertain_scatter)
+    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter)
     alike = None
     if base.scatter.any and not test.rejected:
-        alike = _tested(drifting.alike, base.signals, seed)
+        alike = _tested(base.alike, base.signals, seed)
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
-        whitened = Whitened.of([record], [noise.drifting()])
+        whitened = Whitened.of([record], [noise])
         view = next(view for view in base.views if view.id == record.name)
         model = CampaignModel(base.law, [view])
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise.drifting()))
+        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise))
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
@@ -245,9 +244,10 @@ def _survivor(
     seed: int,
     scatter: UncertainScatter | None,
 ) -> GapTest:
-    """The test of some records with all of their drift; of a gap that is a fraction of the noise, the doubtful answer.
+    """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
-    Such a gap rests on the model of the noise, and is declared only where it survives a level 1.25 times as high.
+    Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
+    level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
     test = _tested(whitened, signals, seed, scatter)
     noises = whitened.noises
@@ -255,7 +255,8 @@ def _survivor(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
-    return replace(test, p_value=max(test.p_value, test.p_value_high_noise))
+    other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed, scatter)
+    return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
 
 
 def _tested(
@@ -263,6 +264,13 @@ def _tested(
 ) -> GapTest:
     columns = WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
     return with_sharp(GapTester(whitened, columns.by_effect(), scatter=scatter, seed=seed)(), whitened)
+
+
+def _drifting(noise: NoiseModel) -> NoiseModel:
+    """The noise with all of its drift along any direction, that of effects included."""
+    if noise.drift is None or noise.nuisance_drift is None:
+        return noise
+    return replace(noise, drift=np.hstack([noise.drift, noise.nuisance_drift]), nuisance_drift=None)
 
 
 def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:

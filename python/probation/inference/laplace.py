@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import cholesky, solve_triangular
 from scipy.special import erfcx, log_ndtr
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ class Linearised:
     normal: FloatArray
     waves_of_residual: FloatArray
     waves_of_jacobian: FloatArray
+    drift: FloatArray
     away: FloatArray
     precision: FloatArray
     log_prior: float
@@ -67,6 +69,7 @@ class Linearised:
             normal=inside.T @ inside,
             waves_of_residual=-discrepancy.of_columns(residual),
             waves_of_jacobian=discrepancy.of_columns(inside),
+            drift=discrepancy.drift,
             away=np.append((centre - x)[free], np.zeros(count)),
             precision=np.append(precision[free], np.ones(count)),
             # Normalisation of the priors and, held at a bound, their value there.
@@ -90,10 +93,11 @@ class Linearised:
         return replace(self, precision=precision, log_prior=self.log_prior - count * float(np.log(error)))
 
     def log_integral(self, variances: FloatArray) -> float:
-        """Log of the integral over the parameters of likelihood times prior, C = I + B D B^T."""
+        """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""
         inside, own = self.waves_of_jacobian, self.waves_of_residual
+        lower = cholesky(np.eye(len(own)) + self.drift + np.diag(variances), lower=True, check_finite=False)
         both = np.column_stack([inside, own])
-        left = both / np.sqrt(1.0 + variances)[:, None]
+        left = solve_triangular(lower, both, lower=True, check_finite=False)
         taken = both.T @ both - left.T @ left
         normal = self.normal - taken[:-1, :-1]
         gradient = self.gradient - taken[:-1, -1]
@@ -112,7 +116,7 @@ class Linearised:
         log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))
         return (
             -0.5 * quadratic
-            - 0.5 * float(np.sum(np.log1p(variances)))
+            - float(np.sum(np.log(np.diag(lower))))
             - 0.5 * log_determinant
             + 0.5 * len(values) * float(np.log(2.0 * np.pi))
             + self.log_prior
@@ -125,7 +129,7 @@ class Linearised:
         inside, prior = self.waves_of_jacobian, np.diag(self.precision)
         inverse = np.linalg.pinv(self.normal + prior, hermitian=True)
         # The discrepancy widens what the estimate, made without it, scatters by.
-        spread = inside.T @ (variances[:, None] * inside)
+        spread = inside.T @ (self.drift @ inside + variances[:, None] * inside)
         own = inverse @ (self.normal + spread + prior) @ inverse
         full, count = np.zeros((len(self.free), len(self.free))), int(np.count_nonzero(self.free))
         full[np.ix_(self.free, self.free)] = own[:count, :count]

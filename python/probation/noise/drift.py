@@ -43,7 +43,7 @@ def estimate_drift(whitened: Whitened) -> float:
     whitened : Whitened
         Without any drift in its noises.
     """
-    score = -2.0 * np.log1p(SIZES / NOISE.usual_drift)
+    score = -np.log1p(SIZES / NOISE.usual_drift)
     for part in whitened.slices:
         count = part.stop - part.start
         if count < NOISE.fewest_for_drift:
@@ -60,9 +60,11 @@ def estimate_drift(whitened: Whitened) -> float:
     return max(mean + NOISE.drift_margin * float(np.sqrt(chance @ (SIZES - mean) ** 2)), NOISE.least_drift)
 
 
-def counted_as_noise(drift: float) -> float:
-    """Relative variance of the drift at the first half period that fits count as noise, of all that there may be."""
-    return float(np.clip(NOISE.counted_share_of_drift * drift, NOISE.least_counted_drift, NOISE.most_counted_drift))
+def like_an_effect(drift: float) -> float:
+    """Relative variance of a drift at the first half period that may go along with an effect."""
+    return float(
+        np.clip(NOISE.drift_share_of_effects * drift, NOISE.least_drift_of_effects, NOISE.most_drift_of_effects)
+    )
 
 
 def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
@@ -72,30 +74,21 @@ def _scores(order: FloatArray, power: FloatArray) -> FloatArray:
     return np.asarray(-0.5 * (len(order) * np.log(level) + np.sum(np.log(shape), axis=2)))
 
 
-def with_drift(noise: NoiseModel, size: float, rest: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
-    r"""The noise with a drift of that relative variance at the first half period on top.
-
-    The mean over n samples drifts, too, from the zero to which the force was set before. Of a drift whose power falls
-    as c/k the difference has the variance :math:`c \ln n`, over that of the white noise's mean: frequencies from a
-    period of the record to one of the reading that was set to zero. That belongs to the rest.
+def with_drift(noise: NoiseModel, size: float, nuisance: float = 0.0, time: FloatArray | None = None) -> NoiseModel:
+    """The noise with a drift of that relative variance at the first half period on top.
 
     Parameters
     ----------
     noise : NoiseModel
     size : float
-        What fits count as noise. More would leave a law free to run away from records that it misses by far.
-    rest : float
-        What only the test for a gap, and the uncertainty of parameters, count.
+        In all directions.
+    nuisance : float
+        More of it, that is like no effect.
     time : ndarray, shape (n,) [s], optional
         What drifts does so in time: many samples within a short while drift together. Even steps if left out.
     """
     columns = waves(len(noise), min(NOISE.modelled_drift_orders, len(noise) // NOISE.highest_drift_order), time)
-    power = 1.0 / np.maximum(np.arange(columns.shape[1]), 1)
-    of_rest = rest * power
-    of_rest[0] = (size + rest) * np.log(len(noise)) - size
-    slow: FloatArray = noise.long_run[:, None] * columns
-    return replace(
-        noise,
-        drift=slow * np.sqrt(size * power),
-        rest_of_drift=slow * np.sqrt(np.maximum(of_rest, 0.0)) if rest > 0.0 else None,
-    )
+    order = np.maximum(np.arange(columns.shape[1]), 1)
+    slow: FloatArray = noise.long_run[:, None] * columns / np.sqrt(order)
+    more = np.sqrt(nuisance) * slow if nuisance > 0.0 else None
+    return replace(noise, drift=np.sqrt(size) * slow, nuisance_drift=more)

@@ -50,9 +50,11 @@ class NoiseModel:
     source : str
         Where the estimate is from, in words.
     drift : ndarray, shape (n, k) [MPa], optional
-        What fits count of the drift (`noise.drift`). Whitening and draws have it; `deviation` has not.
-    rest_of_drift : ndarray, shape (n, k) [MPa], optional
-        The rest of it; see `drifting`.
+        The part of the drift that may resemble an effect (`noise.drift`). Whitening and draws have it; `deviation` has
+        not.
+    nuisance_drift : ndarray, shape (n, k) [MPa], optional
+        The rest of the drift, whose part along every effect is small. Tests on smooth waves, evidence and the
+        uncertainty of predictions have it; whitening has not.
     specimen : ndarray, shape (n, k) [MPa], optional
         What deviations of the record's specimen do, of one standard deviation each. Whitening and draws have it;
         `deviation` has not: it is no noise of the record, and the same in all records of the specimen.
@@ -73,7 +75,7 @@ class NoiseModel:
     outliers: tuple[int, ...]
     source: str
     drift: FloatArray | None = None
-    rest_of_drift: FloatArray | None = None
+    nuisance_drift: FloatArray | None = None
     specimen: FloatArray | None = None
     specimen_id: str | None = None
 
@@ -185,14 +187,8 @@ class NoiseModel:
             white=self.white * factor,
             propagated=self.propagated * factor,
             drift=None if self.drift is None else self.drift * factor,
-            rest_of_drift=None if self.rest_of_drift is None else self.rest_of_drift * factor,
+            nuisance_drift=None if self.nuisance_drift is None else self.nuisance_drift * factor,
         )
-
-    def drifting(self) -> NoiseModel:
-        """The same with all of its drift."""
-        if self.drift is None or self.rest_of_drift is None:
-            return self
-        return replace(self, drift=np.hstack([self.drift, self.rest_of_drift]), rest_of_drift=None)
 
     @property
     def _slow(self) -> FloatArray:

@@ -51,12 +51,12 @@ class NoiseSettings:
         "Relative variance at the first half period that is assumed in any case: less cannot be distinguished from "
         "none.",
     )
-    least_counted_drift: float = chosen(
-        0.25, "-", "Least variance, at the first half period, of a drift that fits count, over the noise's."
+    least_drift_of_effects: float = chosen(
+        0.25, "-", "Least variance, at the first half period, of a drift along an effect, over the noise's."
     )
-    counted_share_of_drift: float = chosen(0.2, "-", "Part of a drift that fits count as noise along any direction.")
-    most_counted_drift: float = chosen(
-        2.0, "-", "Largest variance, at the first half period, of a drift that fits count, over the noise's."
+    drift_share_of_effects: float = chosen(0.2, "-", "Part of a drift that may go along with an effect.")
+    most_drift_of_effects: float = chosen(
+        2.0, "-", "Largest variance, at the first half period, of a drift along an effect, over the noise's."
     )
     lowest_drift_order: int = chosen(
         8, "half periods", "Orders from here on are looked at: further down a bias is all there is."
@@ -111,6 +111,14 @@ class NoiseSettings:
         0.4,
         "-",
         "Largest standard error of the logarithm of what the rough leftovers predict that is let excuse a difference.",
+    )
+    nuisance_drift_size: float = chosen(
+        0.6, "noise", "Standard deviations of the noise along an effect's signal that a drift may have along it."
+    )
+    known_drift_variance: float = chosen(
+        0.1,
+        "-",
+        "Variance of a drift along a signal, given those along other signals, below which it is known already.",
     )
     unusual_specimen: float = chosen(
         0.01,
