@@ -81,10 +81,11 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         frequency = np.arange(
             DETECTION.oversampling * DETECTION.slowest_line // 2, DETECTION.oversampling * count // 2
         ) / (DETECTION.oversampling * duration)
-        power = _power(record.time, left, frequency, duration)
+        columns = np.column_stack([left, speed_wander_in(whitened, index, white)])
+        powers = _power(record.time, columns, frequency, duration)
+        power = powers[:, 0]
         level = np.maximum(running_median(power, DETECTION.line_neighbours) / np.log(2.0), 1.0)
-        for column in speed_wander_in(whitened, index, white).T:
-            level += _power(record.time, column, frequency, duration)
+        level += powers[:, 1:].sum(axis=1)
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
@@ -194,12 +195,17 @@ def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tup
 
 
 def speed_wander_in(whitened: Whitened, index: int, white: FloatArray) -> FloatArray:
-    """Whitened columns of a record's hidden wander of the speed, without what `white` spans; shape (n, k)."""
+    """Whitened columns of a record's hidden wander of the speed, without what `white` spans; shape (n, k).
+
+    The cosines, then the sines, of the frequencies at which it is no small part of the noise.
+    """
     record = whitened.records[index]
     if record.wander is None:
         return np.zeros((len(record), 0))
     columns = whitened.noises[index].whiten(record.wander)
-    return np.asarray(columns - white @ (white.T @ columns))
+    columns = columns - white @ (white.T @ columns)
+    seen = np.sum(columns.reshape(len(columns), 2, -1) ** 2, axis=(0, 1)) > DETECTION.negligible_wander
+    return np.asarray(columns[:, np.tile(seen, 2)])
 
 
 def _steps(
@@ -214,19 +220,18 @@ def _steps(
 
 
 def _power(time: FloatArray, values: FloatArray, frequency: FloatArray, duration: float) -> FloatArray:
-    """|sum v e^(-2 pi i f t)|^2 / n at every frequency, the multiples of half a spacing from the slowest line on."""
+    """|sum v e^(-2 pi i f t)|^2 / n of columns (n, m) at every frequency, half spacings from the slowest line on."""
     count = len(values)
     if np.ptp(np.diff(time)) >= 1e-3 * duration / count:
         return uneven_power(time, values, frequency)
     first = DETECTION.oversampling * DETECTION.slowest_line // 2
-    return np.asarray(np.abs(np.fft.rfft(values, DETECTION.oversampling * count)) ** 2 / count)[
-        first : first + len(frequency)
-    ]
+    power = np.abs(np.fft.rfft(values, DETECTION.oversampling * count, axis=0)) ** 2 / count
+    return np.asarray(power[first : first + len(frequency)])
 
 
 def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) -> FloatArray:
-    """|sum v e^(-2 pi i f t)|^2 / n at every frequency."""
-    power = np.empty(len(frequency))
+    """|sum v e^(-2 pi i f t)|^2 / n of values (n,) or columns (n, m) at every frequency."""
+    power = np.empty((len(frequency), *values.shape[1:]))
     for first in range(0, len(frequency), 256):
         part = slice(first, first + 256)
         power[part] = np.abs(np.exp(-2j * np.pi * np.outer(frequency[part], time)) @ values) ** 2 / len(values)

@@ -95,6 +95,9 @@ class DetectionSettings:
         (6, 14), "samples", "Samples on each side of a step by which the noise there is judged, closely and less so."
     )
     burst_samples: int = chosen(4, "samples", "Neighbouring samples that a short burst of noise moves together.")
+    negligible_wander: float = chosen(
+        0.1, "noise variance", "Energy of a hidden wander of the speed at one frequency below which it is left out."
+    )
     line_neighbours: int = chosen(
         60, "frequencies", "Frequencies whose median power a line is measured against, if that is above the noise's."
     )
