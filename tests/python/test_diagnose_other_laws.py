@@ -39,6 +39,11 @@ def test_a_maxwell_bar_that_is_one_has_no_gap():
     assert values["relaxation_time_s"].value == pytest.approx(TIME, abs=4.0 * values["relaxation_time_s"].se)
 
 
+def test_nothing_is_held_in_a_law_of_ones_own():
+    with pytest.raises(probation.InputError, match="hold: found modulus_MPa beside law=, expected one of the two"):
+        probation.diagnose(campaign(), law=maxwell_bar(), hold={"modulus_MPa": 1200.0})
+
+
 def test_an_offset_in_one_record_of_a_maxwell_bar_is_named_with_its_record():
     shifted = campaign(lambda name, time, strain, stress: stress + 0.4 * np.exp(strain) * (name == "middle"))
     found = probation.diagnose(shifted, law=maxwell_bar(), design=False)

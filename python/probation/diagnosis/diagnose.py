@@ -27,6 +27,7 @@ from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
 from probation.effects.registry import effects as catalogue
 from probation.effects.visible import visible
+from probation.errors import InputError
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
@@ -110,11 +111,16 @@ def diagnose(
     Raises
     ------
     InputError
-        For an unknown effect or parameter, suggesting the nearest, and for a budget or a tolerance that is not
-        positive.
+        For an unknown effect or parameter, suggesting the nearest, for a budget or a tolerance that is not positive, and
+        for `hold` beside `law`.
     """
     deadline = Budget(budget)
     as_tolerance(tolerance)
+    if law is not None and hold:
+        raise InputError(
+            f"hold: found {', '.join(hold)} beside law=, expected one of the two; a law of your own holds what it does "
+            "not give as a parameter"
+        )
     scheme_name = identifying(scheme)[0].name
     known = catalogue(effects)
     workers = as_threads(threads) or 1
