@@ -111,8 +111,8 @@ def diagnose(
     Raises
     ------
     InputError
-        For an unknown effect or parameter, suggesting the nearest, for a budget or a tolerance that is not positive, and
-        for `hold` beside `law`.
+        For an unknown effect or parameter, suggesting the nearest, for a budget or a tolerance that is not positive,
+        and for `hold` beside `law`.
     """
     deadline = Budget(budget)
     as_tolerance(tolerance)
