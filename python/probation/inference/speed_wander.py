@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from probation.inference.propagated import stress_by_errors
 from probation.settings.noise import NOISE
@@ -38,7 +37,8 @@ def speed_wander(law: GapLaw, view: RecordView, parameters: FloatArray) -> Float
     time = excitation.time
     phase = 2.0 * np.pi * np.outer((time - time[0]) / (time[-1] - time[0]), np.arange(1, NOISE.wander_cycles + 1))
     speed = excitation.strain_rate[:, None] * np.hstack([np.cos(phase), np.sin(phase)])
-    strain = np.asarray(cumulative_trapezoid(speed, time, axis=0, initial=0), dtype=np.float64)
+    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)[:, None]
+    strain = np.vstack([np.zeros_like(speed[:1]), np.cumsum(steps, axis=0)])
     shown = np.sum((strain - strain.mean(axis=0)) ** 2, axis=0)
     noise = excitation.strain_noise**2 * excitation.noise_inflation
     size = (NOISE.speed_wander**-2.0 + shown / noise) ** -0.5
