@@ -21,7 +21,7 @@ from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.progress import Part, shows_progress
 from probation.settings.certificate import CERTIFICATE
-from probation.smoothing.excitation import excite_each
+from probation.smoothing.excitation import excitations_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -111,10 +111,8 @@ def certify(
     gap = gap_of(campaign)
     scatter = None if gap is None else gap.scatter
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
-    driven = {
-        record.id: drive
-        for record, drive in zip(campaign.records, excite_each(campaign.records, excitation), strict=True)
-    }
+    beside = campaign.identify if campaign.held_out else ()
+    driven = excitations_of(campaign.held_out or campaign.records, excitation, beside=beside)
     predictions = {
         record.id: predict(source, known, record, tolerance, driven[record.id], relation)
         for source, known, record in _pairs(trial, base, step)

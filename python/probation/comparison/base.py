@@ -20,7 +20,7 @@ from probation.inference.view_residual import residual_of
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.records.specimens import Specimens
-from probation.smoothing.excitation import excite_each
+from probation.smoothing.excitation import excitations_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -107,9 +107,7 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
         {name: [reference.branches[other] for other in others] for name, others in together.items()},
         errs=not specimens.alike,
     )
-    excitations = {
-        record.id: drive for record, drive in zip(campaign.records, excite_each(campaign.records), strict=True)
-    }
+    excitations = excitations_of(campaign.records)
     views = views_of(campaign, excitations=excitations, scheme=reference.scheme)
     model = CampaignModel(law, views).quietened(law.start)
     pairs = tuple(

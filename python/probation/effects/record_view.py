@@ -16,7 +16,7 @@ from probation.law.schemes import as_scheme
 from probation.records.conversions import volume_strain_from
 from probation.records.noise import stress_noise
 from probation.settings.effects import EFFECTS
-from probation.smoothing.excitation import excite_each
+from probation.smoothing.excitation import excitations_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -374,12 +374,11 @@ def views_of(
     Parameters
     ----------
     excitations : dict of str to Excitation, optional
-        By record id; made by `excite_each` if left out.
+        By record id; made by `excitations_of` if left out.
     scheme, substeps
         As in `view_of`.
     """
-    records = campaign.records
-    known = excitations or {record.id: drive for record, drive in zip(records, excite_each(records), strict=True)}
+    known = excitations or excitations_of(campaign.records)
     reference = reference_rate_of([known[record.id] for record in campaign.identify])
     temperature = reference_temperature_of(campaign.records)
     count = len(campaign.records)

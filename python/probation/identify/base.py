@@ -17,7 +17,7 @@ from probation.law.schemes import scheme_of
 from probation.noise.segments import leftover
 from probation.settings.identification import IDENTIFICATION
 from probation.settings.noise import NOISE
-from probation.smoothing.excitation import excite, excite_each
+from probation.smoothing.excitation import excitations_of, excite
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -79,7 +79,7 @@ def _excitations(campaign: Campaign, fit: Fit) -> dict[str, Excitation]:
     rougher than any effect that the law may lack. Where it tells nothing, since the law is soft there or lacks what
     makes it stiff, the wiggles are noise: a law that follows the rate would make much of them.
     """
-    chosen = {record.id: drive for record, drive in zip(campaign.records, excite_each(campaign.records), strict=True)}
+    chosen = excitations_of(campaign.records)
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
     favours_raw, told_apart = 0.0, 0.0
     for record in campaign.identify:

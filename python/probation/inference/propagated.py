@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.inference.modal_law import DnlrLaw
-from probation.inference.strain_noise import StrainNoise, leading_directions
+from probation.inference.strain_noise import leading_directions, solver_on_samples, tangents_along
 from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
 from probation.settings.smoothing import SMOOTHING
@@ -61,8 +61,8 @@ def stress_by_errors(
         A law without tangents along the strain takes the rate from it.
     """
     if isinstance(law, DnlrLaw):
-        noise = StrainNoise.of(view.excitation, view.scheme, view.stride)
-        return noise.by_errors(law.law_at(parameters), strain, rate)
+        solver = solver_on_samples(view.excitation, view.scheme, view.stride)
+        return tangents_along(solver, law.law_at(parameters), strain, rate)
     still = law.stress(view, parameters)
     instants, samples = view.time, view.sampled(view.time)
     found = np.empty_like(strain)

@@ -51,9 +51,7 @@ class StrainNoise:
     @classmethod
     def of(cls, excitation: Excitation, scheme: Scheme | SchemeName, substeps: int = 1) -> StrainNoise:
         """That of a record, driven by an excitation at its samples."""
-        if substeps > 1:
-            scheme = "sa2" if excitation.strain_rate is None else "sa3"
-        solver = make_solver(excitation.strain_history().engine, scheme)
+        solver = solver_on_samples(excitation, scheme, substeps)
         return cls(solver, _deviation(excitation), *(_directions(excitation) or (None, None)))
 
     def propagated(self, law: Law) -> FloatArray:
@@ -65,7 +63,7 @@ class StrainNoise:
             self._made[key] = (
                 self.solver.strain_sensitivity(law.engine, _core.LawChange())
                 if self.strain is None
-                else self.by_errors(law, self.strain, self.rate)
+                else tangents_along(self.solver, law, self.strain, self.rate)
             )
         return self.deviation * self._made[key]
 
@@ -73,14 +71,16 @@ class StrainNoise:
         """Stress made by those errors, in units of their standard deviation; shape (n_times,) [MPa]."""
         strain = errors if self.strain is None else self.strain @ errors
         rate = None if self.rate is None else (self.rate @ errors)[:, None]
-        return self.deviation * self.by_errors(law, strain[:, None], rate)[:, 0]
+        return self.deviation * tangents_along(self.solver, law, strain[:, None], rate)[:, 0]
 
     def probed(self, law: Law, count: int) -> FloatArray:
         """Stress made by `count` draws of the noise, always the same ones; shape (n_times, count) [MPa]."""
         size = len(self.solver.history) if self.strain is None else self.strain.shape[1]
         errors = np.random.default_rng(0).standard_normal((size, count))
         strain = errors if self.strain is None else self.strain @ errors
-        return self.deviation * self.by_errors(law, strain, None if self.rate is None else self.rate @ errors)
+        return self.deviation * tangents_along(
+            self.solver, law, strain, None if self.rate is None else self.rate @ errors
+        )
 
     def slopes(self, law: Law, errors: FloatArray, wanted: Sequence[int]) -> FloatArray:
         """Derivatives of `along` by the law's parameters number `wanted`; shape (n_times, wanted)."""
@@ -97,18 +97,26 @@ class StrainNoise:
             columns.append((sides[1] - sides[0]) / (ends[1] - ends[0]))
         return np.column_stack(columns)
 
-    def by_errors(self, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:
-        """Stress made by errors of the strain and of its rate, columns of shape (n_times, m) [-], [1/s]; in MPa."""
-        directions = []
-        for at in range(strain.shape[1]):
-            direction = _core.Direction()
-            direction.true_strain = strain[:, at]
-            if rate is not None:
-                direction.strain_rate = rate[:, at]
-            directions.append(direction)
-        stress, tangents = np.empty(len(strain)), np.empty((len(strain), len(directions)))
-        self.solver.tangent(law.engine, _core.LawChange(), directions, stress, tangents)
-        return tangents
+
+def solver_on_samples(excitation: Excitation, scheme: Scheme | SchemeName, substeps: int = 1) -> _core.Solver:
+    """In the record's own scheme where that takes no substeps, else in the one that is exact between samples."""
+    if substeps > 1:
+        scheme = "sa2" if excitation.strain_rate is None else "sa3"
+    return make_solver(excitation.strain_history().engine, scheme)
+
+
+def tangents_along(solver: _core.Solver, law: Law, strain: FloatArray, rate: FloatArray | None) -> FloatArray:
+    """Stress made by errors of the strain and of its rate, columns of shape (n_times, m) [-], [1/s]; in MPa."""
+    directions = []
+    for at in range(strain.shape[1]):
+        direction = _core.Direction()
+        direction.true_strain = strain[:, at]
+        if rate is not None:
+            direction.strain_rate = rate[:, at]
+        directions.append(direction)
+    stress, tangents = np.empty(len(strain)), np.empty((len(strain), len(directions)))
+    solver.tangent(law.engine, _core.LawChange(), directions, stress, tangents)
+    return tangents
 
 
 def leading_directions(excitation: Excitation) -> tuple[FloatArray, FloatArray | None]:

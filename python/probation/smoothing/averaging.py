@@ -53,13 +53,10 @@ class Averaging:
         white noise if none does.
         """
         told = [(len(values), found) for values in segments if (found := averaging_of(values)) is not None]
-        samples = sum(count for count, _ in told)
-        if not samples:
+        if not told:
             return cls()
-        inflation, hidden = (
-            sum(count * part for count, part in zip((count for count, _ in told), parts, strict=True)) / samples
-            for parts in ([each.inflation for _, each in told], [each.hidden for _, each in told])
-        )
+        parts = [(found.inflation, found.hidden) for _, found in told]
+        inflation, hidden = np.average(parts, axis=0, weights=[count for count, _ in told]).tolist()
         return cls(inflation, hidden)
 
 

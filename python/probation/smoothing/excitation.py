@@ -227,6 +227,14 @@ def excite_each(
         yield each.known(averaging).excitation(averaging.inflation, automatic=method == "auto")
 
 
+def excitations_of(
+    records: Sequence[Record], method: Method = "auto", *, beside: Sequence[Record] = ()
+) -> dict[str, Excitation]:
+    """The same by record id."""
+    driven = excite_each(records, method, beside=beside)
+    return {record.id: drive for record, drive in zip(records, driven, strict=True)}
+
+
 @dataclass(frozen=True, eq=False)
 class _Measured:
     """The strain of a record before it is smoothed: its noise, its jumps, and the method, never "auto"."""
