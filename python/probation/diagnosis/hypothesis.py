@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import log
 from typing import TYPE_CHECKING
+
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from probation.effects.cause import Cause
@@ -55,6 +58,11 @@ class Hypothesis:
     def effects(self) -> tuple[str, ...]:
         """Names of the effects, sorted, each once."""
         return tuple(sorted({cause.effect.name for cause in self.causes}))
+
+    @property
+    def log_again(self) -> float:
+        """Log prior of what acts once more in another record, with a size of its own."""
+        return (len(self.causes) - len(self.effects)) * log(EVIDENCE.again_in_another_record)
 
     @property
     def records(self) -> tuple[str, ...]:

@@ -65,10 +65,7 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float 
     together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
     for each in _best_starts(hypotheses):
         value = each.evidence.log_evidence
-        again = len(each.causes) - len({cause.effect.name for cause in each.causes})
-        inside = sum(_form_and_place(cause, each) for cause in each.causes) + again * log(
-            EVIDENCE.again_in_another_record
-        )
+        inside = sum(_form_and_place(cause, each) for cause in each.causes) + each.log_again
         for effects, score in (
             (each.effects, value),
             (with_unknown(each.effects), each.evidence.log_evidence_unknown),

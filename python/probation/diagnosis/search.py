@@ -76,8 +76,8 @@ class Search:
             self._scatter_around_the_best()
         self._try_with_unknown()
         self._begin(0.5, 0.65)
-        size = 1
-        for _ in range(SEARCH.most_effects):
+        size, extended = 1, set[tuple[Key, ...]]()
+        while True:
             leading = self.ranked(size)
             if not leading:
                 break
@@ -86,12 +86,15 @@ class Search:
                 break
             left = self._something_left(self.ranked()[0])
             for each in leading[: SEARCH.extended_explanations if left and size == 1 else 1]:
-                self._additions(each)
+                key = tuple(cause_key(cause) for cause in each.causes)
+                if key not in extended:
+                    self._additions(each)
+                extended.add(key)
             if size == 1 and left:
                 self._swaps()
             self._try_with_unknown()
             best = self.ranked()[0]
-            if best in leading or len(best.causes) >= SEARCH.most_effects:
+            if best in leading:
                 break
             size = len(best.effects)  # the same where an effect acts in another record, too
             self._begin(0.65, 0.8)
@@ -128,9 +131,9 @@ class Search:
             if size is not None and len(each.effects) != size:
                 continue
             known = best.get(each.effects)
-            if known is None or each.evidence.log_evidence > known.evidence.log_evidence:
+            if known is None or _standing(each) > _standing(known):
                 best[each.effects] = each
-        return sorted(best.values(), key=lambda each: -each.evidence.log_evidence)
+        return sorted(best.values(), key=_standing, reverse=True)
 
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
@@ -150,6 +153,25 @@ class Search:
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
+        self.found += self._judged(self._solved(self._steps_in_several_records(candidates), MOST_STEPS))
+
+    def _steps_in_several_records(self, candidates: Sequence[Candidate]) -> list[tuple[CampaignModel, FloatArray]]:
+        """What jumps in one record, in every record that has a step: what slips in one test slips in others, too.
+
+        One of several slips, by itself, gains less than many a smooth cause that acts in all records.
+        """
+        begun: dict[tuple[str, str], dict[tuple[str, ...], Candidate]] = {}
+        for each in candidates:
+            if each.cause.form.sharp == "step" and each.cause.records is not None and each.base is None:
+                form = each.cause.effect.name, each.cause.form.name
+                begun.setdefault(form, {}).setdefault(each.cause.records, each)
+        jobs = []
+        for places in begun.values():
+            if len(places) > 1:
+                model = self.base.model.with_causes(each.cause for each in places.values())
+                values = [each.values for each in places.values()]
+                jobs.append((model, np.concatenate([self.base.refit.parameters, *values])))
+        return jobs
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""
@@ -202,7 +224,7 @@ class Search:
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis) -> None:
-        """One more cause jointly with those of a hypothesis."""
+        """One more cause jointly with those of a hypothesis: of so many, only what acts already, in another record."""
         if self.budget.spent():
             self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
@@ -220,6 +242,8 @@ class Search:
             for each in columns
             if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
         ]
+        if len(leading.effects) >= SEARCH.most_effects:
+            columns = [each for each in columns if each.cause.effect.name in leading.effects]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
         ranked = self._credible(
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
@@ -272,11 +296,10 @@ class Search:
             tried.add(key)
             base, values = found.model.split(found.parameters)
             jobs = []
-            for kept in product((True, False), repeat=len(causes)):
-                if any(kept) and not all(kept):
-                    part = list(compress(values, kept))
-                    model = found.model.with_causes(cause for cause, _ in part)
-                    jobs.append((model, model.parameters(base, *(own for _, own in part))))
+            for kept in _parts(causes):
+                part = list(compress(values, kept))
+                model = found.model.with_causes(cause for cause, _ in part)
+                jobs.append((model, model.parameters(base, *(own for _, own in part))))
             self.found += self._judged(self._solved(jobs, MOST_STEPS))
             self._try_with_unknown()
 
@@ -434,6 +457,20 @@ class Search:
         if self.progress:
             low, high = self._phase
             self.progress(low + (high - low) * self._refits / (self._refits + _USUAL))
+
+
+def _standing(hypothesis: Hypothesis) -> float:
+    """Evidence, less what it costs that an effect acts in another record, too."""
+    return hypothesis.evidence.log_evidence + hypothesis.log_again
+
+
+def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
+    """Which causes parts of an explanation keep: any of its effects, or all causes but one."""
+    names = list(dict.fromkeys(cause.effect.name for cause in causes))
+    effects = [dict(zip(names, kept, strict=True)) for kept in product((True, False), repeat=len(names))]
+    parts = [tuple(kept[cause.effect.name] for cause in causes) for kept in effects]
+    parts += [tuple(other is not cause for other in causes) for cause in causes]
+    return [kept for kept in dict.fromkeys(parts) if any(kept) and not all(kept)]
 
 
 def _keys(found: Refit) -> frozenset[Key]:

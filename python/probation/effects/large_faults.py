@@ -1,9 +1,10 @@
-"""The rig's faults once more, for sizes far beyond those of a sound rig.
+"""The rig's faults once more, for sizes far beyond those of a sound rig; and a network that locks at once.
 
 The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
 crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
 is all there is, a plain large fault is impossible and something else, or an unknown effect, is certain. So each fault
-that can be large has its forms a second time, with a prior as wide as the records are large.
+that can be large has its forms a second time, with a prior as wide as the records are large. Networks of long chains
+lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
     """
     size = _Size.of(views)
     return tuple(
-        replace(effect, forms=(*effect.forms, _LARGE[effect.name](effect, size))) if effect.name in _LARGE else effect
+        replace(effect, forms=(*effect.forms, *_LARGE[effect.name](effect, size))) if effect.name in _LARGE else effect
         for effect in effects
     )
 
@@ -41,13 +42,14 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 class _Size(NamedTuple):
     """Largest nominal stress [MPa], elongation [-], and elongation over nominal stress [1/MPa] of any record.
 
-    And the mean elongation from sample to sample [-].
+    And the mean elongation from sample to sample [-], and the duration of the shortest record [s].
     """
 
     force: float
     elongation: float
     per_force: float
     per_sample: float
+    duration: float
 
     @classmethod
     def of(cls, views: Sequence[RecordView]) -> _Size:
@@ -55,7 +57,9 @@ class _Size(NamedTuple):
         elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
         ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
         steps = [float(np.mean(np.abs(np.diff(np.expm1(view.sampled(view.true_strain)))))) for view in views]
-        return cls(max(forces), max(elongations), max(ratios, default=0.0), max(steps))
+        return cls(
+            max(forces), max(elongations), max(ratios, default=0.0), max(steps), min(view.duration for view in views)
+        )
 
 
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
@@ -73,22 +77,22 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     )
 
 
-def _gain(effect: Effect, size: _Size) -> Form:
+def _gain(effect: Effect, size: _Size) -> tuple[Form, ...]:
     del size
-    return _widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0)
+    return (_widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0),)
 
 
-def _offset(effect: Effect, size: _Size) -> Form:
-    return _widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force)
+def _offset(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    return (_widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force),)
 
 
-def _drift(effect: Effect, size: _Size) -> Form:
-    return _widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force)
+def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    return (_widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force),)
 
 
-def _compliance(effect: Effect, size: _Size) -> Form:
+def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
-    return _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
+    return (_of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force),)
 
 
 def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
@@ -100,7 +104,7 @@ def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
 
 
-def _slack(effect: Effect, size: _Size) -> Form:
+def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # Slack ends between two samples, where the force begins to rise.
     large = _of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation)
     fixed = large.shapes_at(())
@@ -110,7 +114,7 @@ def _slack(effect: Effect, size: _Size) -> Form:
         begun = float(np.clip(np.median([_force_begins(view) for view in views]), 0.0, large.amplitude.upper))
         return [(begun,), *fixed] if begun > 0.0 else fixed
 
-    return replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts)
+    return (replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),)
 
 
 def _force_begins(view: RecordView) -> float:
@@ -135,10 +139,31 @@ def _of_travel(form: Form, whole: float) -> Form:
     )
 
 
-_LARGE: dict[str, Callable[[Effect, _Size], Form]] = {
+def _lag(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    largest, scale = EFFECTS.largest_lag * size.duration, EFFECTS.large_lag * size.duration
+    starts = tuple(part * size.duration for part in EFFECTS.lag_starts)
+    both_ways = (*(-start for start in starts), *starts)
+    return (
+        _widened(effect.form("delay"), scale, -largest, largest, both_ways),
+        _widened(effect.form("filter"), scale, 0.0, largest, starts),
+    )
+
+
+def _locking(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    del size
+    amplitude = effect.form("langevin").amplitude
+    return tuple(
+        _widened(effect.form(name), EFFECTS.short_chains, amplitude.lower, amplitude.upper, EFFECTS.locking_starts)
+        for name in ("langevin", "three_chains")
+    )
+
+
+_LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "force_gain": _gain,
     "force_offset": _offset,
     "force_drift": _drift,
+    "force_strain_lag": _lag,
+    "finite_extensibility": _locking,
     "machine_compliance": _compliance,
     "strain_offset": _slack,
 }

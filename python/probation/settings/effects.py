@@ -28,6 +28,17 @@ class EffectsSettings:
     travel_starts: tuple[float, ...] = chosen(
         (0.05, 0.2, 0.5), "largest elongation", "Such parts from which searches begin."
     )
+    large_lag: float = chosen(
+        0.1,
+        "duration",
+        "Standard deviation of a gross lag between force and strain, over the duration of the shortest record.",
+    )
+    largest_lag: float = chosen(0.5, "duration", "Largest such lag.")
+    lag_starts: tuple[float, ...] = chosen((0.01, 0.1), "duration", "Such lags from which searches begin.")
+    short_chains: float = chosen(
+        0.1, "-", "Standard deviation of 1/(5 N) of a network that locks soon, chains of N = 2 links."
+    )
+    locking_starts: tuple[float, ...] = chosen((0.03, 0.1), "-", "Such values from which searches begin.")
     first_rise: tuple[float, float] = chosen(
         (0.02, 0.1),
         "largest force",

@@ -18,6 +18,14 @@ if TYPE_CHECKING:
 _LOSS = EffectParameter(
     "log_modulus_loss", "", -1.0, 1.5, 0.1, "moisture takes some tenths of a polyamide's modulus; ageing adds some"
 )
+_TIMES = EffectParameter(
+    "log_time_gain",
+    "",
+    -4.0,
+    4.0,
+    0.5,
+    "relaxation slows down in proportion to the age; moisture speeds it up",
+)
 _POWER = EffectParameter(
     name="time_exponent",
     unit="",
@@ -41,9 +49,18 @@ def _as_a_power(view: RecordView, values: Values) -> Modification:
     return _changed(view, values[0], values[1])
 
 
+def _slower(view: RecordView, values: Values) -> Modification:
+    """tau_max exp(a p^n): ageing slows relaxation, by the logarithm of the time since it began (Struik)."""
+    return Modification(relaxation_time_factor=np.full(1, np.exp(values[0] * _place(view) ** values[1])))
+
+
 def _changed(view: RecordView, loss: float, power: float) -> Modification:
-    place = view.index / max(view.count - 1, 1)
-    return Modification(unrelaxed_modulus_factor=np.full(1, np.exp(-loss * place**power)))
+    return Modification(unrelaxed_modulus_factor=np.full(1, np.exp(-loss * _place(view) ** power)))
+
+
+def _place(view: RecordView) -> float:
+    """0 for the first test, 1 for the last."""
+    return view.index / max(view.count - 1, 1)
 
 
 def _several(views: Sequence[RecordView]) -> bool:
@@ -54,8 +71,9 @@ EFFECT = Effect(
     name="change_between_tests",
     title="moisture or ageing between tests",
     physics=(
-        "Specimens wait for their test, take up water or dry, crystallise or age: their modulus goes with the order.\n"
-        "Amplitude: -ln of E_u of the last test over that of the first."
+        "Specimens wait for their test, take up water or dry, crystallise or age: their modulus, or their relaxation "
+        "times, go with the order.\n"
+        "Amplitude: -ln of E_u, or ln of tau_max, of the last test over that of the first."
     ),
     source="Struik 1978, Physical Aging in Amorphous Polymers; Crank 1975, The Mathematics of Diffusion; ISO 291",
     shows_in="three specimens or more, in the order in which they were tested",
@@ -64,6 +82,7 @@ EFFECT = Effect(
     forms=(
         Form("steadily", (_LOSS,), modification=_steadily, needs=_several),
         Form("as_a_power", (_LOSS, _POWER), modification=_as_a_power, needs=_several),
+        Form("relaxation_time", (_TIMES, _POWER), modification=_slower, needs=_several, variant=True),
     ),
     odds=0.3,
 )

@@ -41,6 +41,22 @@ def _langevin(view: RecordView, values: Values) -> Modification | None:
     return Modification(hardening_factor=_stiffening(part) / at_rest)
 
 
+def _three_chains(view: RecordView, values: Values) -> Modification | None:
+    """Chains along the three axes: G times (h(l) - h(l^-1/2)) / (l^2 - 1/l), h(x) = x L^-1(x / N^1/2), over its value
+    at rest; l the stretch, N = 1 / (5 a).
+    """
+    if values[0] <= 0.0:
+        return None
+    root = np.sqrt(1.0 / (5.0 * values[0]))
+    # x L^-1(x / N^1/2) = 3 x^2 / N^1/2 times the stiffening; at rest half its slope is what the ratio tends to.
+    at_rest = np.ones(1) / root
+    bend = float((_stiffening(at_rest + 1e-5) - _stiffening(at_rest - 1e-5))[0]) / 2e-5 / root
+    limit = float(_stiffening(at_rest)[0]) + 0.5 * bend
+    stretch = np.where(np.abs(view.stretch - 1.0) < 1e-6, 1.0 + 1e-6, view.stretch)
+    pulled = stretch**2 * _stiffening(stretch / root) - _stiffening(stretch**-0.5 / root) / stretch
+    return Modification(hardening_factor=pulled / (stretch**2 - 1.0 / stretch) / limit)
+
+
 def _stiffening(part: FloatArray) -> FloatArray:
     """L^-1(y) / 3y, straight beyond `locked`."""
     y = np.minimum(part, EFFECTS.locked)
@@ -76,11 +92,15 @@ EFFECT = Effect(
         "Chains have a finite length: the relaxed stress rises above Haward-Thackray and locks.\n"
         "Amplitude: 1/J_m (Gent), or 1/(5 N) for chains of N links (Langevin), the same to first order."
     ),
-    source="Gent 1996, Rubber Chem. Technol. 69, 59; Arruda & Boyce 1993, J. Mech. Phys. Solids 41, 389",
+    source=(
+        "Gent 1996, Rubber Chem. Technol. 69, 59; Arruda & Boyce 1993, J. Mech. Phys. Solids 41, 389; Wang & Guth "
+        "1952, J. Chem. Phys. 20, 1144"
+    ),
     shows_in="records reaching large strains",
     kind="material",
     forms=(
         Form("gent", (_AMPLITUDE,), modification=_gent),
         Form("langevin", (_AMPLITUDE,), modification=_langevin),
+        Form("three_chains", (_AMPLITUDE,), modification=_three_chains, variant=True),
     ),
 )

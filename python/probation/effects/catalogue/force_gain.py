@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -16,8 +18,9 @@ def _gain(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
 
 
 def _drifting(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """From nothing at the start of a record to a at its end."""
-    return (1.0 + values[0] * view.elapsed / view.duration) * stress
+    """From nothing at the start of a record to a at its end, as 1 - e^(-t/T), T in parts of the record."""
+    part = np.expm1(-view.elapsed / (values[1] * view.duration)) / np.expm1(-1.0 / values[1])
+    return np.asarray((1.0 + values[0] * part) * stress)
 
 
 EFFECT = Effect(
@@ -25,7 +28,7 @@ EFFECT = Effect(
     title="gain of the force",
     physics=(
         "The load cell's sensitivity, or the measured initial section, is wrong by a factor; or the bridge of the cell "
-        "warms, and its sensitivity drifts while the test runs.\n"
+        "warms up, and its sensitivity drifts while the test runs, ever more slowly.\n"
         "Amplitude: relative excess of the recorded stress, or by the end of a record. In all records alike a factor "
         "hides in E_u and G."
     ),
@@ -41,7 +44,22 @@ EFFECT = Effect(
         ),
         Form(
             "drifting",
-            (EffectParameter("gain_drift", "", -0.2, 0.2, 0.005, "0.1 to 1 % for a bridge that warms by 10 to 50 °C"),),
+            (
+                EffectParameter(
+                    "gain_drift", "", -0.2, 0.2, 0.005, "0.1 to 1 % for a bridge that warms by 10 to 50 °C"
+                ),
+                EffectParameter(
+                    name="time_constant_of_record",
+                    unit="",
+                    lower=0.02,
+                    upper=10.0,
+                    centre=0.5,
+                    scale=1.2,
+                    log=True,
+                    starts=(0.15, 3.0),
+                    reason="a cell warms up within minutes to an hour; with much more than the record it is steady",
+                ),
+            ),
             recorded_stress=_drifting,
             variant=True,
         ),

@@ -38,11 +38,17 @@ def delayed(time: FloatArray, samples: FloatArray, delay: float) -> FloatArray:
 
 
 def _filter(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """The force through a filter of first order with the time constant a, made a true stress with the strain of now."""
+    """The force by a late: a part of that in a filter of first order, the rest a delay.
+
+    Any filter acts on what is slow by its delay and by how much it spreads; these two fit both.
+    """
     if values[0] <= 0.0:
         return stress
-    force = stress / view.stretch
-    return np.asarray((force - maxwell_element(view.time, force, values[0])) * view.stretch)
+    constant = values[0] * values[1]
+    force = delayed(view.time, stress / view.stretch, values[0] - constant)
+    if constant > 0.0:
+        force = force - maxwell_element(view.time, force, constant)
+    return np.asarray(force * view.stretch)
 
 
 EFFECT = Effect(
@@ -50,9 +56,9 @@ EFFECT = Effect(
     title="lag between force and strain",
     physics=(
         "Filters or separate clocks delay one channel against the other.\n"
-        "Amplitude: by how much the force comes late (negative: the strain does); or its filter's time constant."
+        "Amplitude: by how much the force comes late (negative: the strain does)."
     ),
-    source="ASTM E1942 (data acquisition in mechanical testing: delays and filters)",
+    source="ASTM E1942 (data acquisition in mechanical testing: delays and filters); Thomson 1949, Proc. IEE 96, 487",
     shows_in="fast records, rate jumps and reversals, where the stress changes quickly",
     kind="rig",
     coordinate="strain_rate",
@@ -64,7 +70,19 @@ EFFECT = Effect(
         ),
         Form(
             "filter",
-            (EffectParameter("time_constant_s", "s", 0.0, 20.0, 0.3, "amplifiers filter at 0.2 Hz to 1 kHz"),),
+            (
+                EffectParameter("lag_s", "s", 0.0, 20.0, 0.3, "amplifiers filter at 0.2 Hz to 1 kHz"),
+                EffectParameter(
+                    name="filtered_part",
+                    unit="",
+                    lower=0.0,
+                    upper=1.0,
+                    centre=0.7,
+                    scale=0.3,
+                    starts=(0.95, 0.5),
+                    reason="1 is a filter of first order; Bessel's of higher order have less",
+                ),
+            ),
             recorded_stress=_filter,
             variant=True,
         ),

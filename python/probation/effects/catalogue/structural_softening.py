@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
+_TIMES = EffectParameter(
+    "log_time_excess", "", 0.0, 4.0, 0.5, "a yield drop of 10 to 50 % of a rejuvenated polymer's stress"
+)
 _STRAIN = EffectParameter(
     name="softening_strain",
     unit="",
@@ -28,6 +31,21 @@ _STRAIN = EffectParameter(
 
 def _excess(view: RecordView, values: Values) -> FloatArray:
     return np.exp(values[0] * np.exp(-view.largest_strain / values[1]))
+
+
+_SHARPNESS = 30.0
+
+
+def _plateau(view: RecordView, values: Values) -> Modification:
+    """tau_max exp(a S), S = ((1 + e^(r (e - e_0))) / (1 + e^(-r e_0)))^(-1 / (r e_s)), e the largest strain so far.
+
+    That is Klompen and others' S with r_0 = e^(-e_0), r_1 = r and (r_2 - 1) = -1 / e_s: about 1 up to the strain e_0,
+    then falling by a factor e within e_s.
+    """
+    rise = np.logaddexp(0.0, _SHARPNESS * (view.largest_strain - values[2]))
+    at_rest = np.logaddexp(0.0, -_SHARPNESS * values[2])
+    left = np.exp(-(rise - at_rest) / (_SHARPNESS * values[1]))
+    return Modification(relaxation_time_factor=np.exp(values[0] * left))
 
 
 def _times(view: RecordView, values: Values) -> Modification:
@@ -55,9 +73,7 @@ EFFECT = Effect(
         Form(
             "relaxation_time",
             (
-                EffectParameter(
-                    "log_time_excess", "", 0.0, 4.0, 0.5, "a yield drop of 10 to 50 % of a rejuvenated polymer's stress"
-                ),
+                _TIMES,
                 _STRAIN,
             ),
             modification=_times,
@@ -71,6 +87,24 @@ EFFECT = Effect(
                 _STRAIN,
             ),
             modification=_modulus,
+        ),
+        Form(
+            "plateau",
+            (
+                _TIMES,
+                _STRAIN,
+                EffectParameter(
+                    name="plateau_strain",
+                    unit="",
+                    lower=0.0,
+                    upper=1.0,
+                    centre=0.05,
+                    scale=0.1,
+                    reason="softening begins at yield",
+                ),
+            ),
+            modification=_plateau,
+            variant=True,
         ),
     ),
 )
