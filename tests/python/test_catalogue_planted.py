@@ -303,10 +303,10 @@ def test_a_force_that_jumps_at_one_part_of_a_test(faulty):
 
 
 def test_what_a_material_does_at_a_reversal_is_no_jump_of_the_force():
-    """A back stress that turns at once, by 0.8 MPa: of the forms of an offset that is left which acts all along."""
+    """A back stress that turns at once, by 0.8 MPa: an offset that jumps is not looked for."""
     turned = loops(lambda law, time, strain: law.stress(time, strain) + 0.8 * (np.gradient(strain) >= 0.0))
     offset = next(each for each in visible(effects(), views_of(turned)) if each.name == "force_offset")
-    assert [form.name for form in offset.forms] == ["constant"]
+    assert "jump" not in [form.name for form in offset.forms]
 
 
 @pytest.mark.parametrize("faulty", [(1,), (0, 1, 2)], ids=["in one test", "in every test"])

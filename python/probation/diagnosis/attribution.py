@@ -162,11 +162,14 @@ def _squares(
     def fitted(part: tuple[str, ...]) -> Refit | None:
         causes = [cause for cause in best.causes if cause.effect.name in part]
         there = solved.get(frozenset(cause_key(cause) for cause in causes))
-        model = best.refit.model.with_causes(causes)
-        law, values = best.refit.model.split(best.refit.parameters)
-        start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
+        if there is not None:  # its causes may stand in another order
+            model, start = there.model, there.parameters
+        else:
+            model = best.refit.model.with_causes(causes)
+            law, values = best.refit.model.split(best.refit.parameters)
+            start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
         try:
-            return refit(base.problem.with_model(model), start if there is None else there.parameters)
+            return refit(base.problem.with_model(model), start)
         except UNSOLVABLE:
             return there
 

@@ -100,6 +100,7 @@ class Search:
             self._begin(0.65, 0.8)
         self._begin(0.8, 1.0)
         self._parts_of_the_leader()
+        self._begun_anew()
         return self.found
 
     def _scatter_around_the_best(self) -> None:
@@ -122,6 +123,7 @@ class Search:
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
         again._parts_of_the_leader()
+        again._begun_anew()
         return again.found
 
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
@@ -153,25 +155,6 @@ class Search:
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
-        self.found += self._judged(self._solved(self._steps_in_several_records(candidates), MOST_STEPS))
-
-    def _steps_in_several_records(self, candidates: Sequence[Candidate]) -> list[tuple[CampaignModel, FloatArray]]:
-        """What jumps in one record, in every record that has a step: what slips in one test slips in others, too.
-
-        One of several slips, by itself, gains less than many a smooth cause that acts in all records.
-        """
-        begun: dict[tuple[str, str], dict[tuple[str, ...], Candidate]] = {}
-        for each in candidates:
-            if each.cause.form.sharp == "step" and each.cause.records is not None and each.base is None:
-                form = each.cause.effect.name, each.cause.form.name
-                begun.setdefault(form, {}).setdefault(each.cause.records, each)
-        jobs = []
-        for places in begun.values():
-            if len(places) > 1:
-                model = self.base.model.with_causes(each.cause for each in places.values())
-                values = [each.values for each in places.values()]
-                jobs.append((model, np.concatenate([self.base.refit.parameters, *values])))
-        return jobs
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""
@@ -223,8 +206,11 @@ class Search:
         best = min((each.chi_square for each in refits), default=np.inf)
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
-    def _additions(self, leading: Hypothesis) -> None:
-        """One more cause jointly with those of a hypothesis: of so many, only what acts already, in another record."""
+    def _additions(self, leading: Hypothesis, only: Cause | None = None) -> None:
+        """One more cause jointly with those of a hypothesis: of so many, only what acts already, in another record.
+
+        Or only that one's effect where it acts, in any form.
+        """
         if self.budget.spent():
             self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
@@ -234,7 +220,8 @@ class Search:
         def unsolved(cause: Cause, error: Exception) -> None:
             self.skipping.hypothesis([*leading.causes, cause], error)
 
-        columns = screen(model, at, self.effects, residual=raw, threads=self.threads, unsolved=unsolved)
+        effects = self.effects if only is None else [each for each in self.effects if each.name == only.effect.name]
+        columns = screen(model, at, effects, residual=raw, threads=self.threads, unsolved=unsolved)
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
         present = {cause.effect.name for cause in leading.causes if cause.records is None}
         columns = [
@@ -242,7 +229,13 @@ class Search:
             for each in columns
             if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
         ]
-        if len(leading.effects) >= SEARCH.most_effects:
+        if only is not None:
+            columns = [
+                each
+                for each in columns
+                if (each.cause.effect.name, each.cause.records) == (only.effect.name, only.records)
+            ]
+        elif len(leading.effects) >= SEARCH.most_effects:
             columns = [each for each in columns if each.cause.effect.name in leading.effects]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
         ranked = self._credible(
@@ -285,7 +278,11 @@ class Search:
         return {record.name for record in left.records if None in seen or record.name in seen}
 
     def _parts_of_the_leader(self) -> None:
-        """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead."""
+        """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead.
+
+        And every cause of it in its other forms: what stood in for another cause before that one was added may not be
+        what it takes beside it.
+        """
         tried: set[tuple[Key, ...]] = set()
         while leading := self.ranked()[:1]:
             found = leading[0].refit
@@ -300,8 +297,23 @@ class Search:
                 part = list(compress(values, kept))
                 model = found.model.with_causes(cause for cause, _ in part)
                 jobs.append((model, model.parameters(base, *(own for _, own in part))))
-            self.found += self._judged(self._solved(jobs, MOST_STEPS))
+            parts = self._judged(self._solved(jobs, MOST_STEPS))
+            self.found += parts
+            for cause in causes:
+                left = {cause_key(other) for other in causes if other is not cause}
+                without_it = [each for each in parts if {cause_key(other) for other in each.causes} == left]
+                if without_it:
+                    self._additions(without_it[0], cause)
             self._try_with_unknown()
+
+    def _begun_anew(self) -> None:
+        """What leaves more than a part that was found after it, from that part."""
+        before = [each.refit for each in self.found[1:]]
+        after = self._not_above_their_parts(before)
+        moved = [new for old, new in zip(before, after, strict=True) if new is not old]
+        kept = [each for each, old, new in zip(self.found[1:], before, after, strict=True) if new is old]
+        self.found = [self.found[0], *kept, *self._judged(moved)]
+        self._try_with_unknown()
 
     def _swaps(self) -> None:
         """The best pair with one of its causes given up for another: the first may have stood in for both."""
