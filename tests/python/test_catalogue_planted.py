@@ -309,6 +309,61 @@ def test_what_a_material_does_at_a_reversal_is_no_jump_of_the_force():
     assert "jump" not in [form.name for form in offset.forms]
 
 
+def test_an_offset_of_the_force_that_creeps_off():
+    """0.8 MPa, of which two fifths go, along two exponentials that differ by a factor 4."""
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.9])
+        gone = 0.2 * (2.0 - np.exp(-time / 20.0) - np.exp(-time / 80.0))
+        stress = LAW.stress(time, strain) + 0.8 * (1.0 - gone) * np.exp(strain)
+        made.append(record(f"at-{rate:g}", time, strain, stress, seed))
+    found = named(campaign(made), "force_offset")
+    assert value(found, "offset_MPa") == pytest.approx(0.8, rel=0.05)
+
+
+def test_specimens_that_age_from_test_to_test():
+    """Relaxation times grow with the logarithm of the age: the shift factor of Struik, 0.9 per decade."""
+    made = []
+    for seed, (rate, age) in enumerate(zip((FAST, SLOW, 5e-3, SLOW, FAST), (1.0, 3.0, 6.0, 10.0, 16.0), strict=True)):
+        time, strain = path(rate, [0.6])
+        law = probation.Law(unrelaxed_modulus=1500.0, tau_max=8.0 * age**0.9, hardening_modulus=2.5)
+        made.append(record(f"after-{age:g}-days", time, strain, law.stress(time, strain), seed))
+    found = named(campaign(made), "change_between_tests")
+    assert value(found, "log_time_gain") == pytest.approx(0.9 * np.log(16.0), rel=0.1)
+
+
+def test_a_network_of_short_chains():
+    """The inverse Langevin function by Cohen's rational form, three chains of 1.9 links."""
+    root = np.sqrt(1.9)
+
+    def locked(law, time, strain):
+        stretch = np.exp(strain)
+        pull = lambda x: x * (x / root) * (3.0 - (x / root) ** 2) / (1.0 - (x / root) ** 2)  # noqa: E731
+        network = 0.5 * (pull(stretch) - pull(stretch**-0.5))
+        gaussian = 2.5 * (stretch**2 - 1.0 / stretch)
+        return law.stress(time, strain) - gaussian + network
+
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.28])
+        made.append(record(f"at-{rate:g}", time, strain, locked(LAW, time, strain), seed))
+    found = named(campaign(made), "finite_extensibility")
+    assert value(found, "inverse_extensibility") == pytest.approx(1.0 / (5.0 * 1.9), rel=0.05)
+
+
+def test_zeros_of_the_force_in_more_records_than_an_explanation_has_effects():
+    """Each of five tests has a zero of its own: one effect, told in all five."""
+    zeros = (1.0, -0.7, 0.5, -0.9, 0.8)
+    made = []
+    for seed, (zero, rate) in enumerate(zip(zeros, (SLOW, 3e-3, 5e-3, 8e-3, FAST), strict=True)):
+        time, strain = path(rate, [0.6])
+        stress = LAW.stress(time, strain) + zero * np.exp(strain)
+        made.append(record(f"at-{rate:g}", time, strain, stress, seed))
+    found = named(campaign(made), "force_offset")
+    assert len(found.best.records) == 5
+    assert found.shrink.identify.after_MPa < 1.2 * 0.04
+
+
 @pytest.mark.parametrize("faulty", [(1,), (0, 1, 2)], ids=["in one test", "in every test"])
 def test_a_gain_that_drifts_while_a_test_runs(faulty):
     """The bridge of the cell settles at 3 % more, by a time constant as long as a test: 1.9 % are reached."""

@@ -37,6 +37,14 @@ def late_by(travel, time, elongation, nominal):
     )
 
 
+def filtered(time, elongation, nominal):
+    """The force through a filter of first order with a time constant of 4 s, step by step."""
+    read = [0.0]
+    for step, now in zip(np.diff(time), nominal[1:], strict=True):
+        read.append(now + (read[-1] - now) * np.exp(-step / 4.0))
+    return time, elongation, np.array(read)
+
+
 def campaign(faulty, fault):
     """Records of four tests; `fault` acts on what was recorded of those that are faulty."""
     random = np.random.default_rng(3)
@@ -56,9 +64,16 @@ def campaign(faulty, fault):
         ({"ramp2"}, lambda t, u, f: (t, u, 0.6 * f), "force_gain", "gain_error", -0.4),
         ({"grip1"}, lambda t, u, f: (t, u, f + 7.0), "force_offset", "offset_MPa", 7.0),
         ({"grip1"}, lambda t, u, f: late_by(0.25 * ELONGATION, t, u, f), "strain_offset", "slack_strain", 0.105),
+        ({"ramp2"}, filtered, "force_strain_lag", "lag_s", 4.0),
         (set(TESTS), lambda t, u, f: late_by(0.25 * ELONGATION, t, u, f), "strain_offset", "slack_strain", 0.105),
     ],
-    ids=["force 40 % too small", "offset of a quarter of the force", "slack in one record", "slack in all"],
+    ids=[
+        "force 40 % too small",
+        "offset of a quarter of the force",
+        "slack in one record",
+        "a slow filter",
+        "slack in all",
+    ],
 )
 def test_a_large_fault_is_found_with_its_size(faulty, fault, effect, parameter, size):
     found = probation.diagnose(campaign(faulty, fault), design=False)
