@@ -472,7 +472,7 @@ def test_a_filtered_force_is_a_ramp_behind_by_its_time_constant():
         (0.0,),
         (9.0,),
     )
-    found, time, strain = faulty("force_strain_lag", "filter", (1.7,), law=law)
+    found, time, strain = faulty("force_strain_lag", "filter", (1.7, 1.0), law=law)
     expected = 0.2 * (time + 1.7 * np.expm1(-time / 1.7))
     np.testing.assert_allclose(found, expected * np.exp(strain), atol=1e-9)
     late, *_ = faulty("force_strain_lag", "delay", (1.7,), law=law)

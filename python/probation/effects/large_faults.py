@@ -42,14 +42,13 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 class _Size(NamedTuple):
     """Largest nominal stress [MPa], elongation [-], and elongation over nominal stress [1/MPa] of any record.
 
-    And the mean elongation from sample to sample [-], and the duration of the shortest record [s].
+    And the mean elongation from sample to sample [-].
     """
 
     force: float
     elongation: float
     per_force: float
     per_sample: float
-    duration: float
 
     @classmethod
     def of(cls, views: Sequence[RecordView]) -> _Size:
@@ -57,9 +56,7 @@ class _Size(NamedTuple):
         elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
         ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
         steps = [float(np.mean(np.abs(np.diff(np.expm1(view.sampled(view.true_strain)))))) for view in views]
-        return cls(
-            max(forces), max(elongations), max(ratios, default=0.0), max(steps), min(view.duration for view in views)
-        )
+        return cls(max(forces), max(elongations), max(ratios, default=0.0), max(steps))
 
 
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
@@ -140,12 +137,12 @@ def _of_travel(form: Form, whole: float) -> Form:
 
 
 def _lag(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    largest, scale = EFFECTS.largest_lag * size.duration, EFFECTS.large_lag * size.duration
-    starts = tuple(part * size.duration for part in EFFECTS.lag_starts)
-    both_ways = (*(-start for start in starts), *starts)
+    del size
+    both_ways = (*(-start for start in EFFECTS.lag_starts), *EFFECTS.lag_starts)
+    delay, filtered = effect.form("delay"), effect.form("filter")
     return (
-        _widened(effect.form("delay"), scale, -largest, largest, both_ways),
-        _widened(effect.form("filter"), scale, 0.0, largest, starts),
+        _widened(delay, EFFECTS.large_lag, delay.amplitude.lower, delay.amplitude.upper, both_ways),
+        _widened(filtered, EFFECTS.large_lag, 0.0, filtered.amplitude.upper, EFFECTS.lag_starts),
     )
 
 

@@ -28,13 +28,8 @@ class EffectsSettings:
     travel_starts: tuple[float, ...] = chosen(
         (0.05, 0.2, 0.5), "largest elongation", "Such parts from which searches begin."
     )
-    large_lag: float = chosen(
-        0.1,
-        "duration",
-        "Standard deviation of a gross lag between force and strain, over the duration of the shortest record.",
-    )
-    largest_lag: float = chosen(0.5, "duration", "Largest such lag.")
-    lag_starts: tuple[float, ...] = chosen((0.01, 0.1), "duration", "Such lags from which searches begin.")
+    large_lag: float = chosen(3.0, "s", "Standard deviation of a gross lag between force and strain.")
+    lag_starts: tuple[float, ...] = chosen((0.5, 4.0), "s", "Such lags from which searches begin.")
     short_chains: float = chosen(
         0.1, "-", "Standard deviation of 1/(5 N) of a network that locks soon, chains of N = 2 links."
     )
