@@ -36,10 +36,16 @@ def diagnosed(*records, hold=None):
 
 
 def nothing_else_is_named(found):
-    """Relaxation alone leads by far; beside it at most "and something unknown", of which no data are quite free."""
-    named = set(found.answer_set)
+    """Relaxation alone leads by far; beside it "and something unknown", of which no data are quite free, or a second
+    effect that does not show, by less than one in a hundred.
+    """
+    others = [each for each in found.explanations if each.effects not in {(MISSING,), (MISSING, UNKNOWN)}]
     return (
-        found.best.effects == (MISSING,) and found.best.probability > 0.8 and named <= {(MISSING,), (MISSING, UNKNOWN)}
+        found.best.effects == (MISSING,)
+        and found.best.probability > 0.8
+        and all(
+            each.probability < 0.01 and MISSING in each.effects for each in others if each.effects in found.answer_set
+        )
     )
 
 
