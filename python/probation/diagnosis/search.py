@@ -97,7 +97,8 @@ class Search:
             if best in leading:
                 break
             size = len(best.effects)  # the same where an effect acts in another record, too
-            self._begin(0.65, 0.8)
+            if self._phase != (0.65, 0.8):
+                self._begin(0.65, 0.8)
         self._begin(0.8, 1.0)
         self._parts_of_the_leader()
         self._begun_anew()
