@@ -36,8 +36,8 @@ def diagnosed(*records, hold=None):
 
 
 def nothing_else_is_named(found):
-    """Relaxation alone leads by far; beside it "and something unknown", of which no data are quite free, or a second
-    effect that does not show, by less than one in a hundred.
+    """Relaxation alone leads by far. The set may hold it "and something unknown", of which no data are quite free, and
+    pairs with a second effect that does not show, by less than one in a hundred.
     """
     others = [each for each in found.explanations if each.effects not in {(MISSING,), (MISSING, UNKNOWN)}]
     return (

@@ -76,7 +76,7 @@ class Search:
             self._scatter_around_the_best()
         self._try_with_unknown()
         self._begin(0.5, 0.65)
-        size, extended = 1, set[tuple[Key, ...]]()
+        size, extended = 1, set[frozenset[Key]]()
         while True:
             leading = self.ranked(size)
             if not leading:
@@ -86,10 +86,9 @@ class Search:
                 break
             left = self._something_left(self.ranked()[0])
             for each in leading[: SEARCH.extended_explanations if left and size == 1 else 1]:
-                key = tuple(cause_key(cause) for cause in each.causes)
-                if key not in extended:
+                if _keys(each.refit) not in extended:
                     self._additions(each)
-                extended.add(key)
+                extended.add(_keys(each.refit))
             if size == 1 and left:
                 self._swaps()
             self._try_with_unknown()
@@ -97,8 +96,7 @@ class Search:
             if best in leading:
                 break
             size = len(best.effects)  # the same where an effect acts in another record, too
-            if self._phase != (0.65, 0.8):
-                self._begin(0.65, 0.8)
+            self._begin(0.65, 0.8)
         self._begin(0.8, 1.0)
         self._parts_of_the_leader()
         self._begun_anew()
@@ -208,9 +206,10 @@ class Search:
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis, only: Cause | None = None) -> None:
-        """One more cause jointly with those of a hypothesis: of so many, only what acts already, in another record.
+        """One more cause jointly with those of a hypothesis.
 
-        Or only that one's effect where it acts, in any form.
+        With as many effects as an explanation may have, only one of these, in another record. With `only`, its effect
+        in the same records, in any form.
         """
         if self.budget.spent():
             self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
@@ -231,11 +230,7 @@ class Search:
             if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
         ]
         if only is not None:
-            columns = [
-                each
-                for each in columns
-                if (each.cause.effect.name, each.cause.records) == (only.effect.name, only.records)
-            ]
+            columns = [each for each in columns if each.cause.records == only.records]
         elif len(leading.effects) >= SEARCH.most_effects:
             columns = [each for each in columns if each.cause.effect.name in leading.effects]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
@@ -281,14 +276,14 @@ class Search:
     def _parts_of_the_leader(self) -> None:
         """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead.
 
-        And every cause of it in its other forms: what stood in for another cause before that one was added may not be
-        what it takes beside it.
+        And every cause of it in its other forms: a cause that had to explain what two of them do may take another form
+        jointly with the second one.
         """
-        tried: set[tuple[Key, ...]] = set()
+        tried: set[frozenset[Key]] = set()
         while leading := self.ranked()[:1]:
             found = leading[0].refit
             causes = found.model.causes
-            key = tuple(cause_key(each) for each in causes)
+            key = _keys(found)
             if len(causes) < 2 or key in tried or self.budget.spent():
                 return
             tried.add(key)
@@ -301,8 +296,7 @@ class Search:
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             for cause in causes:
-                left = {cause_key(other) for other in causes if other is not cause}
-                without_it = [each for each in parts if {cause_key(other) for other in each.causes} == left]
+                without_it = [each for each in parts if _keys(each.refit) == key - {cause_key(cause)}]
                 if without_it:
                     self._additions(without_it[0], cause)
             self._try_with_unknown()
@@ -461,8 +455,9 @@ class Search:
         ]
 
     def _begin(self, low: float, high: float) -> None:
-        """Another phase of the search, and what part of it that is."""
-        self._phase, self._refits = (low, high), 0
+        """Another phase of the search, and what part of it that is; one that is on goes on."""
+        if self._phase != (low, high):
+            self._phase, self._refits = (low, high), 0
 
     def _moved(self, _: float) -> None:
         """One more refit is done, here or in a search for this one; a phase is half done after `_USUAL` of them."""

@@ -50,7 +50,7 @@ def _as_a_power(view: RecordView, values: Values) -> Modification:
 
 
 def _slower(view: RecordView, values: Values) -> Modification:
-    """tau_max exp(a p^n): ageing slows relaxation, by the logarithm of the time since it began (Struik)."""
+    """tau_max exp(a p^n): relaxation times grow as a power of the age, about 1 (Struik), so by its logarithm in ln."""
     return Modification(relaxation_time_factor=np.full(1, np.exp(values[0] * _place(view) ** values[1])))
 
 

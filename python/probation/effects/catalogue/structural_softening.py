@@ -27,13 +27,12 @@ _STRAIN = EffectParameter(
     starts=(0.03, 0.15),
     reason="aged glassy and semi-crystalline polymers soften within 5 to 20 % of strain",
 )
+_SHARPNESS = 30.0
+"""Klompen and others' r_1: how sharply the plateau ends."""
 
 
 def _excess(view: RecordView, values: Values) -> FloatArray:
     return np.exp(values[0] * np.exp(-view.largest_strain / values[1]))
-
-
-_SHARPNESS = 30.0
 
 
 def _plateau(view: RecordView, values: Values) -> Modification:
