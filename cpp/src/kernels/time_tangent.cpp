@@ -113,9 +113,9 @@ TangentDirection later(TangentDirection d, int steps) {
   return d;
 }
 
-/// Calls take(part of the steps, d there, stress there, n) for stretches of at most `most` steps.
+/// Calls take(part of the steps, d there, stress there, n) for runs of at most `most` steps.
 template <class Take>
-void in_stretches(const Steps& steps, int most, double* stress, const TangentDirection& d, Take take) {
+void in_runs(const Steps& steps, int most, double* stress, const TangentDirection& d, Take take) {
   for (int n = 0; n < steps.count;) {
     const int rest = steps.count - n;
     n += take(part_of(steps, n, rest < most ? rest : most), later(d, n), stress + n);
@@ -124,7 +124,7 @@ void in_stretches(const Steps& steps, int most, double* stress, const TangentDir
 
 void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d,
                 double* scratch) {
-  in_stretches(steps, Bdf2Steps::most, stress, d,
+  in_runs(steps, Bdf2Steps::most, stress, d,
                [&](const Steps& part, const TangentDirection& there, double* stress_there) {
                  const Bdf2Steps a(part);
                  if (a.in_range(modes, 0, modes.padded))
@@ -155,7 +155,7 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
                        double* scratch) {
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
-  in_stretches(most, TabledSteps::most, stress, d,
+  in_runs(most, TabledSteps::most, stress, d,
                [&](const Steps& part, const TangentDirection& there, double* stress_there) {
                  if (modes.table) {
                    const TabledSteps tabled(modes, part.scale, part.count);

@@ -24,7 +24,7 @@ _SIZE = EffectParameter("slack_part", "", 0.0, 1.0, 1.0, "a thin strip buckles a
 
 
 def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
-    """First and last sample of each stretch without force after a loading, while the strain is below its largest."""
+    """First and last sample of each segment without force after a loading, while the strain is below its largest."""
     force = view.data / view.sampled(view.stretch)
     largest = float(np.max(force))
     if largest <= 0.0:
