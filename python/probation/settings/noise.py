@@ -76,8 +76,8 @@ class NoiseSettings:
     transient_ratio: float = chosen(
         4.0,
         "-",
-        "A stretch whose low frequencies hold this many times as much, beside its high ones, as the median "
-        "stretch's holds a transient of the model, and is left out.",
+        "A segment whose low frequencies hold this many times as much, relative to its high ones, as the median "
+        "segment's holds a transient of the model, and is left out.",
     )
     quiet_samples: int = chosen(80, "samples", "Quiet samples that suffice for an estimate of their own.")
     coarse_step: float = chosen(

@@ -76,7 +76,7 @@ EFFECT = Effect(
     name="grip_slip",
     title="slip in the grips",
     physics=(
-        "The specimen slips in its grips at some instant, and its strain jumps back beside the recorded one; or it "
+        "The specimen slips in its grips at some instant, and its strain jumps back, the recorded one does not; or it "
         "creeps out of them from some instant on; or it gives way little by little beyond the pull that friction "
         "holds.\n"
         "Amplitude: recorded strain that is lost (per stress beyond what holds). The true stress was made of it, or "
