@@ -62,6 +62,12 @@ class NoiseSettings:
         8, "half periods", "Orders from here on are looked at: further down a bias is all there is."
     )
     highest_drift_order: int = chosen(4, "samples", "Orders up to the samples over this are looked at.")
+    level_range: tuple[float, float] = chosen(
+        (0.1, 2.0),
+        "-",
+        "Ends of the search for a level of white noise: over the smaller and the larger of the known noise and the "
+        "residual.",
+    )
     outlying_power: float = chosen(
         8.0, "mean power", "Power of one wave, over the mean, above which it is a line and no noise."
     )

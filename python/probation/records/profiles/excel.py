@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
 from probation.limits import INFLATED_BYTES, MEBIBYTE
-from probation.records.checks import MINIMUM_SAMPLES
 from probation.records.grid import Grid, check_extent
 from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
@@ -21,6 +20,7 @@ from probation.records.profiles.tables import read_tables
 from probation.records.source import Source
 from probation.records.table import Table
 from probation.records.units import is_percent
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     from openpyxl.cell.cell import Cell, MergedCell
@@ -66,7 +66,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
         workbook.close()
     if not filled:
         raise bad_input(source.path, "an empty sheet", "a table with headings and at least ten rows")
-    long = [sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES]
+    long = [sheet for sheet in filled if len(sheet[1][0].rows) > READING.fewest_samples]
     name, (grid, percents) = (long or filled)[0]
     reading = read_tables(source, grid, options)
     like = tuple(other for other, head in heads.items() if _is_headed_alike(head, reading.tables[0]))
