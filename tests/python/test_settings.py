@@ -230,3 +230,33 @@ def test_no_number_in_a_function_has_a_say_of_its_own():
                 }
                 found[path] = found.get(path, set()) | own
     assert {path: numbers for path, numbers in found.items() if numbers} == IN_FUNCTIONS
+
+
+EXPLAINED = ("records", "schemes", "law", "effects/catalogue")
+"""Rooms whose own constants stay where they are used, each with a comment or a docstring that says what it is."""
+
+
+def _unexplained(path):
+    """Names of a module's constants without either."""
+    source = path.read_text(encoding="utf-8")
+    lines, body = ["", *source.split("\n")], ast.parse(source).body
+    for statement, next_one in zip(body, [*body[1:], None], strict=True):
+        if isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
+            says = isinstance(next_one, ast.Expr) or "#" in lines[statement.end_lineno]
+            above = lines[statement.lineno - 1].startswith("#")
+            if not says and not above and any(number not in {0, 1} for number in _numbers(statement.value)):
+                target = statement.targets[0] if isinstance(statement, ast.Assign) else statement.target
+                yield ast.unparse(target)
+
+
+@pytest.mark.parametrize("room", EXPLAINED)
+def test_a_constant_that_stays_in_its_module_says_what_it_is(room):
+    """A table of units and the object of an effect have names for their numbers."""
+    found = [
+        f"{path.relative_to(PACKAGE).as_posix()}: {name}"
+        for path in sorted((PACKAGE / room).rglob("*.py"))
+        if path.name != "units.py"
+        for name in _unexplained(path)
+        if name != "EFFECT"
+    ]
+    assert not found

@@ -6,6 +6,7 @@ from probation.records.record import FloatArray, Record
 from probation.settings.reading import READING
 
 _SEGMENTS = 20
+"""Segments of equal duration whose mean rates show how a test was driven."""
 
 
 def guess_control(record: Record) -> str:

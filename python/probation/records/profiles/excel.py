@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from openpyxl.workbook import Workbook
 
 _HEADED_ROWS = 60
+"""First rows of every sheet that are searched for headings like those of the table, and for dimensions of specimens."""
 _ZIP_MAGIC = b"PK\x03\x04"
 _PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a number format: text that is shown beside the number
 _OLD_EXCEL_MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
