@@ -56,7 +56,7 @@ void History::assign(const Samples& time, const Samples& true_strain, const Samp
   const bool even = check();
   jumps_ = std::move(jumps);
   mark_fresh();
-  find_stretches(even);
+  find_segments(even);
 }
 
 void History::assign(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
@@ -65,7 +65,7 @@ void History::assign(FindJumps, const Samples& time, const Samples& true_strain,
   const bool even = check();
   jumps_ = find_rate_jumps(time_, true_strain_);
   mark_fresh();
-  find_stretches(even);
+  find_segments(even);
 }
 
 void History::take(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
@@ -108,7 +108,7 @@ void History::mark_fresh() {
   }
 }
 
-void History::find_stretches(bool even) {
+void History::find_segments(bool even) {
   step_.resize(steps());
   uniform_until_.resize(static_cast<std::size_t>(steps()));
   const auto end_of = [&](Index m) {

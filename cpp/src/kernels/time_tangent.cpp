@@ -125,16 +125,16 @@ void in_runs(const Steps& steps, int most, double* stress, const TangentDirectio
 void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d,
                 double* scratch) {
   in_runs(steps, Bdf2Steps::most, stress, d,
-               [&](const Steps& part, const TangentDirection& there, double* stress_there) {
-                 const Bdf2Steps a(part);
-                 if (a.in_range(modes, 0, modes.padded))
-                   in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
-                     uneven_bdf2_block<decltype(size)::value>(modes, part, a, at, stress_there, there);
-                   });
-                 else
-                   general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
-                 return part.count;
-               });
+          [&](const Steps& part, const TangentDirection& there, double* stress_there) {
+            const Bdf2Steps a(part);
+            if (a.in_range(modes, 0, modes.padded))
+              in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
+                uneven_bdf2_block<decltype(size)::value>(modes, part, a, at, stress_there, there);
+              });
+            else
+              general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
+            return part.count;
+          });
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress,
@@ -156,17 +156,17 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
   in_runs(most, TabledSteps::most, stress, d,
-               [&](const Steps& part, const TangentDirection& there, double* stress_there) {
-                 if (modes.table) {
-                   const TabledSteps tabled(modes, part.scale, part.count);
-                   if (tabled.count > 0) {
-                     tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
-                     return tabled.count;
-                   }
-                 }
-                 general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
-                 return part.count;
-               });
+          [&](const Steps& part, const TangentDirection& there, double* stress_there) {
+            if (modes.table) {
+              const TabledSteps tabled(modes, part.scale, part.count);
+              if (tabled.count > 0) {
+                tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
+                return tabled.count;
+              }
+            }
+            general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
+            return part.count;
+          });
   const TangentDirection end = later(d, last);
   general_tangent_sweep(modes, part_of(steps, last, 1), stress + last, &end, 1, scratch);
 }
