@@ -12,11 +12,11 @@ from probation import Campaign, Record
 from probation.calibration.table_2 import TABLE_2
 from probation.diagnosis.isolability import campaign_isolability
 from probation.histories import named_history
-from probation.identify.coverage import CASES, study
 from probation.published.experiments import twin_campaign
 from probation.smoothing.answer import describe_excitation
 from probation.smoothing.comparison import compare as compare_methods
 from probation.smoothing.known_histories import KNOWN_HISTORIES
+from probation_studies.coverage.study import CASES, study
 
 
 def ramps():

@@ -38,10 +38,10 @@ def test_without_arguments_the_help_teaches_by_example(capsys):
     assert cli.main([]) == 0
     out = capsys.readouterr().out
     assert "probation simulate --history ramp" in out
-    assert all(command.NAME in out for command in cli.COMMANDS)
+    assert all(command.NAME in out for command in cli.commands())
 
 
-@pytest.mark.parametrize("command", [command.NAME for command in cli.COMMANDS])
+@pytest.mark.parametrize("command", [command.NAME for command in cli.commands()])
 def test_every_command_has_help_with_an_example(command, capsys):
     assert cli.main([command, "--help"]) == 0
     assert f"\n  probation {command}" in capsys.readouterr().out
