@@ -14,9 +14,9 @@ from probation.diagnosis.isolability import campaign_isolability
 from probation.histories import named_history
 from probation.published.experiments import twin_campaign
 from probation.smoothing.answer import describe_excitation
-from probation.smoothing.comparison import compare as compare_methods
-from probation.smoothing.known_histories import KNOWN_HISTORIES
 from probation_studies.coverage.study import CASES, study
+from probation_studies.smoothing.comparison import compare as compare_methods
+from probation_studies.smoothing.known_histories import KNOWN_HISTORIES
 
 
 def ramps():

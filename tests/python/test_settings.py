@@ -61,8 +61,6 @@ NUMERICAL = {
     "detection/strain_periodic.py": {"FINE", "GRID"},
     "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},
     "smoothing/averaging.py": {"PART", "BEYOND", "ORDERS"},
-    "smoothing/comparison.py": {"NOISES", "DRAWS", "AIM"},
-    "smoothing/known_histories.py": {"SAMPLES", "_SLOW", "_FAST", "_DURATION", "_JUMP"},
     "smoothing/necking.py": {"REFINED"},
     "smoothing/penalised_spline.py": {
         *("FEWEST_KNOTS", "MOST_KNOTS", "ALL_KNOTS", "LEAST_TURNS", "COARSE", "TRENDS", "WANDERS", "NEIGHBOURHOOD")
@@ -133,9 +131,7 @@ IN_FUNCTIONS = {
     "detection/lines_and_steps.py": {1e-3, 6.0, 256},  # even samples; Student's kurtosis; a batch
     "detection/strain_periodic.py": {1.38},  # see its docstring
     "smoothing/answer.py": {0.95},
-    "smoothing/comparison.py": {0.95},
     "smoothing/excitation.py": {26.0},  # three-point differences
-    "smoothing/known_histories.py": {0.07, 0.42, 0.35, 1.1, 0.8, 420, 495, 1000, 1075},
     "smoothing/necking.py": {0.25, 1e-5, 8.0, 12.0, 30.0, 0.1, 0.4},  # a step, bounds and starts of
     "smoothing/penalised_spline.py": {1e-3, 1e5, 0.01, 1.02},  # ends and precision of its search
     "smoothing/savitzky_golay.py": {1.02},

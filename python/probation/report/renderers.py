@@ -46,10 +46,6 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "excitation_figures.answer_figure",
         "report": "excitation_page.write_excitation_page",
     },
-    "smoothing.comparison.Comparison": {
-        "summary": "excitation_summary.comparison_summary",
-        "plot": "excitation_figures.comparison_figure",
-    },
     "simulation.Simulation": {
         "card": "cards.simulation_card",
         "line": "cards.simulation_line",
