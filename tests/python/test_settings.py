@@ -154,7 +154,6 @@ IN_FUNCTIONS = {
     "identify/result.py": {0.95, 1000},  # defaults that a caller sees
     "identify/scattered.py": {0.975},
     "identify/search.py": {1000.0, 4000},
-    "identify/substeps.py": {1e6},
     "identify/variable_projection.py": {1e-3},
     "calibration/calibrate.py": {1e-3, 0.6, 0.2},  # starts
     "calibration/companion_forms.py": {1000.0},  # eq. (12)
