@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class CalibratedForm:
     """One form, calibrated.
 
     Attributes
@@ -116,7 +116,7 @@ class Calibration(Result, Stored):
     route : {"table", "by-rate", "direct"}
     table : RateTable or None
         tau_max at each rate; None for the direct route.
-    candidates : dict of str to Candidate
+    candidates : dict of str to CalibratedForm
         By form.
     chosen : str
     chosen_by : {"cross-validation", "request", "fit", "preference"}
@@ -143,7 +143,7 @@ class Calibration(Result, Stored):
     source: str
     route: str
     table: RateTable | None
-    candidates: dict[str, Candidate]
+    candidates: dict[str, CalibratedForm]
     chosen: str
     chosen_by: str
     discriminated: tuple[str, ...]
