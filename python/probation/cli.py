@@ -19,7 +19,6 @@ from probation._text import printed_escaped
 from probation.commands import (
     certify,
     companion,
-    coverage,
     crosscheck,
     demo,
     diagnose,
@@ -45,12 +44,12 @@ if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 COMMANDS = (
-    demo, preview, init, excitation, fit, companion, certify, diagnose, plan, crosscheck, simulate, export, coverage,
-    field,
+    demo, preview, init, excitation, fit, companion, certify, diagnose, plan, crosscheck, simulate, export, field,
 )  # fmt: skip
 """One module per command, in the order of the help: NAME, `add_parser` and `run`. A new command is one more here.
 
-Packages beside this one add theirs by an entry point of the group `probation.commands`.
+Packages beside this one add theirs by an entry point of the group `probation.commands`; one with the NAME of a command
+here stands in its place.
 """
 
 _DESCRIPTION = """\
@@ -105,7 +104,8 @@ class _Parser(argparse.ArgumentParser):
 def commands() -> tuple[ModuleType, ...]:
     """The modules of all commands: those of this package, then those of others by name."""
     others = sorted(entry_points(group="probation.commands"), key=lambda entry: entry.name)
-    return (*COMMANDS, *(entry.load() for entry in others))
+    modules = (*COMMANDS, *(entry.load() for entry in others))
+    return tuple({command.NAME: command for command in modules}.values())
 
 
 def build_parser() -> argparse.ArgumentParser:

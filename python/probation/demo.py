@@ -45,7 +45,7 @@ _ENOUGH = 3.0  # standard errors
 
 
 @dataclass(frozen=True)
-class Outcome:
+class DemoOutcome:
     """What one step of the demonstration found.
 
     Attributes
@@ -70,15 +70,15 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Step:
+class DemoStep:
     """One step: its name in JSON, its title, what it does."""
 
     name: str
     title: str
-    run: Callable[[], Outcome]
+    run: Callable[[], DemoOutcome]
 
 
-def identification() -> Outcome:
+def identification() -> DemoOutcome:
     """Identify each synthetic record and compare the parameters with the truth."""
     rows, curves, answers, farthest = [], [], {}, 0.0
     for number in _EXPERIMENTS:
@@ -102,7 +102,7 @@ def identification() -> Outcome:
         "sensitivities": _sensitivities(experiment(1, SEED)),
         "strain-rates": strain_rates(_rates()),
     }
-    return Outcome(
+    return DemoOutcome(
         verdict=f"The law is identified: every parameter lies within {farthest:.1f} standard errors of the truth.",
         passed=farthest <= _ENOUGH,
         parts=(
@@ -119,12 +119,12 @@ def identification() -> Outcome:
     )
 
 
-def schemes() -> Outcome:
+def schemes() -> DemoOutcome:
     """Cross-check the schemes."""
     answer = crosscheck()
     figure = answer.plot()
     caption = "Largest error away from the start, against the step and against the time of one solve"
-    return Outcome(
+    return DemoOutcome(
         verdict=answer.verdict,
         passed=not any(check.failure for record in answer.records for check in record.schemes),
         parts=(*(record_table(record) for record in answer.records), picture(figure, caption)),
@@ -133,12 +133,12 @@ def schemes() -> Outcome:
     )
 
 
-def probation_test() -> Outcome:
+def probation_test() -> DemoOutcome:
     """Identify on experiment 1 and predict 2 and 3: the paper's own question, on its own numbers."""
     campaign = twin_campaign((1,), held_out=(2, 3), seed=SEED)
     found = certify(replace(campaign, law=replace(campaign.law, fixed={})))
     figure = found.plot()
-    return Outcome(
+    return DemoOutcome(
         verdict=f"Probation test: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "intrinsic_except" and not found.parameters["hardening_modulus"].passes,
         parts=(
@@ -159,13 +159,13 @@ def diagnosis_campaign() -> Campaign:
     return replace(twin_campaign((2,), held_out=(3,), seed=SEED, name="no-companion-relation"), law=law)
 
 
-def diagnosis() -> Outcome:
+def diagnosis() -> DemoOutcome:
     """Take the companion relation away and ask what is missing: the paper's own discovery."""
     found = diagnose(diagnosis_campaign(), seed=SEED)
     figure = found.plot()
     missing = ("rate_dependent_relaxation",)
     tables = [make(found, MOST)[0] for make in (where_table, which_table, shrink_table)]
-    return Outcome(
+    return DemoOutcome(
         verdict=f"Diagnosis without the companion relation: {found.headline[0].lower()}{found.headline[1:]}",
         passed=found.verdict == "explained" and found.best.effects == missing,
         parts=(
@@ -180,11 +180,11 @@ def diagnosis() -> Outcome:
     )
 
 
-STEPS: tuple[Step, ...] = (
-    Step("identification", "Identification", identification),
-    Step("probation_test", "Probation test", probation_test),
-    Step("diagnosis", "Diagnosis", diagnosis),
-    Step("crosscheck", "Cross-check of the schemes", schemes),
+STEPS: tuple[DemoStep, ...] = (
+    DemoStep("identification", "Identification", identification),
+    DemoStep("probation_test", "Probation test", probation_test),
+    DemoStep("diagnosis", "Diagnosis", diagnosis),
+    DemoStep("crosscheck", "Cross-check of the schemes", schemes),
 )
 
 
@@ -194,10 +194,10 @@ class Demo:
 
     Attributes
     ----------
-    outcomes : tuple of (Step, Outcome)
+    outcomes : tuple of (DemoStep, DemoOutcome)
     """
 
-    outcomes: tuple[tuple[Step, Outcome], ...]
+    outcomes: tuple[tuple[DemoStep, DemoOutcome], ...]
 
     @property
     def passed(self) -> bool:

@@ -9,14 +9,14 @@ import probation
 from campaigns import made_up_diagnosis as made_up
 from campaigns.few_records import LAW, NOISE, few_records
 from probation import Campaign, Record
-from probation.calibration.table_2 import TABLE_2
 from probation.diagnosis.isolability import campaign_isolability
 from probation.histories import named_history
-from probation.identify.coverage import CASES, study
 from probation.published.experiments import twin_campaign
 from probation.smoothing.answer import describe_excitation
-from probation.smoothing.comparison import compare as compare_methods
-from probation.smoothing.known_histories import KNOWN_HISTORIES
+from probation_studies.coverage.study import CASES, study
+from probation_studies.paper.relations import RATE_TABLE
+from probation_studies.smoothing.comparison import compare as compare_methods
+from probation_studies.smoothing.known_histories import KNOWN_HISTORIES
 
 
 def ramps():
@@ -48,7 +48,7 @@ def result(name):
         "made-up diagnosis": made_up.self_heating,
         "diagnosis without a gap": made_up.no_gap,
         "diagnosis with everything": made_up.with_everything,
-        "calibration on a table": lambda: probation.calibrate_companion(TABLE_2),
+        "calibration on a table": lambda: probation.calibrate_companion(RATE_TABLE),
         "calibration on ramps": lambda: probation.calibrate_companion(ramps()),
         "calibration through the law": lambda: probation.calibrate_companion(ramps(), route="direct", form="power"),
         "comparison": lambda: probation.compare(few_records(), few_records(seed=2), effects=["force_offset"]),

@@ -38,13 +38,30 @@ def test_without_arguments_the_help_teaches_by_example(capsys):
     assert cli.main([]) == 0
     out = capsys.readouterr().out
     assert "probation simulate --history ramp" in out
-    assert all(command.NAME in out for command in cli.COMMANDS)
+    assert all(command.NAME in out for command in cli.commands())
 
 
-@pytest.mark.parametrize("command", [command.NAME for command in cli.COMMANDS])
+@pytest.mark.parametrize("command", [command.NAME for command in cli.commands()])
 def test_every_command_has_help_with_an_example(command, capsys):
     assert cli.main([command, "--help"]) == 0
     assert f"\n  probation {command}" in capsys.readouterr().out
+
+
+def test_a_command_of_the_studies_stands_in_the_place_of_the_librarys_with_its_name():
+    names = [command.NAME for command in cli.commands()]
+    assert names[: len(cli.COMMANDS)] == [command.NAME for command in cli.COMMANDS]
+    assert len(set(names)) == len(names)
+    there = {command.NAME: command.__name__.split(".")[0] for command in cli.commands()}
+    assert there["companion"] == there["excitation"] == "probation_studies"
+
+
+def test_without_the_studies_the_library_has_its_own_commands(monkeypatch, capsys):
+    monkeypatch.setattr(cli, "entry_points", lambda group: ())
+    monkeypatch.setattr(cli, "commands", cli.commands.__wrapped__)
+    assert cli.commands() == cli.COMMANDS
+    assert cli.main(["companion", "--table-2"]) == 2
+    assert "--table-2" in capsys.readouterr().err
+    assert cli.main(["companion", "--help"]) == 0
 
 
 def test_the_version_is_that_of_the_package(capsys):

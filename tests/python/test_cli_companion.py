@@ -8,6 +8,7 @@ import pytest
 
 import probation
 from probation import Campaign, Law, Record, Weissenberg
+from probation.calibration.result import Calibration
 from probation.cli import main
 
 
@@ -46,8 +47,10 @@ def test_table_2_tells_its_verdict_first_and_the_findings_after(tmp_path, capsys
     )
     assert "+7.2, +4.4, +3.9 %" in out
     assert "1.196 and 1.222" in out
-    told = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
+    text = (tmp_path / "a.json").read_text(encoding="utf-8")
+    told = json.loads(text)
     assert told["schema"] == "probation.companion/1"
+    assert Calibration.from_json(text).verdict == told["verdict"]
     assert told["relations"]["weissenberg"]["parameters"]["intercept"]["value"] == pytest.approx(0.0406, abs=5e-5)
     assert told["paper"]["alpha_ratios"][0]["as_printed"] == pytest.approx(1.196, abs=0.01)
     page = (tmp_path / "a.html").read_text(encoding="utf-8")

@@ -10,11 +10,10 @@ import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
 from probation.calibration.companion_forms import FORMS
 from probation.calibration.cross_validation import percent
-from probation.calibration.paper_relations import paper_relations
 from probation.calibration.regression import excess_scatter, regress
-from probation.calibration.table_2 import TABLE_2
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.published.experiments import necking_history
+from probation_studies.paper.relations import RATE_TABLE, paper_relations
 
 TRUTH = (0.0046, 0.0406)
 RELATION = Weissenberg(*TRUTH)
@@ -56,14 +55,14 @@ def within(found, truth, errors=3.0):
 
 def test_table_2_gives_the_printed_slope_and_r_squared_and_another_intercept():
     """docs/law.md: 0.0046 log10(rate) + 0.0406, R² 0.976; (11) prints 0.00464, 0.0367."""
-    found = calibrate_companion(TABLE_2, form="weissenberg").candidates["weissenberg"]
+    found = calibrate_companion(RATE_TABLE, form="weissenberg").candidates["weissenberg"]
     assert found.companion.parameters == pytest.approx([0.0046, 0.0406], abs=5e-5)
     assert found.r_squared == pytest.approx(0.976, abs=5e-4)
 
 
 def test_least_squares_of_tau_max_gives_eq_12_as_printed():
     """27.24 exp(-2.1 log10(1000 r)) with R² = 1: the slowest rates decide."""
-    found = calibrate_companion(TABLE_2).candidates["exponential"]
+    found = calibrate_companion(RATE_TABLE).candidates["exponential"]
     assert found.companion.parameters == pytest.approx([27.24, -2.1], abs=5e-3)
     assert found.r_squared == pytest.approx(1.0, abs=5e-5)
 
@@ -123,9 +122,9 @@ def test_the_exponential_form_is_a_power_law_where_errors_are_known():
 @pytest.mark.parametrize("form", ["weissenberg", "power", "exponential", "table"])
 def test_each_form_knows_its_own_slope(form):
     """d ln tau_max along the parameters against a central difference."""
-    relation = calibrate_companion(TABLE_2, form=form).companion
+    relation = calibrate_companion(RATE_TABLE, form=form).companion
     at = np.array([7e-5, 1e-3, 8e-3, 0.05])
-    rates = np.array(TABLE_2.rates)
+    rates = np.array(RATE_TABLE.rates)
     for place, value in enumerate(relation.parameters):
         moved = []
         for side in (1, -1):
@@ -298,7 +297,7 @@ def test_the_error_of_the_modulus_hardly_shows_in_a_prediction():
 
 @pytest.mark.parametrize("form", ["weissenberg", "power", "exponential"])
 def test_the_uncertainty_grows_outside_the_calibrated_rates_and_is_warned_of(form):
-    known = calibrate_companion(TABLE_2, form=form).companion
+    known = calibrate_companion(RATE_TABLE, form=form).companion
     se = known.log_time_se([1e-3, 1e-2, 1e-1, 1.0])
     assert np.all(np.diff(se) > 0)
     assert known.extrapolation([1e-4, 5e-3]) is None
@@ -306,7 +305,7 @@ def test_the_uncertainty_grows_outside_the_calibrated_rates_and_is_warned_of(for
 
 
 def test_a_prediction_by_another_relation_is_refused():
-    known = calibrate_companion(TABLE_2, form="weissenberg").companion
+    known = calibrate_companion(RATE_TABLE, form="weissenberg").companion
     other = Law(unrelaxed_modulus=3220.0, hardening_modulus=1.8, companion=Weissenberg(0.00464, 0.0367))
     with pytest.raises(
         probation.InputError, match=r"law\.companion is Weissenberg\(slope=0\.00464.*calibrated relation"
@@ -402,9 +401,9 @@ def test_etfe_at_one_grip_speed_gives_a_relation_and_the_warning_that_it_is_conf
         (lambda: RateTable([1e-3, 1e-2], [25.0, 3.0], labels=("a",)), r"1 labels for 2 rates"),
         (lambda: calibrate_companion(ramps(rates=(1e-3, 1e-3 * 1.01))), r"one strain rate only .*record 'ramp-0.001'"),
         (lambda: calibrate_companion("table"), r"expected a Campaign or a RateTable"),
-        (lambda: calibrate_companion(TABLE_2, form="linear"), r"form is 'linear'; expected one of auto"),
-        (lambda: calibrate_companion(TABLE_2, route="fast"), r"route is 'fast'"),
-        (lambda: calibrate_companion(TABLE_2, scheme="exact"), r"no sensitivities"),
+        (lambda: calibrate_companion(RATE_TABLE, form="linear"), r"form is 'linear'; expected one of auto"),
+        (lambda: calibrate_companion(RATE_TABLE, route="fast"), r"route is 'fast'"),
+        (lambda: calibrate_companion(RATE_TABLE, scheme="exact"), r"no sensitivities"),
         (lambda: calibrate_companion(grips(samples=50), form="table"), r"direct route needs a form with parameters"),
         (
             lambda: calibrate_companion(ramps(settings=LawSettings(fixed={"tau_max_s": 5.0}))),
@@ -444,7 +443,7 @@ def test_a_constant_time_is_told_to_be_enough(route):
 
 
 def test_a_time_that_depends_on_the_rate_is_not_told_to_be_constant():
-    for source in (TABLE_2, ramps()):
+    for source in (RATE_TABLE, ramps()):
         found = calibrate_companion(source)
         assert found.why_constant is None
         assert found.verdict.startswith("τ_max follows")

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 import probation
 from probation import InputError, Law
 from probation.cli import main
-from probation.identify import coverage
-from probation.identify.coverage import CASES, Case, exact_interval, ramp_response, study
+from probation_studies.coverage import study as coverage
+from probation_studies.coverage.study import CASES, Case, exact_interval, ramp_response, study
 
 DRAWS = 40
 LEAST = 33

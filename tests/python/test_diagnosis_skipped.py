@@ -10,7 +10,7 @@ from campaigns.few_records import damage, few_records, offset
 from probation import ConvergenceError, InputError, diagnose
 from probation.cli import main
 from probation.design.planned_tests import Laboratory, repeats
-from probation.design.predicted import Explanation, predictions
+from probation.design.predicted import RivalExplanation, predictions
 from probation.effects.cause import Cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.registry import effect, register, unregister
@@ -153,7 +153,7 @@ def test_a_fault_with_a_size_each_in_two_records_comes_back_once_in_a_planned_te
     causes = [Cause(known, known.forms[0], (name,)) for name in ("slow", "fast")]
     model = base.model.with_causes(causes)
     parameters = model.parameters(base.parameters, (1.0,), (2.0,))
-    explanation = Explanation.of(model, parameters, 1.0, ("force_offset",), base.whitened.noises)
+    explanation = RivalExplanation.of(model, parameters, 1.0, ("force_offset",), base.whitened.noises)
     test = repeats(Laboratory.of(base.model, base.parameters))[0]
     ways = predictions(test, base.model, base.parameters, [explanation], base.whitened.noises)
     assert [way.weight for way in ways] == [0.5, 0.5]

@@ -9,7 +9,7 @@ from probation import Campaign, Record
 from probation.cli import main
 from probation.published.experiments import twin_campaign
 from probation.smoothing.answer import CSV_HEADER, describe_excitation
-from probation.smoothing.known_histories import KNOWN_HISTORIES
+from probation_studies.smoothing.known_histories import KNOWN_HISTORIES
 
 
 @pytest.fixture
@@ -133,9 +133,9 @@ def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
 
 
 def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("probation.smoothing.comparison.NOISES", (2e-5,))
-    monkeypatch.setattr("probation.smoothing.comparison.COMPARED", ("raw", "quintic-spline"))
-    monkeypatch.setattr("probation.smoothing.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
+    monkeypatch.setattr("probation_studies.smoothing.comparison.NOISES", (2e-5,))
+    monkeypatch.setattr("probation_studies.smoothing.comparison.COMPARED", ("raw", "quintic-spline"))
+    monkeypatch.setattr("probation_studies.smoothing.comparison.KNOWN_HISTORIES", {"jump": KNOWN_HISTORIES["jump"]})
     arguments = ["--draws", "1", "--json", str(tmp_path / "c.json"), "--plot", str(tmp_path / "c.png")]
     assert main(["excitation", "--compare", *arguments]) == 0
     assert capsys.readouterr().out.startswith("Default quintic-spline: 95 % of the rates are within 0.0")
@@ -147,7 +147,7 @@ def test_the_comparison_names_the_default_and_the_aim(tmp_path, capsys, monkeypa
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ([], "found no file, expected FILE or --compare"),
+        ([], "found no file, expected FILE"),
         (["--compare", "--csv", "a.csv"], "found --csv together with --compare"),
         (["{file}", "--draws", "3"], "found --draws or --seed without --compare"),
         (["{file}", "--method", "loess"], "invalid choice: 'loess'"),

@@ -9,9 +9,9 @@ from probation import InputError, Record, excite
 from probation.histories.necking import NECKING_SETS
 from probation.report.excitation_figures import figure_s3, figure_s4, figure_s5, figure_s6, figure_s7, figure_s8
 from probation.smoothing.differences import differences, differences_error, differences_transposed
-from probation.smoothing.known_histories import KNOWN_HISTORIES
 from probation.smoothing.necking import fit_necking
 from probation.smoothing.sines import fit_sines
+from probation_studies.smoothing.known_histories import KNOWN_HISTORIES
 
 P2 = NECKING_SETS["P2"]
 TIME = np.linspace(0.0, P2.duration, 801)

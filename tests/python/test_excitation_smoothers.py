@@ -7,12 +7,12 @@ from scipy.signal import lfilter, savgol_filter
 
 from probation import InputError, Record, excite
 from probation.histories.necking import NECKING_SETS
-from probation.smoothing.comparison import AIM, compare
 from probation.smoothing.methods import DEFAULT, METHODS
 from probation.smoothing.penalised_spline import smooth_quintic
 from probation.smoothing.savitzky_golay import LocalCubics
 from probation.smoothing.segments import find_jumps
 from probation.smoothing.smoothed import inflation
+from probation_studies.smoothing.comparison import AIM, compare
 
 NECKING = NECKING_SETS["P2"]
 

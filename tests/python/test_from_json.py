@@ -5,9 +5,9 @@ import pytest
 import probation
 from probation import InputError
 from probation.histories import history_from
-from probation.identify.coverage import TRUTH, Counted, Coverage
 from probation.simulation import Simulation, simulate
-from probation.smoothing.comparison import Comparison, compare
+from probation_studies.coverage.study import TRUTH, Counted, Coverage
+from probation_studies.smoothing.comparison import Comparison, compare
 
 LAW = probation.Law(unrelaxed_modulus=900.0, tau_max=8.0, hardening_modulus=3.0)
 RATE_DEPENDENT = probation.Law(

@@ -12,7 +12,7 @@ from probation.answers import json_answer
 from probation.design.next_test import next_test
 from probation.design.planned_record import planned_noise, planned_view, white_noise
 from probation.design.planned_tests import Laboratory, planned_tests
-from probation.design.predicted import Explanation, Prediction, outcome, predictions
+from probation.design.predicted import RivalExplanation, RivalPrediction, outcome, predictions
 from probation.effects.cause import cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
@@ -172,7 +172,7 @@ def test_force_noise_grows_in_a_planned_test_as_it_does_in_the_records():
 def way(owner, mean, spread=0.0, weight=1.0):
     """Four samples; everything happens along the first."""
     mean, spread = np.array([mean, 0.0, 0.0, 0.0]), np.array([[spread], [0.0], [0.0], [0.0]])
-    return Prediction(owner, weight, mean, spread)
+    return RivalPrediction(owner, weight, mean, spread)
 
 
 def right(ways, prior, group=None):
@@ -218,7 +218,7 @@ def test_a_fault_of_one_record_may_come_back_and_a_slip_may_not():
     ):
         extended = model.with_causes([acting])
         explained.append(
-            Explanation.of(extended, extended.parameters(model.start, values), 1.0, (acting.effect.name,), noises)
+            RivalExplanation.of(extended, extended.parameters(model.start, values), 1.0, (acting.effect.name,), noises)
         )
     ways = predictions(test, model, model.start, explained, noises)
     assert [(each.owner, each.weight) for each in ways] == [(0, 0.5), (0, 0.5), (1, 1.0), (2, 1.0)]
@@ -235,8 +235,10 @@ def test_twice_the_gauge_length_halves_what_the_frame_adds():
     test = next(t for t in planned_tests(Laboratory.of(model, model.start)) if t.name == "double_gauge_length")
     usual = type(test)(**{**vars(test), "gauge_length": 1.0})
     extended = model.with_causes([cause("machine_compliance", "true_strain")])
-    none = Explanation.of(model, model.start, 1.0, (), noises)
-    frame = Explanation.of(extended, extended.parameters(model.start, (1e-8,)), 1.0, ("machine_compliance",), noises)
+    none = RivalExplanation.of(model, model.start, 1.0, (), noises)
+    frame = RivalExplanation.of(
+        extended, extended.parameters(model.start, (1e-8,)), 1.0, ("machine_compliance",), noises
+    )
     at = {each: predictions(each, model, model.start, [none, frame], noises) for each in (test, usual)}
     long, short = (at[each][1].mean - at[each][0].mean for each in (test, usual))
     np.testing.assert_allclose(long, 0.5 * short, atol=1e-3 * np.max(np.abs(short)))
@@ -248,7 +250,7 @@ def test_what_records_leave_open_of_a_parameter_is_what_least_squares_leaves():
     noises = white_noise(model.views, 0.5)
     silent = made_up("silent", np.zeros_like, scale=1.0)
     extended = model.with_causes([cause(silent)])
-    known = Explanation.of(extended, extended.start, 1.0, ("silent",), noises)
+    known = RivalExplanation.of(extended, extended.start, 1.0, ("silent",), noises)
     covariance = known.root @ known.root.T
     strain = model.views[0].true_strain
     np.testing.assert_allclose(np.diag(covariance), [0.25 / np.sum(strain**2), 1.0], rtol=1e-9)
@@ -317,7 +319,7 @@ def test_simulated_tests_find_the_right_one_as_often_as_predicted(drift_or_harde
     model, explanations, _ = drift_or_hardening
     rng, draws = np.random.default_rng(11), 150
     noises = white_noise(model.views, SIGMA)
-    known = [Explanation.of(*each, noises) for each in explanations]
+    known = [RivalExplanation.of(*each, noises) for each in explanations]
     test = next(t for t in planned_tests(Laboratory.of(model, model.start)) if t.name == name)
     rough = 3.0
     ways = [each.through(rough) for each in predictions(test, model, model.start, known, noises)]

@@ -11,10 +11,10 @@ import pytest
 import probation
 from campaigns import made_up_diagnosis as made_up
 from campaigns.few_records import LAW, few_records
-from probation.calibration.table_2 import TABLE_2
 from probation.histories import named_history
 from probation.report.renderers import RENDERERS
 from probation.simulation import simulate
+from probation_studies.paper.relations import RATE_TABLE
 
 
 @cache
@@ -27,7 +27,7 @@ def shown(name):
         "certificate": lambda: probation.certify(few_records(names=("slow", "middle"), held_out=("middle",)), "sa2"),
         "diagnosis": made_up.self_heating,
         "diagnosis without a gap": made_up.no_gap,
-        "calibration": lambda: probation.calibrate_companion(TABLE_2),
+        "calibration": lambda: probation.calibrate_companion(RATE_TABLE),
         "simulation": lambda: simulate(LAW, named_history("ramp")),
     }
     return makers[name]()

@@ -62,7 +62,7 @@ RUNS = {
     "crosscheck": Run([], "probation.schemes.crosscheck:crosscheck"),
     "simulate": Run(["--history", "ramp:samples=400", *LAW]),
     "export": Run([*LAW, "--format", "abaqus-umat"]),
-    "coverage": Run(["--draws", "1"], "probation.identify.coverage:_judge"),
+    "coverage": Run(["--draws", "1"], "probation_studies.coverage.study:_judge"),
     "paper": Run(["--only", "figure-5", "--report", "/dev/null"], "probation_studies.paper.reproduction:reproduce"),
     "blind make": Run([*MAKE, "--out", "made"], "", {"--out": MAKE}),
     "blind solve": Run(["split", "--solver", "no-gap", "--processes", "1"]),

@@ -28,7 +28,7 @@ ORDER = re.findall(
 )
 """The rooms of `probation`, bottom first."""
 
-STUDIES = ["paper", "blind", "specimen", "commands"]
+STUDIES = ["paper", "blind", "specimen", "coverage", "smoothing", "commands"]
 """The rooms of `probation_studies`, which stands on the library, bottom first."""
 
 PLACE = {f"probation.{room}": place for place, room in enumerate(ORDER)} | {

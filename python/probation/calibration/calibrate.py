@@ -26,7 +26,7 @@ from probation.calibration.record_fits import (
     spread_warnings,
 )
 from probation.calibration.regression import Regression, excess_scatter, regress
-from probation.calibration.result import Calibration, Candidate
+from probation.calibration.result import CalibratedForm, Calibration
 from probation.errors import InputError
 from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.progress import shows_progress
@@ -298,7 +298,7 @@ def _choice(
     return lowest, "cross-validation", tuple(name for name in others if apart(scores[lowest], scores[name]))
 
 
-def _candidate(regression: Regression, score: Score | None, fits: RecordFits | None) -> Candidate:
+def _candidate(regression: Regression, score: Score | None, fits: RecordFits | None) -> CalibratedForm:
     """The regression, its covariance widened by that of the shared E_u."""
     covariance, modulus = regression.covariance, None
     if fits is not None and fits.unrelaxed_modulus is not None and covariance is not None:
@@ -308,7 +308,7 @@ def _candidate(regression: Regression, score: Score | None, fits: RecordFits | N
             slope = np.array([fits.log_slope[group].mean() for group in fits.table.groups])
         along = np.append(regression.gain @ slope / modulus, 1.0)  # with E_u, per MPa
         covariance = np.pad(covariance, (0, 1)) + fits.unrelaxed_modulus_se**2 * np.outer(along, along)
-    return Candidate(
+    return CalibratedForm(
         regression.form,
         CalibratedCompanion(regression.relation, covariance, regression.log_scatter, modulus, regression.form),
         regression.table.labels,
@@ -327,7 +327,7 @@ def _scattered(regression: Regression) -> bool:
 
 def _direct_candidate(
     problem: DirectProblem, form: Form, fitted: DirectFit, score: Score | None, labels: tuple[str, ...]
-) -> Candidate:
+) -> CalibratedForm:
     """The fit, and the scatter around it that each record's own alpha shows."""
     relation = fitted.companion.relation
     own = [record_alpha(problem, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
@@ -336,7 +336,7 @@ def _direct_candidate(
     errors = np.array([correction.se for correction in own])
     scatter = excess_scatter(residual, errors, degrees) if degrees > 0 and np.all(np.isfinite(errors)) else 0.0
     companion = replace(fitted.companion, log_scatter=scatter)
-    return Candidate(form, companion, labels, 100.0 * np.expm1(residual), float("nan"), score, fitted)
+    return CalibratedForm(form, companion, labels, 100.0 * np.expm1(residual), float("nan"), score, fitted)
 
 
 def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:

@@ -12,7 +12,7 @@ from probation.calibration.cross_validation import percent
 from probation.calibration.rate_table import rate_groups
 from probation.normal import TWO_SIDED_95
 from probation.records.saving import companion_text
-from probation.results.data import Stored, encoded, named_in
+from probation.results.data import Stored, named_in
 from probation.results.rendering import Result
 from probation.wording import percentage, plus_minus
 
@@ -23,14 +23,13 @@ if TYPE_CHECKING:
     from probation.calibration.cross_validation import Score
     from probation.calibration.direct import DirectFit
     from probation.calibration.left_out import Predicted
-    from probation.calibration.paper_relations import PaperRelations
     from probation.calibration.rate_table import RateTable
     from probation.calibration.record_fits import RecordFits, RecordRate
     from probation.records.campaign import Campaign
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class CalibratedForm:
     """One form, calibrated.
 
     Attributes
@@ -117,7 +116,7 @@ class Calibration(Result, Stored):
     route : {"table", "by-rate", "direct"}
     table : RateTable or None
         tau_max at each rate; None for the direct route.
-    candidates : dict of str to Candidate
+    candidates : dict of str to CalibratedForm
         By form.
     chosen : str
     chosen_by : {"cross-validation", "request", "fit", "preference"}
@@ -144,7 +143,7 @@ class Calibration(Result, Stored):
     source: str
     route: str
     table: RateTable | None
-    candidates: dict[str, Candidate]
+    candidates: dict[str, CalibratedForm]
     chosen: str
     chosen_by: str
     discriminated: tuple[str, ...]
@@ -161,14 +160,6 @@ class Calibration(Result, Stored):
     def companion(self) -> CalibratedCompanion:
         """The chosen relation."""
         return self.candidates[self.chosen].companion
-
-    @property
-    def paper(self) -> PaperRelations | None:
-        """The paper's (11) and (12) with these, where the source is its Table 2."""
-        from probation.calibration.paper_relations import paper_relations  # noqa: PLC0415 - identifies on the twins
-        from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
-
-        return paper_relations() if encoded(self.table) == encoded(TABLE_2) else None
 
     @property
     def verdict(self) -> str:
@@ -276,13 +267,6 @@ class Calibration(Result, Stored):
                 }
                 for prediction in self.predicted
             ]
-        if self.paper is not None:
-            content["paper"] = {
-                "percent": self.paper.percent,
-                "anchored_intercept": self.paper.anchored_intercept,
-                "alpha_ratios": [vars(ratio) for ratio in self.paper.ratios],
-                "findings": self.paper.sentences(),
-            }
         return {**content, "warnings": self.warnings}
 
     def _rates(self) -> list[dict[str, object]]:

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from probation.commands.campaign_options import add_data_files, campaign_at, is_data_file
-from probation.commands.delivery import Output, add_delivery, deliver, output_folder, outputs_with_report, text_output
+from probation.commands.delivery import (
+    Output,
+    Reportable,
+    add_delivery,
+    deliver,
+    output_folder,
+    outputs_with_report,
+    text_output,
+)
 from probation.commands.progress import shown
 from probation.commands.scheme_options import add_scheme
 from probation.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from probation.calibration.rate_table import RateTable
+    from probation.calibration.result import Calibration
     from probation.records.campaign import Campaign
 
 NAME = "companion"
@@ -24,7 +35,6 @@ _DESCRIPTION = """\
 Calibrate the companion relation: how tau_max depends on the strain rate, eqs. (10)-(12), with the uncertainty that
 later predictions carry.
 
-  probation companion --table-2 --report s2.html             the paper's own Table 2: Figure S2, (11) and (12)
   probation companion times.csv --form weissenberg           a table with the headings rate_per_s,tau_max_s[,se_s]
   probation companion hdpe-ramps/ --toml                     ramps at several rates; prints [law.companion]
   probation companion hdpe-ramps/ --apply hdpe-calibrated/   the campaign with that relation, ready for fit and certify
@@ -45,7 +55,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         nargs="*",
         help="a folder with a campaign.toml, or that file; a table rate_per_s,tau_max_s[,se_s]; or data files",
     )
-    parser.add_argument("--table-2", action="store_true", help="the paper's Table 2 instead of a source")
     parser.add_argument(
         "--form",
         choices=_FORMS,
@@ -81,14 +90,25 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     return parser
 
 
-def run(options: argparse.Namespace) -> int:
-    """Run the command."""
+class Presentable(Reportable, Protocol):
+    """What can be delivered with all that the command offers."""
+
+    def summary(self) -> str:
+        """The text for the terminal."""
+
+
+def run(
+    options: argparse.Namespace,
+    table: RateTable | None = None,
+    presented: Callable[[Calibration], Presentable] = lambda calibration: calibration,
+) -> int:
+    """Run the command, on `table` if there is one; what is delivered of the answer is what `presented` makes of it."""
     from probation.calibration.calibrate import calibrate_companion  # noqa: PLC0415 - see the package
     from probation.calibration.rate_table import RateTable  # noqa: PLC0415 - see the package
 
     if options.toml and options.json == "-":
         raise InputError("found both --toml and --json -, expected one of them on standard output")
-    source = _source(options)
+    source = _source(options) if table is None else table
     if options.apply and isinstance(source, RateTable):
         raise InputError("--apply: found a table, expected a campaign; --toml prints what to paste into one")
     name = source.source if isinstance(source, RateTable) else source.name
@@ -102,30 +122,24 @@ def run(options: argparse.Namespace) -> int:
             scheme=options.scheme,
             progress=advance,
         )
-        text = answer.summary()
+        presentable = presented(answer)
+        text = presentable.summary()
 
     def apply(place: str) -> str:
         assert not isinstance(source, RateTable)
         return f"campaign {answer.apply(source).save(place)}"
 
     relation = text_output("[law.companion]", "-" if options.toml else None, answer.toml)
-    deliver(text, [relation, *outputs_with_report(answer, options), Output("campaign", options.apply, apply)])
+    deliver(text, [relation, *outputs_with_report(presentable, options), Output("campaign", options.apply, apply)])
     return 0
 
 
 def _source(options: argparse.Namespace) -> Campaign | RateTable:
-    """Table 2, a table, a campaign, or data files that stand in for one."""
-    from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415
+    """A table, a campaign, or data files that stand in for one."""
     from probation.calibration.table_file import read_rate_table  # noqa: PLC0415
 
-    if options.table_2:
-        if options.source:
-            raise InputError(f"found {options.source[0]!r} together with --table-2, expected one of them")
-        return TABLE_2
     if not options.source:
-        raise InputError(
-            "found no CAMPAIGN, expected a campaign, a table or data files; --table-2 takes the paper's own"
-        )
+        raise InputError("found no CAMPAIGN, expected a campaign, a table or data files")
     if len(options.source) == 1 and is_data_file(options.source[0]):
         table = read_rate_table(Path(options.source[0]))
         if table is not None:

@@ -6,7 +6,6 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from probation.commands.analysis_options import whole_number
 from probation.commands.campaign_options import add_data_files, campaign_at, is_data_file
 from probation.commands.delivery import (
     add_delivery,
@@ -14,7 +13,6 @@ from probation.commands.delivery import (
     output_file_or_stream,
     outputs_with_report,
     text_output,
-    usual_outputs,
 )
 from probation.commands.progress import shown
 from probation.commands.reading_options import reading_from
@@ -33,7 +31,6 @@ rate jumps.
   probation excitation tension.csv
   probation excitation tension.csv --method savitzky-golay --csv smooth.csv --plot smooth.png
   probation excitation hdpe-2020/ --record grip-0.02 --method necking --report excitation.html
-  probation excitation --compare                every method on histories whose rate is known; takes minutes
 
 auto takes the strain as it is where it is clean (or the record has a rate of its own), and {DEFAULT} otherwise.
 """
@@ -56,13 +53,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=output_file_or_stream,
         help="write time, strain, rate and standard errors; - is standard output",
     )
-    parser.add_argument(
-        "--compare",
-        action="store_true",
-        help="compare the methods on histories whose rate is known; takes minutes, --draws 1 a fifth of them",
-    )
-    parser.add_argument("--draws", metavar="N", type=whole_number(1), help="draws of the noise that are compared (5)")
-    parser.add_argument("--seed", metavar="N", type=int, help="of the noise that is compared (0)")
     add_data_files(parser)
     add_delivery(parser)
     return parser
@@ -70,16 +60,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    return _compare(options) if options.compare else _describe(options)
-
-
-def _describe(options: argparse.Namespace) -> int:
     from probation.smoothing.answer import describe_excitation  # noqa: PLC0415 - see the package
 
     if options.file is None:
-        raise InputError("found no file, expected FILE or --compare")
-    if options.draws is not None or options.seed is not None:
-        raise InputError("found --draws or --seed without --compare")
+        raise InputError("found no file, expected FILE")
     if options.csv == "-" and options.json == "-":
         raise InputError("found both --csv - and --json -, expected one of them on standard output")
     records = _records(options)
@@ -133,16 +117,3 @@ def _strain_alone(place: Path, refused: InputError, options: argparse.Namespace)
         file=place,
         warnings=(*history.warnings, f"strain alone was read: {refused}"),
     )
-
-
-def _compare(options: argparse.Namespace) -> int:
-    from probation.smoothing.comparison import DRAWS, compare  # noqa: PLC0415
-
-    given = [name for name in ("file", "record", "csv", "report") if getattr(options, name)]
-    if given or options.method != "auto":
-        found = {"file": "FILE"}.get(given[0], f"--{given[0]}") if given else "--method"
-        raise InputError(f"found {found} together with --compare, expected only --draws, --seed, --json and --plot")
-    with shown("comparing") as advance:
-        answer = compare(draws=options.draws or DRAWS, seed=options.seed or 0, progress=advance)
-    deliver(answer.summary(), usual_outputs(answer, options))
-    return 0

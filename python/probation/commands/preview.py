@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from probation.commands.delivery import deliver, plot_file, plot_output
+from probation.commands.delivery import add_delivery, deliver, usual_outputs
 from probation.commands.progress import shown
 from probation.commands.reading_options import add_reading, reading_from
 
@@ -25,7 +25,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(NAME, help="how a file would be read", description=_DESCRIPTION)
     parser.add_argument("file", metavar="FILE", help="CSV, TSV, .xlsx, or what an import profile reads")
     add_reading(parser)
-    parser.add_argument("--plot", metavar="FILE", type=plot_file, help="save a plot, as .png, .svg or .pdf")
+    add_delivery(parser, report=False)
     return parser
 
 
@@ -35,5 +35,5 @@ def run(options: argparse.Namespace) -> int:
 
     with shown(f"reading {options.file}"):
         found = preview(options.file, **reading_from(options))
-    deliver(found.summary(), [plot_output(found, options.plot)])
+    deliver(found.summary(), usual_outputs(found, options))
     return 0

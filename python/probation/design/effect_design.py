@@ -36,7 +36,7 @@ _REFINED = 20
 
 
 @dataclass(frozen=True)
-class Bias:
+class OmissionBias:
     """How far a base parameter is off if the effect is there and left out.
 
     Attributes
@@ -101,7 +101,7 @@ class Design:
         left[:, nothing], sizes[nothing] = 0.0, 0.0
         return left, sizes
 
-    def biases(self, raw: FloatArray) -> tuple[Bias, ...]:
+    def biases(self, raw: FloatArray) -> tuple[OmissionBias, ...]:
         """Where a refit without the effect ends, the largest share of a parameter's value first."""
         scale = np.linalg.norm(self.tangent, axis=0)
         scale[scale == 0.0] = 1.0
@@ -111,7 +111,7 @@ class Design:
             percent = np.where(self.parameters != 0.0, 100.0 * shift / self.parameters, np.nan)
             errors = shift / se
         rows = zip(self.model.parameter_names, percent.tolist(), errors.tolist(), strict=True)
-        return tuple(sorted((Bias(*row) for row in rows), key=lambda bias: -abs(np.nan_to_num(bias.percent))))
+        return tuple(sorted((OmissionBias(*row) for row in rows), key=lambda bias: -abs(np.nan_to_num(bias.percent))))
 
     def smallest_seen(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
         """Least amplitude that is seen, at the shapes of the usual signal of length `size`; and what is left of it.

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.design.effect_design import Bias
+    from probation.design.effect_design import OmissionBias
 
 Status = Literal["named", "ambiguous", "too_small", "absorbed", "without_signal"]
 
@@ -44,7 +44,7 @@ class EffectIsolability:
         None: not within the bounds of the amplitude.
     absorbable : float
         Part of the signal (its square) that refitted base parameters take up.
-    biases : tuple of Bias
+    biases : tuple of OmissionBias
         Of the base parameters, if the effect is left out; the largest first.
     rivals : dict of str to float
         Effects with which it would be confused in more than one of twenty cases, with the probability of naming the
@@ -63,7 +63,7 @@ class EffectIsolability:
     seen_from: float | None
     named_from: float | None
     absorbable: float
-    biases: tuple[Bias, ...]
+    biases: tuple[OmissionBias, ...]
     rivals: dict[str, float]
     one_sided: bool
 
@@ -226,7 +226,7 @@ def _count(size: float) -> str:
     return f"{size:,.0f}" if size >= 100.0 else f"{size:.2g}"
 
 
-def _biased(biases: Sequence[Bias]) -> str:
+def _biased(biases: Sequence[OmissionBias]) -> str:
     """The biases that matter: "hardening_modulus_MPa by +3.1 %"."""
     worst = max((abs(bias.percent) for bias in biases), default=0.0)
     named = [bias for bias in biases if abs(bias.percent) >= DESIGN.bias_worth_naming * worst]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.planned_tests import Laboratory, planned_tests
-from probation.design.predicted import Explanation, Prediction, outcome, predictions
+from probation.design.predicted import RivalExplanation, RivalPrediction, outcome, predictions
 from probation.errors import InputError
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.design.planned_tests import PlannedTest
+    from probation.design.planned_tests import ProposedTest
     from probation.inference.model import CampaignModel
     from probation.noise.model import NoiseModel
 
@@ -38,10 +38,10 @@ class RankedTest:
     what : str
         One sentence.
     separates : list of list of str
-        As in `NextTest`.
+        As in `Recommendation`.
     """
 
-    test: PlannedTest
+    test: ProposedTest
     probability_after: float
     probability_in_rough_hands: float
     information: float
@@ -66,7 +66,7 @@ class RankedTest:
 
 
 @dataclass(frozen=True, eq=False)
-class NextTest:
+class Recommendation:
     """What to do next.
 
     Attributes
@@ -86,7 +86,7 @@ class NextTest:
     separates: list[list[str]]
     probability_before: float
     probability_after: float
-    test: PlannedTest
+    test: ProposedTest
     ranking: tuple[RankedTest, ...]
 
     def to_dict(self) -> dict[str, object]:
@@ -109,7 +109,7 @@ def next_test(
     threads: int = 1,
     seed: int = 0,
     progress: Callable[[float], None] | None = None,
-) -> NextTest | None:
+) -> Recommendation | None:
     """The realisable test after which the right explanation is most probably the most probable one, for its effort.
 
     Every test of `PLANNERS` is predicted by every explanation, with what the records there are leave open of its
@@ -133,7 +133,7 @@ def next_test(
 
     Returns
     -------
-    NextTest or None
+    Recommendation or None
         None where there are fewer than two answers.
 
     Raises
@@ -151,14 +151,14 @@ def next_test(
         raise InputError(f"explanations: found the probabilities {prior.tolist()}, expected positive numbers")
     prior = prior / prior.sum()
     group = [answers.index(tuple(sorted(effects))) for _, _, _, effects in explanations]
-    known = [Explanation.of(*explanation, noises) for explanation in explanations]
+    known = [RivalExplanation.of(*explanation, noises) for explanation in explanations]
     base = known[int(np.argmax(prior))].parameters[: model.base_count]
 
     titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
     names = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in answers]
     before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
 
-    def work(test: PlannedTest) -> RankedTest | None:
+    def work(test: ProposedTest) -> RankedTest | None:
         try:
             ways = predictions(test, model, base, known, noises)
         except UNSOLVABLE:
@@ -171,12 +171,12 @@ def next_test(
         return None
     worked.sort(key=lambda judged_test: -judged_test.worth)
     chosen = worked[0]
-    return NextTest(chosen.what, chosen.separates, before, chosen.probability_after, chosen.test, tuple(worked))
+    return Recommendation(chosen.what, chosen.separates, before, chosen.probability_after, chosen.test, tuple(worked))
 
 
 def judged(
-    test: PlannedTest,
-    ways: Sequence[Prediction],
+    test: ProposedTest,
+    ways: Sequence[RivalPrediction],
     prior: FloatArray,
     group: Sequence[int],
     answers: Sequence[list[str]],
@@ -189,7 +189,7 @@ def judged(
 
     Parameters
     ----------
-    ways : sequence of Prediction
+    ways : sequence of RivalPrediction
         How it may come out.
     prior, group
         As in `outcome`.

@@ -31,7 +31,7 @@ _TURNS, _SETTLED = 20, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class PlannedTest:
+class ProposedTest:
     """A strain history that could be imposed, and what is otherwise about the test.
 
     Attributes
@@ -153,7 +153,7 @@ class Laboratory:
         *legs: tuple[float, float],
         preparation: float = DESIGN.specimen_effort,
         gauge_length: float = 1.0,
-    ) -> PlannedTest:
+    ) -> ProposedTest:
         """A test of straight legs (strain at the end, duration [s]) that starts without strain."""
         history = piecewise_linear(name, [Leg(*leg) for leg in legs], self.samples)
         time, strain = history.time, history.true_strain
@@ -161,36 +161,36 @@ class Laboratory:
         assert history.jumps is not None
         summary = f"{what} ({_time(float(time[-1]))}, {len(time)} samples)"
         jumps = tuple(jump_indices(list(history.jumps), time, strain))
-        return PlannedTest(name, summary, time, strain, jumps, preparation, gauge_length=gauge_length)
+        return ProposedTest(name, summary, time, strain, jumps, preparation, gauge_length=gauge_length)
 
-    def stress(self, test: PlannedTest) -> FloatArray:
+    def stress(self, test: ProposedTest) -> FloatArray:
         """What the base law predicts of a test, shape (n_samples,) [MPa]."""
         view = planned_view(test.name, test.time, test.true_strain, test.jumps, self.model.views)
         return self.model.law.stress(view, self.parameters)
 
 
-Planner: TypeAlias = Callable[[Laboratory], Sequence[PlannedTest]]
+Planner: TypeAlias = Callable[[Laboratory], Sequence[ProposedTest]]
 
 
-def zero_load_hold(lab: Laboratory) -> list[PlannedTest]:
+def zero_load_hold(lab: Laboratory) -> list[ProposedTest]:
     """The load cell reads an unloaded specimen, for as long as the longest test and three times as long."""
     longest = max(view.duration for view in lab.model.views)
     what = "Before the next test record the force while the specimen hangs free of load"
     return [lab.legs("zero_load_hold", what, (0.0, hold), preparation=0.0) for hold in (longest, 3.0 * longest)]
 
 
-def repeats(lab: Laboratory) -> list[PlannedTest]:
+def repeats(lab: Laboratory) -> list[ProposedTest]:
     """A record over again."""
     found = []
     for view in lab.model.views:
         time, strain = view.sampled(view.elapsed), view.sampled(view.recorded_strain)
         jumps = tuple(jump // view.stride for jump in view.jumps)
         what = f"Repeat {view.id} on the same rig with a new specimen ({_time(view.duration)}, {len(time)} samples)"
-        found.append(PlannedTest("repeat", what, time, strain, jumps, repeats=view.id))
+        found.append(ProposedTest("repeat", what, time, strain, jumps, repeats=view.id))
     return found
 
 
-def other_rates(lab: Laboratory) -> list[PlannedTest]:
+def other_rates(lab: Laboratory) -> list[ProposedTest]:
     """Ramps half a decade and a decade beyond the rates used: the law is not known there, which counts as effort."""
     rates = [lab.slowest / factor for factor in (np.sqrt(DESIGN.rate_contrast), DESIGN.rate_contrast)]
     rates += [lab.fastest * factor for factor in (np.sqrt(DESIGN.rate_contrast), DESIGN.rate_contrast)]
@@ -205,7 +205,7 @@ def other_rates(lab: Laboratory) -> list[PlannedTest]:
     ]
 
 
-def rate_jumps(lab: Laboratory) -> list[PlannedTest]:
+def rate_jumps(lab: Laboratory) -> list[ProposedTest]:
     """From slow to fast and from fast to slow, half way."""
     low, high = lab.contrast
     found = []
@@ -216,7 +216,7 @@ def rate_jumps(lab: Laboratory) -> list[PlannedTest]:
     return found
 
 
-def dwells(lab: Laboratory) -> list[PlannedTest]:
+def dwells(lab: Laboratory) -> list[ProposedTest]:
     """Held half way, for as long as it took to get there and ten times as long."""
     half = 0.5 * lab.strain
     loading = half / lab.usual
@@ -233,7 +233,7 @@ def dwells(lab: Laboratory) -> list[PlannedTest]:
     ]
 
 
-def unloading(lab: Laboratory) -> list[PlannedTest]:
+def unloading(lab: Laboratory) -> list[ProposedTest]:
     """Back to no load (to less, the specimen buckles) and up again, from half way and from just behind yield."""
     found = []
     for top in (0.5 * lab.strain, min(DESIGN.yield_strain, DESIGN.early_unloading * lab.strain)):
@@ -249,7 +249,7 @@ def unloading(lab: Laboratory) -> list[PlannedTest]:
     return found
 
 
-def dead_weight(lab: Laboratory) -> list[PlannedTest]:
+def dead_weight(lab: Laboratory) -> list[ProposedTest]:
     """Creep under a constant force, along the strain that the base law predicts; the engine's law only."""
     if not isinstance(lab.model.law, DnlrLaw):
         return []
@@ -266,7 +266,7 @@ def dead_weight(lab: Laboratory) -> list[PlannedTest]:
     end = f"to a true strain of {strain[-1]:.2g}"
     summary = f"{what} {end} ({_time(longest)}, {len(time)} samples, dense at first)"
     return [
-        PlannedTest(
+        ProposedTest(
             "dead_weight", summary, time, strain, (DESIGN.loading_samples,), preparation=2.0 * DESIGN.specimen_effort
         )
     ]
@@ -288,7 +288,7 @@ def _hanging(law: Law, nominal: float, longest: float, samples: int) -> tuple[Fl
     return time, strain
 
 
-def other_gauge_length(lab: Laboratory) -> list[PlannedTest]:
+def other_gauge_length(lab: Laboratory) -> list[ProposedTest]:
     """Twice the gauge length: what frame and grips add to the strain counts half."""
     what = (
         f"Stretch a specimen of twice the gauge length at {lab.usual:.2g} /s (twice the crosshead speed) to a true "
@@ -311,7 +311,7 @@ PLANNERS: tuple[Planner, ...] = (
 )
 
 
-def planned_tests(lab: Laboratory) -> list[PlannedTest]:
+def planned_tests(lab: Laboratory) -> list[ProposedTest]:
     """All tests of `PLANNERS` that take no longer than two days and that the base law can predict."""
     found = []
     for planner in PLANNERS:

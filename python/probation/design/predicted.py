@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
-    from probation.design.planned_tests import PlannedTest
+    from probation.design.planned_tests import ProposedTest
     from probation.effects.cause import Cause
     from probation.effects.record_view import RecordView
     from probation.noise.model import NoiseModel
@@ -37,7 +37,7 @@ _LOOSE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Explanation:
+class RivalExplanation:
     """One explanation of the records there are.
 
     Attributes
@@ -65,7 +65,7 @@ class Explanation:
         probability: float,
         effects: Sequence[str],
         noises: Sequence[NoiseModel],
-    ) -> Explanation:
+    ) -> RivalExplanation:
         """With what the model's own records, one noise each, tell of its parameters."""
         jacobian = model.jacobian(parameters)
         white = Whitener(tuple(noises)).columns(jacobian)
@@ -83,7 +83,7 @@ class Explanation:
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction:
+class RivalPrediction:
     """One way in which a planned test may come out.
 
     Attributes
@@ -103,18 +103,18 @@ class Prediction:
     mean: FloatArray
     spread: FloatArray
 
-    def through(self, noise: float) -> Prediction:
+    def through(self, noise: float) -> RivalPrediction:
         """The same seen through `noise` times the noise."""
         return replace(self, mean=self.mean / noise, spread=self.spread / noise)
 
 
 def predictions(
-    test: PlannedTest,
+    test: ProposedTest,
     model: CampaignModel,
     base: FloatArray,
-    explanations: Sequence[Explanation],
+    explanations: Sequence[RivalExplanation],
     noises: Sequence[NoiseModel],
-) -> list[Prediction]:
+) -> list[RivalPrediction]:
     """What every explanation predicts of a test.
 
     A cause that touches all records touches the new one too. A fault of single records may or may not be there again
@@ -127,7 +127,7 @@ def predictions(
         The law without causes, on the records there are.
     base : ndarray
         Its parameters, for the force that the frame feels.
-    explanations : sequence of Explanation
+    explanations : sequence of RivalExplanation
     noises : sequence of NoiseModel
         Of the records there are.
     """
@@ -144,11 +144,11 @@ def predictions(
         )
         for back, weight in ways:
             stress, slopes = _on(view, explanation, back, test)
-            found.append(Prediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ explanation.root)))
+            found.append(RivalPrediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ explanation.root)))
     return found
 
 
-def _view(test: PlannedTest, model: CampaignModel) -> RecordView:
+def _view(test: ProposedTest, model: CampaignModel) -> RecordView:
     """A repeat is driven as its record was, smoothing and all."""
     for view in model.views:
         if view.id == test.repeats:
@@ -161,7 +161,7 @@ def _may_come_back(cause: Cause) -> bool:
 
 
 def _on(
-    view: RecordView, explanation: Explanation, back: Sequence[Cause], test: PlannedTest
+    view: RecordView, explanation: RivalExplanation, back: Sequence[Cause], test: ProposedTest
 ) -> tuple[FloatArray, FloatArray]:
     """Stress (n_samples,) [MPa] and slopes (n_samples, n_parameters) of an explanation on a planned record."""
     base, active = explanation.model.split(explanation.parameters)
@@ -201,12 +201,14 @@ class Outcome:
     pairwise: FloatArray
 
 
-def outcome(ways: Sequence[Prediction], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int) -> Outcome:
+def outcome(
+    ways: Sequence[RivalPrediction], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int
+) -> Outcome:
     """Simulate the test under every explanation and weigh all by what comes out.
 
     Parameters
     ----------
-    ways : sequence of Prediction
+    ways : sequence of RivalPrediction
     prior : ndarray, shape (n_explanations,)
         Probabilities before the test, summing to 1.
     group : sequence of int
@@ -239,7 +241,7 @@ def outcome(ways: Sequence[Prediction], prior: FloatArray, group: Sequence[int],
     return Outcome(min(probability, 1.0), max(information, 0.0) / np.log(2.0), wins)
 
 
-def _reduced(ways: Sequence[Prediction]) -> tuple[FloatArray, list[FloatArray]]:
+def _reduced(ways: Sequence[RivalPrediction]) -> tuple[FloatArray, list[FloatArray]]:
     """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the predictions differ."""
     centre = np.mean([way.mean for way in ways], axis=0)
     columns = np.column_stack([*(way.mean - centre for way in ways), *(way.spread for way in ways)])

@@ -8,8 +8,8 @@ import numpy as np
 
 from probation.detection.where import Located, contribution_regions
 from probation.diagnosis.headline import title
-from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation, Status
-from probation.settings.certificate import CERTIFICATE
+from probation.diagnosis.result import BaseParameter, CauseParameter, Explanation
+from probation.inference.parameter import status_of
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -83,10 +83,7 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
             result.append(BaseParameter(name, float(value), None, "not_identifiable"))
             continue
         relative = float(error) / max(abs(float(value)), 1e-300)
-        status: Status = "identifiable"
-        if relative > CERTIFICATE.identifiable:
-            status = "weakly_identifiable" if relative <= CERTIFICATE.weakly_identifiable else "not_identifiable"
-        result.append(BaseParameter(name, float(value), float(error), status))
+        result.append(BaseParameter(name, float(value), float(error), status_of(relative)))
     return tuple(result)
 
 

@@ -167,7 +167,7 @@ class Term(NamedTuple):
     size: int
 
 
-class Trial(NamedTuple):
+class TriedTerm(NamedTuple):
     """A function, the part of the remainder that it explains where it was not fitted, and its rank among others."""
 
     term: Term
@@ -238,7 +238,7 @@ class FreeFunctions:
         """Samples of a phase."""
         return np.ones(len(self._missing), dtype=bool) if when is None else self.phases[when]
 
-    def trial(self, term: Term, before_of: Mapping[str, float]) -> Trial:
+    def trial(self, term: Term, before_of: Mapping[str, float]) -> TriedTerm:
         """How much of what is left a function explains where it was not fitted, of so much `before`."""
         kind: Literal["records", "parts"] = "records" if self._is_elsewhere(term) else "parts"
         before, least = before_of[kind], self._noise**2
@@ -246,7 +246,7 @@ class FreeFunctions:
         surely = before - least > REMAINDER.certain * np.sqrt(2.0 / len(self._missing)) * least
         explained = 1.0 - (after - least) / (before - least) if surely else 0.0
         rank = explained - REMAINDER.per_coefficient * term.size - REMAINDER.per_phase * (term.when is not None)
-        return Trial(term, explained, kind, rank - REMAINDER.on_parts * (kind == "parts" and len(self._slices) > 1))
+        return TriedTerm(term, explained, kind, rank - REMAINDER.on_parts * (kind == "parts" and len(self._slices) > 1))
 
     def _is_elsewhere(self, term: Term) -> bool:
         """Whether there are several records with what the function says something about: each group of a category."""

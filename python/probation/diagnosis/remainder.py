@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from probation.diagnosis.free_function import Dependence, FreeFunctions, Trial, terms_of
+from probation.diagnosis.free_function import Dependence, FreeFunctions, TriedTerm, terms_of
 from probation.diagnosis.remainder_words import description
 from probation.diagnosis.variables import phases_of, variables_of
 from probation.inference.unsolvable import UNSOLVABLE
@@ -96,7 +96,7 @@ def remainder_of(
         if not linearised_anew.has_stress:
             break
         problem = linearised_anew
-    best: dict[str, Trial] = {}
+    best: dict[str, TriedTerm] = {}
     for trial in trials:
         best.setdefault(trial.term.variable.name, trial)
     leading = [each for each in best.values() if each.explained > REMAINDER.least_part][: REMAINDER.most_variables]

@@ -9,8 +9,8 @@ import numpy as np
 
 from probation.design.next_test import judged
 from probation.design.planned_record import planned_view
-from probation.design.planned_tests import Laboratory, PlannedTest, planned_tests, repeats
-from probation.design.predicted import Prediction
+from probation.design.planned_tests import Laboratory, ProposedTest, planned_tests, repeats
+from probation.design.predicted import RivalPrediction
 from probation.diagnosis.next import as_answer
 from probation.diagnosis.variables import every_phase
 from probation.inference.unsolvable import UNSOLVABLE
@@ -59,7 +59,7 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
     answers = [[each.dependence.variable] for each in rivals]
     names = [each.dependence.title for each in rivals]
 
-    def work(planned: tuple[PlannedTest, RecordView]) -> RankedTest | None:
+    def work(planned: tuple[ProposedTest, RecordView]) -> RankedTest | None:
         test, view = planned
         try:
             ways = [_predicted(each, owner, view, error) for owner, each in enumerate(rivals)]
@@ -84,13 +84,13 @@ def _visits(view: RecordView, leading: FreeFunction) -> bool:
     )
 
 
-def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) -> Prediction:
+def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) -> RivalPrediction:
     stress, spread = rival.on(view)
     some = np.unique(np.linspace(0, len(stress) - 1, REMAINDER.planned_instants).astype(int))
-    return Prediction(owner, 1.0, stress[some] / error, spread[some] / error)
+    return RivalPrediction(owner, 1.0, stress[some] / error, spread[some] / error)
 
 
-def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[PlannedTest, RecordView]]:
+def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[ProposedTest, RecordView]]:
     """Tests of the same laboratory, at the last temperature, and one at another where that may matter."""
     views = base.model.views
     known = {each.dependence.variable for each in rivals}

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.skipped import Skipped
     from probation.inference.gap import GapSize, HeldOutGap
+    from probation.inference.parameter import Status
     from probation.inference.scatter import Scatter
 
 Verdict = Literal["no_gap", "not_predicted", "explained", "unexplained"]
-Status = Literal["identifiable", "weakly_identifiable", "not_identifiable", "held"]
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from probation.field.errors import drawn_errors, neighbourhoods, rounds
 from probation.field.pixels import Way, identify_pixels, with_more_noise
 from probation.field.samples import used_samples
 from probation.field.store import map_kinds, product_name
-from probation.field.substeps import needed_substeps
+from probation.field.substeps import substeps_of_block
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -62,7 +62,7 @@ def block_maps(task: FieldTask, block: Block) -> tuple[dict[str, NDArray[Any]], 
     near, level, draws = neighbourhoods(used, shape), np.full(len(used), np.nan), []
     substeps = way.substeps
     if substeps == "auto":
-        substeps = needed_substeps(way, times, strain, stress, used, chance)
+        substeps = substeps_of_block(way, times, strain, stress, used, chance)
     found = identify_pixels(way, times, strain, stress, used, substeps)
     for pixels in rounds(found.identified, near):
         more = with_more_noise(times, strain[pixels], stress[pixels], used[pixels], near[pixels], chance)

@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.field.errors import drawn_errors
 from probation.field.pixels import Pixels, identify_pixels, with_more_noise
+from probation.law.refinement import fewest_substeps
 from probation.law.schemes import SA3
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.field import FIELD
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from probation.field.source import Samples
 
 
-def needed_substeps(
+def substeps_of_block(
     way: Way, time: FloatArray, strain: Samples, stress: Samples, used: BoolArray, chance: np.random.Generator
 ) -> int:
     """Steps that make the error of the scheme negligible against the standard errors, as `fit` takes them.
@@ -45,16 +46,12 @@ def needed_substeps(
     more_strain, more_stress, level = with_more_noise(time, strain, stress, used, alone, chance)
     again = identify_pixels(precise, time, more_strain, more_stress, used, FIELD.reference_substeps)
     errors = drawn_errors(reference, [(alone, again)], level, together)
-    steps = 1
-    while steps < CERTIFICATE.most_substeps:
-        shift = _shift(identify_pixels(way, time, strain, stress, used, steps), reference, errors)
-        if shift <= CERTIFICATE.negligible_scheme_shift:
-            break
-        steps = min(
-            max(int(np.ceil(steps * np.sqrt(shift / CERTIFICATE.negligible_scheme_shift))), steps + 1),
-            CERTIFICATE.most_substeps,
-        )
-    return steps
+    return fewest_substeps(
+        lambda steps: _shift(identify_pixels(way, time, strain, stress, used, steps), reference, errors),
+        CERTIFICATE.negligible_scheme_shift,
+        1,
+        CERTIFICATE.most_substeps,
+    )
 
 
 def _shift(pixels: Pixels, reference: Pixels, errors: Errors) -> float:

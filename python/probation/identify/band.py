@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from scipy.special import stdtrit
 
 from probation._short_repr import ShortRepr
+from probation.results.data import Stored
 from probation.results.frames import data_frame, over_time
 from probation.results.rendering import Plotted
 
@@ -18,10 +19,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class StressBand(ShortRepr, Plotted):
+class StressBand(ShortRepr, Plotted, Stored):
     """A predicted stress with what is known of it; the bands hold at each instant by itself.
 
-    `plot` draws the stress with both bands over strain.
+    `plot` draws the stress with both bands over strain. In JSON its curves always stand.
 
     Attributes
     ----------
@@ -39,6 +40,8 @@ class StressBand(ShortRepr, Plotted):
     degrees : float
         Of freedom of Student's t; fewer where the noise is autocorrelated.
     """
+
+    SCHEMA: ClassVar[str] = "probation.stress-band/1"
 
     name: str
     time: FloatArray
@@ -67,6 +70,16 @@ class StressBand(ShortRepr, Plotted):
     def _band(self, deviation: FloatArray) -> FloatArray:
         reach = self.quantile * deviation
         return np.stack([self.true_stress - reach, self.true_stress + reach])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The band as Python objects."""
+        return {
+            "name": self.name,
+            "level": self.level,
+            "degrees": self.degrees,
+            "scatter_MPa": self.scatter_MPa,
+            **self._columns(),
+        }
 
     def to_dataframe(self) -> Any:
         """As a pandas DataFrame, a row an instant.

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from inspect import signature
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from probation.errors import InputError
+from probation.results.data import Stored
 from probation.results.extras import needed
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ ROUNDS = 100
 
 
 @dataclass(frozen=True, eq=False)
-class Draws:
+class Draws(Stored):
     """Draws of the identified parameters.
 
     Attributes
@@ -32,6 +33,8 @@ class Draws:
         With units: "unrelaxed_modulus_MPa".
     values : ndarray, shape (n_draws, n_parameters)
     """
+
+    SCHEMA: ClassVar[str] = "probation.draws/1"
 
     names: tuple[str, ...]
     values: FloatArray
@@ -53,6 +56,10 @@ class Draws:
 
     def __repr__(self) -> str:
         return f"<{len(self)} draws of {', '.join(self.names)}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The draws of each parameter, as Python objects."""
+        return {"draws": {name: self[name] for name in self.names}}
 
     def to_dataframe(self) -> Any:
         """As a pandas DataFrame, a row a draw.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.weighting import known_of
+from probation.law.refinement import fewest_substeps
 from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
@@ -59,11 +60,9 @@ def needed_substeps(weighted: Weighted, views: Sequence[RecordView], at_least: i
     """
     problem, parameters = weighted.problem, weighted.parameters
     known, jacobian = known_of(weighted)
-    most = most_substeps(problem.lengths)
-    steps = at_least
-    while True:  # once would do, were the steps always short enough for the order to show
+
+    def largest_shift(steps: int) -> float:
         shift = scheme_error(problem, [view.with_substeps(steps) for view in views], parameters, jacobian, known)[1]
-        worst = float(np.max(np.abs(shift), initial=0.0))
-        if worst <= CERTIFICATE.negligible_scheme_shift or steps >= most:
-            return steps
-        steps = min(max(int(np.ceil(steps * np.sqrt(worst / CERTIFICATE.negligible_scheme_shift))), steps + 1), most)
+        return float(np.max(np.abs(shift), initial=0.0))
+
+    return fewest_substeps(largest_shift, CERTIFICATE.negligible_scheme_shift, at_least, most_substeps(problem.lengths))

@@ -8,7 +8,7 @@ import numpy as np
 
 from probation.identify.variable_projection import search, time_bounds, time_of
 from probation.inference.least_squares import NormalPrior, minimise
-from probation.inference.refit import Coordinates, Objective
+from probation.inference.refit import Coordinates, SearchResidual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -57,7 +57,7 @@ def by_least_squares(
         return start
     coordinates = coordinates_of(problem, start, bounds)
     found = minimise(
-        Objective(problem, coordinates),
+        SearchResidual(problem, coordinates),
         coordinates.of(start),
         bounds=coordinates.bounds,
         tolerance=tolerance,
@@ -72,7 +72,7 @@ def by_simplex(problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds]
     from scipy.optimize import minimize  # noqa: PLC0415
 
     coordinates = coordinates_of(problem, start, bounds)
-    objective, box = Objective(problem, coordinates), coordinates.bounds
+    objective, box = SearchResidual(problem, coordinates), coordinates.bounds
     found = box.clip(coordinates.of(start))
 
     def cost(x: FloatArray) -> float:

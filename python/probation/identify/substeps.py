@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.scheme_error import most_substeps
+from probation.law.refinement import fewest_substeps
 from probation.law.schemes import scheme_of
 from probation.records.noise import noise_level
 from probation.settings.certificate import CERTIFICATE
@@ -33,23 +34,18 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
     excitations : dict of str to Excitation
         By record id, at the samples.
     """
-    most = most_substeps(len(record.time) for record in campaign.identify)
-    steps = fit.substeps
-    while steps < most:
+
+    def error_over_noise(steps: int) -> float:
         square = 0.0
         for record in campaign.identify:
             coarse, fine = (predicted(fit, excitations[record.id], count) for count in (steps, 2 * steps))
             least = NOISE.least_noise * float(np.max(np.abs(record.true_stress)))
             noise = max(noise_level(record.time, record.true_stress - fine), least)
             square += float(np.sum((coarse - fine) ** 2)) / noise**2
-        # Halving the step leaves a quarter of the error.
-        norm = 4.0 / 3.0 * np.sqrt(square)
-        if norm <= CERTIFICATE.tolerated_scheme_error:
-            break
-        steps = int(
-            min(max(np.ceil(steps * np.sqrt(min(norm / CERTIFICATE.tolerated_scheme_error, 1e6))), steps + 1), most)
-        )
-    return steps
+        return float(4.0 / 3.0 * np.sqrt(square))  # halving the step leaves a quarter of the error
+
+    most = most_substeps(len(record.time) for record in campaign.identify)
+    return fewest_substeps(error_over_noise, CERTIFICATE.tolerated_scheme_error, fit.substeps, most)
 
 
 def predicted(fit: Fit, excitation: Excitation, substeps: int) -> FloatArray:

@@ -158,7 +158,7 @@ def refit(
     """
     coordinates = Coordinates.of_model(problem.model)
     found = minimise(
-        Objective(problem, coordinates),
+        SearchResidual(problem, coordinates),
         coordinates.of(np.asarray(start, dtype=np.float64)),
         bounds=coordinates.bounds,
         prior=coordinates.prior,
@@ -172,7 +172,7 @@ def refit(
 
 
 @dataclass(frozen=True, eq=False)
-class Objective:
+class SearchResidual:
     """The residual of a problem along search coordinates, as `least_squares.minimise` takes it."""
 
     problem: Problem

@@ -1,4 +1,7 @@
-"""Between samples: a strain history at more instants, where the samples stand for lines or for cubics."""
+"""Between samples: a strain history at more instants, and how many of them a scheme needs.
+
+The samples stand for straight lines or for cubics.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from probation._arrays import FloatArray
 
 
@@ -42,6 +47,24 @@ def refine(
     slope = (rise + (1.0 - 2.0 * part) * bend + part * (1.0 - part) * (2.0 * rise - step * (begin + end))) / step
     slope[:, 0] = rate[:-1]
     return _spread(fine, strain[-1:]), _spread(slope, rate[-1:])
+
+
+def fewest_substeps(error_with: Callable[[int], float], tolerated: float, first: int, most: int) -> int:
+    """Steps from sample to sample, from `first` to `most`, that leave a scheme of order 2 no more than `tolerated`.
+
+    Parameters
+    ----------
+    error_with : callable
+        The error with so many steps, in the unit of `tolerated`. The first time would tell, were the steps always short
+        enough for the order to show.
+    """
+    steps = first
+    while steps < most:
+        ratio = min(error_with(steps) / tolerated, 1e6)
+        if ratio <= 1.0:
+            break
+        steps = min(max(int(np.ceil(steps * np.sqrt(ratio))), steps + 1), most)
+    return steps
 
 
 def _spread(rows: FloatArray, last: FloatArray) -> FloatArray:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any, ClassVar
 
 from probation import _core
 from probation._arrays import FloatArray, as_number, as_samples, as_whole_number
 from probation._short_repr import ShortRepr
 from probation.errors import InputError
 from probation.law.reduction import fewer_modes
+from probation.results.data import Stored
 
 ACCURACIES = (1e-5, 0.5)
 """Finest and coarsest relative error that a spectrum of fewer modes may be asked for [-]."""
@@ -72,7 +74,7 @@ def _log_spaced(modes: int, decades: float) -> Spectrum:
 
 
 @dataclass(frozen=True, eq=False)
-class Reduction:
+class Reduction(Stored):
     """A spectrum of fewer modes in the place of another.
 
     Attributes
@@ -88,6 +90,8 @@ class Reduction:
         Largest relative error of the viscous stress on a ramp, at any rate and strain [-].
     """
 
+    SCHEMA: ClassVar[str] = "probation.reduction/1"
+
     spectrum: Spectrum
     original: Spectrum
     error: float
@@ -97,6 +101,16 @@ class Reduction:
     def modes(self) -> int:
         """How many are left."""
         return len(self.spectrum.modal_weight)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The reduced spectrum and its errors, as Python objects."""
+        return {
+            "relaxation_ratio": self.spectrum.relaxation_ratio,
+            "modal_weight": self.spectrum.modal_weight,
+            "original_modes": len(self.original.modal_weight),
+            "error": self.error,
+            "ramp_error": self.ramp_error,
+        }
 
     def summary(self) -> str:
         """One line."""

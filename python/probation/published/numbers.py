@@ -95,7 +95,10 @@ TABLE_2: tuple[RateRow, ...] = (
     RateRow(5e-3, 6.01, 0.0301, 2.31),
     RateRow(1e-2, 3.21, 0.0321, 2.46),
 )
-"""Table 2, fits at constant strain rates."""
+"""Table 2, fits at constant strain rates: averages over specimens; no standard errors were published."""
+
+FICTITIOUS_ERROR = 0.10
+"""Relative error bars of Figure S2, "a fictitious 10 % uncertainty"."""
 
 TABLE_3 = GripTable(
     number=3,

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Unpack
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from probation.records.profiles.excel import recognises as is_workbook
 from probation.records.reading import assemble_all
 from probation.records.record import Record
 from probation.records.table import Column, Table
+from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
 
 FloatArray = NDArray[np.float64]
@@ -26,10 +27,11 @@ _SHOWN_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
-class Preview(Summarised, Plotted):
+class Preview(Summarised, Plotted, Stored):
     """How a file would be read.
 
-    `plot` draws stress over strain, and both over time, of every record.
+    `plot` draws stress over strain, and both over time, of every record. In JSON the records are whole, as the summary
+    draws them, too.
 
     Attributes
     ----------
@@ -54,6 +56,8 @@ class Preview(Summarised, Plotted):
         Data rows in the file, padding included.
     """
 
+    SCHEMA: ClassVar[str] = "probation.preview/1"
+
     path: Path
     profile: str
     title: str
@@ -68,6 +72,25 @@ class Preview(Summarised, Plotted):
     specimen: Mapping[str, float]
     first_rows: tuple[tuple[str, ...], ...]
     rows: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """How the file would be read, as Python objects; the samples are in the records."""
+        return {
+            "file": str(self.path),
+            "profile": self.profile,
+            "title": self.title,
+            "encoding": self.encoding,
+            "separator": self.separator,
+            "decimal": self.decimal,
+            "header_row": self.header_row,
+            "rows": self.rows,
+            "columns": [{"heading": heading, "unit": unit, "role": role} for heading, unit, role in self.columns],
+            "records": [record.to_dict() for record in self.records],
+            "holds_instead": self.auxiliary,
+            "specimen": dict(self.specimen),
+            "metadata": dict(self.metadata),
+            "first_rows": self.first_rows,
+        }
 
 
 def preview(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> Preview:

@@ -191,6 +191,19 @@ class Record(InOneLine):
             digest.update(name.encode() + np.ascontiguousarray(values, dtype="<f8").tobytes())
         return digest.hexdigest()
 
+    def to_dict(self) -> dict[str, Any]:
+        """What it is and how far each quantity goes, without the samples."""
+        return {
+            "id": self.id,
+            "control": self.control,
+            "role": self.role,
+            "profile": self.profile,
+            "sha256": self.sha256,
+            "samples": len(self),
+            "ranges": {HEADINGS[name]: [values.min(), values.max()] for name, values in self.samples.items()},
+            "warnings": self.warnings,
+        }
+
     def _as_samples(self, name: str) -> FloatArray:
         """Copy one field to read-only float64 of the same length as the time."""
         try:

@@ -20,7 +20,7 @@ _MINIMUM_SAMPLES = 2
 
 
 @dataclass(frozen=True, eq=False)
-class StrainHistory:
+class StrainRecord:
     """The strain of a test, measured or imagined.
 
     Attributes
@@ -41,7 +41,7 @@ class StrainHistory:
     warnings: tuple[str, ...]
 
 
-def read_strain_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> StrainHistory:
+def read_strain_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> StrainRecord:
     """Read ``time_s,true_strain`` and perhaps ``strain_rate_per_s``; `how` as in `read_records`.
 
     Raises
@@ -59,7 +59,7 @@ def read_strain_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -
         raise several_specimens(path, len(tables))
     _, table = tables[0]
     found = extract(table, reading, options, with_stress=False, minimum=_MINIMUM_SAMPLES)
-    return StrainHistory(
+    return StrainRecord(
         time=found.samples["time"],
         true_strain=found.true_strain,
         strain_rate=found.samples.get("strain_rate"),

@@ -7,31 +7,41 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.lines import Line2D
 
-from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.errors import InputError
-from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.normal import TWO_SIDED_95
 from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.calibration.result import Calibration
+    from probation.law.companion import Companion
 
 _BEYOND = 10.0  # drawn to so many times below and above the calibrated rates
 _POINTS = 241
 
 
-def companion_figure(calibration: Calibration) -> Figure:
+def companion_figure(
+    calibration: Calibration, beside: Mapping[str, Companion] | None = None, relative_bars: float | None = None
+) -> Figure:
     """Data and relations, tau_max on the left, We on the right; beyond the calibrated rates dashed.
 
-    The band is that of 95 % of the chosen relation, from the covariance of its parameters. Table 2 has no standard
-    errors: its bars are the paper's "fictitious 10 %", and its (11) and (12) as printed stand beside.
+    The band is that of 95 % of the chosen relation, from the covariance of its parameters.
+
+    Parameters
+    ----------
+    beside : mapping of name to Companion, optional
+        Further relations to draw.
+    relative_bars : float, optional
+        Bars of a table without standard errors, as a part of tau_max.
     """
+    further = [(name, relation, series_colour(at)) for at, (name, relation) in enumerate((beside or {}).items(), 3)]
     shown = [name for name, candidate in calibration.candidates.items() if not candidate.form.reference]
     shown.sort(key=lambda name: name != calibration.chosen)
     if calibration.chosen not in shown:
@@ -46,10 +56,9 @@ def companion_figure(calibration: Calibration) -> Figure:
             for at, name in enumerate(shown):
                 relation = calibration.candidates[name].companion.relation
                 _curve(axes, relation, rates, power, (low, high), series_colour(at))
-            if calibration.table is TABLE_2:
-                _curve(axes, WEISSENBERG_AS_PRINTED, rates, power, (low, high), series_colour(3), width=0.9)
-                _curve(axes, EXPONENTIAL_AS_PRINTED, rates, power, (low, high), series_colour(4), width=0.9)
-            _data(axes, calibration, power)
+            for _, relation, shade in further:
+                _curve(axes, relation, rates, power, (low, high), shade, width=0.9)
+            _data(axes, calibration, power, relative_bars)
             axes.set_xscale("log")
             axes.set_xlabel("true strain rate [1/s]")
         left.set_yscale("log")
@@ -59,9 +68,7 @@ def companion_figure(calibration: Calibration) -> Figure:
         handles = [
             Line2D([], [], color=series_colour(at), label=_label(calibration, name)) for at, name in enumerate(shown)
         ]
-        if calibration.table is TABLE_2:
-            printed = (("(11) as printed", 3), ("(12) as printed", 4))
-            handles += [Line2D([], [], color=series_colour(at), lw=0.9, label=name) for name, at in printed]
+        handles += [Line2D([], [], color=shade, lw=0.9, label=name) for name, _, shade in further]
         legend_outside(figure, handles, [str(handle.get_label()) for handle in handles], columns=3)
         left.set_title("dashed: beyond the calibrated rates")
         right.set_title(f"band: 95 % of {calibration.chosen}" if companion.covariance is not None else "")
@@ -118,15 +125,14 @@ def _band(
     axes.fill_between(rates, low, high, color=series_colour(0), alpha=0.16, lw=0)
 
 
-def _data(axes: Axes, calibration: Calibration, power: float) -> None:
+def _data(axes: Axes, calibration: Calibration, power: float, relative_bars: float | None) -> None:
     look = {"fmt": "o", "ms": 4.5, "color": colour("ink"), "ecolor": colour("data"), "elinewidth": 1.0, "capsize": 2.5}
     if calibration.table is not None:
         table = calibration.table
         scale = table.rates**power
-        error = table.se
-        if error is None and table is TABLE_2:
-            error = FICTITIOUS_ERROR * table.tau_max
-        bars = None if error is None else TWO_SIDED_95 * error * scale if table.se is not None else error * scale
+        bars = None if relative_bars is None else relative_bars * table.tau_max * scale
+        if table.se is not None:
+            bars = TWO_SIDED_95 * table.se * scale
         axes.errorbar(table.rates, table.tau_max * scale, yerr=bars, zorder=4, **look)  # type: ignore[arg-type]
         return
     chosen = calibration.candidates[calibration.chosen]

@@ -19,9 +19,11 @@ from probation.report.page import Page, Section, picture
 from probation.report.table import Table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
-    from probation.calibration.paper_relations import PaperRelations
+    from matplotlib.figure import Figure
+
     from probation.calibration.result import Calibration
 
 _LEADS = {
@@ -34,29 +36,43 @@ _LEADS = {
 
 def write_companion_page(calibration: Calibration, path: Path) -> None:
     """Write the page."""
-    sections = [_relations(calibration), _choice(calibration), _use(calibration)]
-    if calibration.paper is not None:
-        sections.insert(2, _paper(calibration.paper))
+    companion_page(calibration, companion_figure(calibration)).write(path)
+
+
+def companion_page(
+    calibration: Calibration, figure: Figure, *, bars: str = "bars of 95 %", further: Sequence[Section] = ()
+) -> Page:
+    """The page, to which a study may add.
+
+    Parameters
+    ----------
+    figure : Figure
+        What `companion_figure` draws.
+    bars : str
+        What its error bars are.
+    further : sequence of Section
+        What stands between the choice of a form and its use.
+    """
+    sections = [_relations(calibration, figure, bars), _choice(calibration), *further, _use(calibration)]
     if calibration.warnings:
         sections.append(Section("What to know", calibration.warnings))
-    Page(
+    return Page(
         title=f"Companion relation of {calibration.source}",
         verdict=calibration.verdict,
         mood="neutral",
         lead=_LEADS[calibration.route],
         sections=tuple(sections),
         provenance=provenance(calibration.data_sha256),
-    ).write(path)
+    )
 
 
-def _relations(calibration: Calibration) -> Section:
-    bars = "; bars of 10 %, as fictitious as in the paper" if calibration.paper is not None else "; bars of 95 %"
-    data = f"Points: τ_max identified at each rate{bars}."
+def _relations(calibration: Calibration, figure: Figure, bars: str) -> Section:
+    data = f"Points: τ_max identified at each rate; {bars}."
     if calibration.route == "direct":
         data = "Black: what each record's own α makes of the chosen relation, over the rates that it runs through."
     caption = f"τ_max (left) and the Weissenberg number (right) against the strain rate: Figure S2. {data}"
     parts: list[object] = [
-        picture(companion_figure(calibration), caption),
+        picture(figure, caption),
         relations_table(calibration),
         residuals_table(calibration),
     ]
@@ -75,51 +91,6 @@ def _choice(calibration: Calibration) -> Section:
     if predicted is not None:
         parts.append(predicted)
     return Section("Which form?", tuple(parts))
-
-
-def _paper(paper: PaperRelations) -> Section:
-    from probation.calibration.table_2 import TABLE_2  # noqa: PLC0415 - only for this page
-
-    names = tuple(paper.percent)
-    rows = [
-        (f"{rate:.3g}", f"{time:.5g}", *(f"{paper.percent[name][at]:+.1f}" for name in names))
-        for at, (rate, time) in enumerate(zip(TABLE_2.rates, TABLE_2.tau_max, strict=True))
-    ]
-    slope, intercept = paper.weissenberg.parameters
-    coefficient, exponent = paper.exponential.parameters
-    errors = paper.weissenberg.covariance
-    assert errors is not None
-    spread = np.sqrt(np.diag(errors))
-    beside = (
-        ("(11) slope", "0.00464", f"{slope:.5f} ± {spread[0]:.5f}"),
-        ("(11) intercept", "0.0367", f"{intercept:.4f} ± {spread[1]:.4f}"),
-        ("(11) R² in We", "0.976", f"{paper.weissenberg.r_squared:.3f}"),
-        ("(12) coefficient [s]", "27.24", f"{coefficient:.2f}"),
-        ("(12) exponent", "−2.1", f"{exponent:.3f}"),
-        ("(12) R² in τ_max", "1", f"{paper.exponential.r_squared:.5f}"),
-    )
-    ratios = tuple(
-        (
-            f"experiment {ratio.experiment}",
-            f"{ratio.printed:.3f}",
-            f"{ratio.as_printed:.3f}",
-            f"{ratio.as_regressed:.3f}",
-        )
-        for ratio in paper.ratios
-    )
-    return Section(
-        "The paper's own relations",
-        (
-            Table(("", "as printed", "regressed from Table 2"), beside),
-            Table(("rate [1/s]", "τ_max [s]", *(f"{name} [%]" for name in names)), tuple(rows), "Errors on Table 2"),
-            Table(
-                ("α with (11) over α with (12)", "Tables 3, 4", "synthetic, 0.0367", "synthetic, regressed"),
-                ratios,
-                "Which intercept were Tables 3 and 4 computed with?",
-            ),
-            *paper.sentences(),
-        ),
-    )
 
 
 def _use(calibration: Calibration) -> Section:

@@ -11,12 +11,14 @@ from probation.report.table import Table
 from probation.wording import percentage, plus_minus
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation.calibration.calibrated import CalibratedCompanion
     from probation.calibration.result import Calibration
 
 
-def companion_summary(calibration: Calibration) -> str:
-    """Verdict first, then the relations, then the scores, then what should be known about them."""
+def companion_summary(calibration: Calibration, further: Sequence[str] = ()) -> str:
+    """Verdict first, then the relations, then the scores, then what should be known about them, `further` last."""
     tables = [
         relations_table(calibration),
         residuals_table(calibration),
@@ -24,10 +26,7 @@ def companion_summary(calibration: Calibration) -> str:
         prediction_table(calibration),
     ]
     parts = [f"{calibration.source}: {calibration.verdict}", *(table.text() for table in tables if table is not None)]
-    notes = notes_on(calibration)
-    if calibration.paper is not None:
-        notes += [*calibration.paper.sentences()]
-    if notes:
+    if notes := [*notes_on(calibration), *further]:
         parts.append("\n".join(f"  {note}" for note in notes))
     if calibration.warnings:
         parts.append("\n".join(f"  warning: {warning}" for warning in calibration.warnings))

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.ticker import LogFormatter
 
-from probation.report.figures import house_style, legend_outside, new_figure, styled_figure, thinned
-from probation.report.style import colour, series_colour
+from probation.report.figures import styled_figure, thinned
+from probation.report.style import colour
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.smoothing.answer import ExcitationAnswer, RecordExcitation
-    from probation.smoothing.comparison import Comparison
     from probation.smoothing.necking import NeckingFit
 
 _TIME = "time [s]"
@@ -163,27 +162,6 @@ def figure_s7(fit: NeckingFit) -> Figure:
 def figure_s8(fit: NeckingFit) -> Figure:
     """The integrated fit of the rate beside the measured strain."""
     return _integration(fit.rate.time, fit.strain.measured, fit.integrated)
-
-
-def comparison_figure(comparison: Comparison) -> Figure:
-    """The error of every method over the noise, one panel per history."""
-    histories = list(dict.fromkeys(key[0] for key in comparison.results))
-    with house_style():
-        rows = -(-len(histories) // 3)
-        figure = new_figure(9.2, 0.6 + 2.7 * rows)
-        panels = np.ravel(figure.subplots(rows, min(3, len(histories)), sharex=True, sharey=True, squeeze=False))
-        for panel, history in zip(panels, histories, strict=False):
-            for at, method in enumerate(comparison.methods):
-                noises, errors = comparison.errors_over_noise(history, method)
-                if noises:
-                    panel.plot(noises, errors, ".-", ms=6, color=series_colour(at), label=method)
-            panel.set(xscale="log", yscale="log", title=history)
-        for panel in panels[len(histories) :]:
-            panel.set_axis_off()
-        figure.supxlabel("strain noise [–]", fontsize=9)
-        figure.supylabel("p95 of the relative error of the rate [%]", fontsize=9)
-        legend_outside(figure, *panels[0].get_legend_handles_labels(), columns=3)
-    return figure
 
 
 def _strain(axes: Axes, answer: RecordExcitation) -> None:

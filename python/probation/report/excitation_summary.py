@@ -1,4 +1,4 @@
-"""The excitation of records, and a comparison of methods, in words and tables."""
+"""The excitation of records in words and tables."""
 
 from __future__ import annotations
 
@@ -6,14 +6,10 @@ from typing import TYPE_CHECKING
 
 from probation.report.table import Table
 from probation.settings.smoothing import SMOOTHING
-from probation.smoothing.comparison import Closeness
 from probation.wording import percentage, plus_minus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from probation.smoothing.answer import ExcitationAnswer, RecordExcitation
-    from probation.smoothing.comparison import Comparison
 
 
 def excitation_summary(answer: ExcitationAnswer) -> str:
@@ -62,42 +58,3 @@ def facts_of(answer: RecordExcitation) -> tuple[tuple[str, str], ...]:
 
 def _correlation(grown: float) -> str:
     return "" if grown <= SMOOTHING.correlated else f", correlated from sample to sample (×{grown:.2g})"
-
-
-def comparison_summary(comparison: Comparison) -> str:
-    """Verdict, then a table of errors, then one of coverage."""
-    return "\n\n".join([comparison.verdict, errors_table(comparison).text(), coverage_table(comparison).text()])
-
-
-def errors_table(comparison: Comparison) -> Table:
-    """p95 and, in brackets, median of the relative error in percent."""
-    return _table(
-        comparison,
-        f"p95 (median) of the relative error of the rate [%], mean of {comparison.draws} draws, seed {comparison.seed}",
-        lambda closeness: f"{_digits(100 * closeness.p95)} ({_digits(100 * closeness.median)})",
-    )
-
-
-def coverage_table(comparison: Comparison) -> Table:
-    """How often the 95 % band holds the truth."""
-    return _table(
-        comparison,
-        "samples whose true rate lies within 1.96 standard errors [%]",
-        lambda closeness: f"{100 * closeness.coverage:.0f}",
-    )
-
-
-def _table(comparison: Comparison, caption: str, cell: Callable[[Closeness], str]) -> Table:
-    rows = []
-    for history in dict.fromkeys(key[0] for key in comparison.results):
-        for noise in comparison.noises:
-            row = [history, f"{noise:g}"]
-            for method in comparison.methods:
-                each = comparison.results[history, noise, method]
-                row.append("–" if isinstance(each, str) else cell(each))
-            rows.append(tuple(row))
-    return Table(("history", "noise", *comparison.methods), tuple(rows), caption)
-
-
-def _digits(percent: float) -> str:
-    return f"{percent:.2f}" if percent < 10.0 else f"{percent:.0f}"

@@ -1,7 +1,8 @@
 """Which function says, draws or writes which result: one line each.
 
 A result is named by its module and class, a renderer by its module in `probation.report` and its function. Both are
-names, so that a summary does not load matplotlib.
+names, so that a summary does not load matplotlib. A result of another package has a class attribute RENDERERS with such
+a line, its renderers named by their full module and function.
 """
 
 from __future__ import annotations
@@ -45,10 +46,6 @@ RENDERERS: dict[str, dict[str, str]] = {
         "plot": "excitation_figures.answer_figure",
         "report": "excitation_page.write_excitation_page",
     },
-    "smoothing.comparison.Comparison": {
-        "summary": "excitation_summary.comparison_summary",
-        "plot": "excitation_figures.comparison_figure",
-    },
     "simulation.Simulation": {
         "card": "cards.simulation_card",
         "line": "cards.simulation_line",
@@ -59,10 +56,6 @@ RENDERERS: dict[str, dict[str, str]] = {
         "summary": "crosscheck_summary.crosscheck_summary",
         "plot": "crosscheck_page.crosscheck_figure",
         "report": "crosscheck_page.write_crosscheck_page",
-    },
-    "identify.coverage.Coverage": {
-        "summary": "coverage_summary.coverage_summary",
-        "plot": "coverage_figure.coverage_figure",
     },
     "diagnosis.result.Diagnosis": {
         "card": "cards.diagnosis_card",
@@ -102,7 +95,7 @@ RENDERERS: dict[str, dict[str, str]] = {
 }
 
 
-FROM_SUMMARY = {"card": "cards.summary_card", "line": "cards.summary_line"}
+FROM_SUMMARY = {"card": "probation.report.cards.summary_card", "line": "probation.report.cards.summary_line"}
 """Of a result that says no more than its summary."""
 
 
@@ -115,8 +108,9 @@ def renderer(result: type, what: str) -> Callable[..., Any]:
     """
     for each in result.__mro__:
         name = f"{each.__module__}.{each.__qualname__}".removeprefix("probation.")
-        if name in RENDERERS:
-            module, _, function = (FROM_SUMMARY | RENDERERS[name])[what].rpartition(".")
-            found: Callable[..., Any] = getattr(import_module(f"probation.report.{module}"), function)
+        here = {offer: f"probation.report.{function}" for offer, function in RENDERERS.get(name, {}).items()}
+        if line := here or vars(each).get("RENDERERS"):
+            module, _, function = (FROM_SUMMARY | line)[what].rpartition(".")
+            found: Callable[..., Any] = getattr(import_module(module), function)
             return found
     raise LookupError(f"{result.__name__} has no line in probation/report/renderers.py")

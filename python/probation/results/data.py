@@ -107,7 +107,7 @@ class Stored:
             If the text is not what `to_json` writes, or its keys do not belong to its `result`.
         """
         with answer_in(text, cls.SCHEMA) as answer:
-            found = decoded(answer[KEY])
+            found = decoded(answer[KEY], cls.__module__.partition(".")[0])
             if not isinstance(found, cls):
                 raise TypeError(f"a {type(found).__name__} under {KEY!r}")
             for key, value in found.to_dict().items():
@@ -154,11 +154,11 @@ def _written_array(value: NDArray[Any], inner: Callable[[Any], Any]) -> dict[str
     return {"is": "array", "type": value.dtype.name, "shape": list(value.shape), "values": values}
 
 
-def _read_array(content: Mapping[str, Any]) -> NDArray[Any]:
+def _read_array(content: Mapping[str, Any], inner: Callable[[Any], Any]) -> NDArray[Any]:
     kind = np.dtype(content["type"])
     if kind.kind not in "biuf":
         raise TypeError(f"an array of {kind.name}")
-    return np.array([decoded(number) for number in content["values"]], dtype=kind).reshape(content["shape"])
+    return np.array([inner(number) for number in content["values"]], dtype=kind).reshape(content["shape"])
 
 
 _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
@@ -173,14 +173,14 @@ _WRITTEN: tuple[tuple[Any, Callable[[Any, Callable[[Any], Any]], Any]], ...] = (
 )
 """What `encoded` writes of each type."""
 
-_READ: dict[str, Callable[[Any], Any]] = {
-    "number": lambda content: float(content["value"]),
-    "list": lambda content: [decoded(entry) for entry in content["values"]],
-    "set": lambda content: frozenset(decoded(entry) for entry in content["values"]),
-    "slice": lambda content: slice(*(decoded(bound) for bound in content["values"])),
-    "path": lambda content: Path(content["value"]),
+_READ: dict[str, Callable[[Any, Callable[[Any], Any]], Any]] = {
+    "number": lambda content, _: float(content["value"]),
+    "list": lambda content, inner: [inner(entry) for entry in content["values"]],
+    "set": lambda content, inner: frozenset(inner(entry) for entry in content["values"]),
+    "slice": lambda content, inner: slice(*(inner(bound) for bound in content["values"])),
+    "path": lambda content, _: Path(content["value"]),
     "array": _read_array,
-    "mapping": lambda content: {decoded(key): decoded(entry) for key, entry in content["values"]},
+    "mapping": lambda content, inner: {inner(key): inner(entry) for key, entry in content["values"]},
 }
 """What `decoded` makes of each of them; any other name is that of a class."""
 
@@ -206,34 +206,43 @@ def _kept(kind: type) -> list[str]:
     return [name for name, attribute in names.items() if isinstance(attribute, from_curves)]
 
 
-def decoded(value: Any) -> Any:
+def decoded(value: Any, package: str = "probation") -> Any:
     """What `encoded` was given; sequences come back as tuples.
+
+    Parameters
+    ----------
+    package : str
+        Whose dataclasses may be made, beside those of the library.
 
     Raises
     ------
     KeyError, TypeError, ValueError
         If it was not written by `encoded`.
     """
+
+    def inner(entry: Any) -> Any:
+        return decoded(entry, package)
+
     if isinstance(value, list):
-        return tuple(decoded(entry) for entry in value)
+        return tuple(inner(entry) for entry in value)
     if not isinstance(value, dict):
         return value
     kind = value.get("is")
     if kind is None:
-        return {key: decoded(entry) for key, entry in value.items()}
+        return {key: inner(entry) for key, entry in value.items()}
     if not isinstance(kind, str):
         raise TypeError(f"{kind!r} as a kind of value")
-    return _READ[kind](value) if kind in _READ else _from_fields(_class_named(kind), value)
+    return _READ[kind](value, inner) if kind in _READ else _from_fields(_class_named(kind, package), value, inner)
 
 
-def _from_fields(kind: Any, content: Mapping[str, Any]) -> Any:
+def _from_fields(kind: Any, content: Mapping[str, Any], inner: Callable[[Any], Any]) -> Any:
     values: dict[str, Any] = {}
     missing = []
     for each in fields(kind):
         if each.name in content and "named_in" in each.metadata:
             values[each.name] = _entry(each, content[each.name])
         elif each.name in content:
-            values[each.name] = decoded(content[each.name])
+            values[each.name] = inner(content[each.name])
         elif "curve" in each.metadata:
             missing.append(each.name)
         elif each.default is MISSING and each.default_factory is MISSING and each.init:
@@ -247,7 +256,7 @@ def _from_fields(kind: Any, content: Mapping[str, Any]) -> Any:
         made = kind(**values)
     kept = [name for name in _kept(kind) if missing or name in content]
     if kept:
-        vars(made).update({name: decoded(content[name]) for name in kept})
+        vars(made).update({name: inner(content[name]) for name in kept})
     return made
 
 
@@ -262,13 +271,14 @@ def _entry(field: Field[Any], name: object) -> Any:
     return getattr(import_module(f"probation.{module}"), table)[name]
 
 
-def _class_named(name: str) -> type:
-    """A frozen dataclass of the package; nothing else can be made from a text."""
+def _class_named(name: str, package: str) -> type:
+    """A frozen dataclass of the library or of that package; nothing else can be made from a text."""
     module, _, known = name.rpartition(".")
     if not all(part.isidentifier() and not part.startswith("_") for part in name.split(".")) or not module:
         raise ValueError(f"{name!r} as a kind of value")
     try:
-        found = getattr(import_module(f"probation.{module}"), known)
+        place = module if name.startswith(f"{package}.") else f"probation.{module}"
+        found = getattr(import_module(place), known)
     except (ImportError, AttributeError):
         raise ValueError(f"{name!r} as a kind of value") from None
     if not (isinstance(found, type) and is_dataclass(found) and found.__dataclass_params__.frozen):  # type: ignore[attr-defined]

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Candidate:
+class SchemeCandidate:
     """One way of solving eq. (6).
 
     Attributes
@@ -38,13 +38,13 @@ class Candidate:
 
 
 CANDIDATES = (
-    Candidate("be2", BE2()),
-    Candidate("be2, paper's start", BE2(start="backward_euler")),
-    Candidate("sa2", SA2()),
-    Candidate("sa3", SA3()),
-    Candidate("exact", Exact()),
-    Candidate("cvode", CVODE()),
-    Candidate("eq. (7)", None),
+    SchemeCandidate("be2", BE2()),
+    SchemeCandidate("be2, paper's start", BE2(start="backward_euler")),
+    SchemeCandidate("sa2", SA2()),
+    SchemeCandidate("sa3", SA3()),
+    SchemeCandidate("exact", Exact()),
+    SchemeCandidate("cvode", CVODE()),
+    SchemeCandidate("eq. (7)", None),
 )
 
 
@@ -106,7 +106,7 @@ _TOLERANCE = 1e-10  # of CVODE, relative, and absolute in MPa
 _LONGEST_TIMING = 0.01  # s, for repeating a solve; one is always done
 
 
-def solve(candidate: Candidate, law: Law, path: StrainPath) -> Solve | None:
+def solve(candidate: SchemeCandidate, law: Law, path: StrainPath) -> Solve | None:
     """Solve once and time it; None where the candidate does not apply."""
     try:
         if candidate.scheme is None:

@@ -10,7 +10,7 @@ from probation.answers import PARAMETER_KEYS
 from probation.errors import InputError
 from probation.law.schemes import BE2
 from probation.progress import shows_progress
-from probation.schemes.candidates import CANDIDATES, Candidate, Solve, solve
+from probation.schemes.candidates import CANDIDATES, SchemeCandidate, Solve, solve
 from probation.schemes.cases import Case, record_case, twin_case
 from probation.schemes.result import CrossCheck, RecordCheck, SchemeCheck
 from probation.schemes.steps import StepStudy, study_steps
@@ -85,7 +85,7 @@ def _check(case: Case, advance: Callable[[str], None]) -> RecordCheck:
     return RecordCheck(case.name, len(case.reference), case.reference_name, tuple(schemes), steps, case.data_sha256)
 
 
-def _scheme_check(case: Case, candidate: Candidate, done: Solve, steps: StepStudy | None) -> SchemeCheck:
+def _scheme_check(case: Case, candidate: SchemeCandidate, done: Solve, steps: StepStudy | None) -> SchemeCheck:
     error = np.full(1, np.nan) if done.true_stress is None else done.true_stress - case.reference
     return SchemeCheck(
         name=candidate.name,

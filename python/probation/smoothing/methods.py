@@ -14,7 +14,7 @@ Method: TypeAlias = str
 
 
 @dataclass(frozen=True)
-class Way:
+class SmoothingMethod:
     """One way.
 
     Attributes
@@ -46,23 +46,23 @@ class Way:
         return cast("LaggingSmoother", self.smooth) if self.lags else None
 
 
-SMOOTHERS: dict[Method, Way] = {
-    "quintic-spline": Way(
+SMOOTHERS: dict[Method, SmoothingMethod] = {
+    "quintic-spline": SmoothingMethod(
         "penalised_spline",
         "smooth_quintic",
         "quintic smoothing spline (generalised cross-validation)",
         lags=True,
     ),
-    "spline": Way(
+    "spline": SmoothingMethod(
         "penalised_spline", "smooth_cubic", "cubic smoothing spline (generalised cross-validation)", lags=True
     ),
-    "savitzky-golay": Way(
+    "savitzky-golay": SmoothingMethod(
         "savitzky_golay", "smooth_savitzky_golay", "local cubics, Savitzky-Golay (generalised cross-validation)"
     ),
-    "necking": Way(
+    "necking": SmoothingMethod(
         "necking", "smooth_necking", "(A-1) and sines through the strain, their derivative", segmented=False
     ),
-    "necking-as-printed": Way(
+    "necking-as-printed": SmoothingMethod(
         "necking",
         "smooth_necking_as_printed",
         "(A-1) and sines through the strain, and through its three-point central difference",

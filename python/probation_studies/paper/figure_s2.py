@@ -8,17 +8,17 @@ import numpy as np
 
 from probation.calibration.companion_forms import FORMS
 from probation.calibration.regression import regress
-from probation.calibration.table_2 import FICTITIOUS_ERROR, TABLE_2
 from probation.identify.fit import fit
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED
 from probation.law.settings import CompanionSettings, LawSettings
-from probation.published.numbers import EXPONENTIAL_R_SQUARED, WEISSENBERG_R_SQUARED
+from probation.published.numbers import EXPONENTIAL_R_SQUARED, FICTITIOUS_ERROR, WEISSENBERG_R_SQUARED
 from probation.records.campaign import Campaign
 from probation.report.figures import styled_figure
 from probation.report.style import colour, series_colour
 from probation.report.table import Table
 from probation_studies.paper.exhibit import Drawing, Exhibit, Settings, compare
 from probation_studies.paper.grip_tests import GRIPS, OPTIONS, PUBLISHED, identified, twin
+from probation_studies.paper.relations import RATE_TABLE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,7 +34,7 @@ _WHY_INTERCEPT = (
 
 def exhibit(settings: Settings) -> Exhibit:
     """Regress both relations on Table 2, and ask Tables 3 and 4 which of (11) they were made with."""
-    eq_11, eq_12 = regress(FORMS["weissenberg"], TABLE_2), regress(FORMS["exponential"], TABLE_2)
+    eq_11, eq_12 = regress(FORMS["weissenberg"], RATE_TABLE), regress(FORMS["exponential"], RATE_TABLE)
     slope, intercept = (float(parameter) for parameter in eq_11.parameters)
     coefficient, exponent = (float(parameter) for parameter in eq_12.parameters)
     comparisons = [
@@ -61,7 +61,8 @@ def exhibit(settings: Settings) -> Exhibit:
         "(11) regressed on Table 2": eq_11.relation,
     }
     percent = {
-        name: 100.0 * (each.relaxation_time(TABLE_2.rates) / TABLE_2.tau_max - 1.0) for name, each in drawn.items()
+        name: 100.0 * (each.relaxation_time(RATE_TABLE.rates) / RATE_TABLE.tau_max - 1.0)
+        for name, each in drawn.items()
     }
     low = -percent["(11) as printed"]
     fast = ", ".join(f"{each:+.1f}" for each in percent["(12) as printed"][-3:])
@@ -106,9 +107,10 @@ def _figure(drawn: dict[str, Companion]) -> Figure:
         times, numbers = figure.subplots(1, 2)
         rates = np.geomspace(3e-5, 2e-2, 200)
         points = {"color": colour("data"), "fmt": "o", "ms": 4.5, "capsize": 2.5, "lw": 1.0, "zorder": 3}
-        weissenberg = TABLE_2.tau_max * TABLE_2.rates
-        times.errorbar(TABLE_2.rates, TABLE_2.tau_max, FICTITIOUS_ERROR * TABLE_2.tau_max, label="Table 2", **points)
-        numbers.errorbar(TABLE_2.rates, weissenberg, FICTITIOUS_ERROR * weissenberg, **points)
+        table = RATE_TABLE
+        weissenberg = table.tau_max * table.rates
+        times.errorbar(table.rates, table.tau_max, FICTITIOUS_ERROR * table.tau_max, label="Table 2", **points)
+        numbers.errorbar(table.rates, weissenberg, FICTITIOUS_ERROR * weissenberg, **points)
         for at, (name, each) in enumerate(drawn.items()):
             style = ("--", "-", ":")[at]
             times.plot(rates, each.relaxation_time(rates), style, color=series_colour(at), label=name)

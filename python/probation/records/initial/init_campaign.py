@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import Any, Unpack, cast
+from typing import Any, ClassVar, Unpack, cast
 
 from probation._complaint import quoted, suggestion
 from probation._files import check_folder_place, kind_of, make_folder, read_whole, write_whole
@@ -21,6 +21,7 @@ from probation.records.opening import chosen_tables, open_file
 from probation.records.options import SPECIMEN_KEYS, ReadingKeys, read_options
 from probation.records.reading import assemble_all
 from probation.records.record import CONTROLS, RECORD_ROLES, Record
+from probation.results.data import Stored
 from probation.results.rendering import Result
 
 Ask = Callable[[Question], str]
@@ -28,10 +29,11 @@ PAGE_NAME = "records.html"
 
 
 @dataclass(frozen=True, eq=False)
-class InitialCampaign(Result):
+class InitialCampaign(Result, Stored):
     """A campaign that was made of files.
 
-    `plot` draws every record, `report` writes them as a page.
+    `plot` draws every record, `report` writes them as a page. In JSON the records are whole, as the summary draws them,
+    too.
 
     Attributes
     ----------
@@ -41,9 +43,19 @@ class InitialCampaign(Result):
         By record: file, profile, and which column is which.
     """
 
+    SCHEMA: ClassVar[str] = "probation.initial-campaign/1"
+
     campaign: Campaign
     folder: Path
     reads: dict[str, str]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What was written, as Python objects."""
+        return {
+            "folder": str(self.folder),
+            "campaign": self.campaign.name,
+            "records": [{**record.to_dict(), "read": self.reads[record.id]} for record in self.campaign.records],
+        }
 
 
 @shows_progress

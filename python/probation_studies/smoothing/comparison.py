@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -13,9 +13,9 @@ from probation.records.record import Record
 from probation.results.data import Stored
 from probation.results.rendering import Plotted, Summarised
 from probation.smoothing.excitation import excite
-from probation.smoothing.known_histories import KNOWN_HISTORIES
 from probation.smoothing.methods import DEFAULT, SMOOTHERS
 from probation.wording import percentage
+from probation_studies.smoothing.known_histories import KNOWN_HISTORIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -65,6 +65,10 @@ class Comparison(Summarised, Plotted, Stored):
     """
 
     SCHEMA = "probation.excitation-comparison/1"
+    RENDERERS: ClassVar = {
+        "summary": "probation_studies.smoothing.summary.comparison_summary",
+        "plot": "probation_studies.smoothing.figure.comparison_figure",
+    }
 
     results: dict[Key, Closeness | str]
     noises: tuple[float, ...]

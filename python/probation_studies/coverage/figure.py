@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.identify.coverage import TRUTH
 from probation.inference.parameter import SYMBOLS
 from probation.report.figures import legend_outside, styled_figure
 from probation.report.style import colour, series_colour
 from probation.settings.identification import IDENTIFICATION
+from probation_studies.coverage.study import TRUTH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from probation.identify.coverage import Coverage
+    from probation_studies.coverage.study import Coverage
 
 
 def coverage_figure(coverage: Coverage) -> Figure:

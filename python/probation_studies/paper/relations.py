@@ -11,22 +11,24 @@ import numpy as np
 from probation.calibration.companion_forms import FORMS
 from probation.calibration.direct import DirectProblem
 from probation.calibration.left_out import record_alpha
+from probation.calibration.rate_table import RateTable
 from probation.calibration.regression import Regression, regress
-from probation.calibration.table_2 import PRINTED_WEISSENBERG, TABLE_2
 from probation.law.companion import EXPONENTIAL_AS_PRINTED, WEISSENBERG_AS_PRINTED, Companion
 from probation.law.settings import LawSettings
 from probation.published.experiments import experiment
+from probation.published.numbers import STRAIN_RATE, TABLE_1, TABLE_2, UNRELAXED_MODULUS
+from probation_studies.paper.grip_tests import PUBLISHED
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-PRINTED_ALPHAS = {2: (1.11, 0.928), 3: (1.045, 0.855)}
-"""alpha identified on experiments 2 and 3 with (11) and with (12): Tables 3 and 4, identifications 2 and 3."""
-
-EXPERIMENT_1 = (0.005, 5.207)
-"""Strain rate [1/s] and tau_max [s] of experiment 1: Table 1, identification 2."""
-
-_HELD_MODULUS = 3220.0  # MPa, as in Tables 3 and 4
+RATE_TABLE = RateTable(
+    rates=np.array([row.strain_rate for row in TABLE_2]),
+    tau_max=np.array([row.tau_max for row in TABLE_2]),
+    hardening_modulus=np.array([row.hardening_modulus for row in TABLE_2]),
+    source="Table 2 (André et al.)",
+)
+"""Table 2: averages over specimens, published without standard errors."""
 
 
 @dataclass(frozen=True)
@@ -71,10 +73,19 @@ class PaperRelations:
     anchored_intercept: float
     ratios: tuple[AlphaRatio, ...]
 
+    def to_dict(self) -> dict[str, object]:
+        """Numbers and findings."""
+        return {
+            "percent": self.percent,
+            "anchored_intercept": self.anchored_intercept,
+            "alpha_ratios": [vars(ratio) for ratio in self.ratios],
+            "findings": self.sentences(),
+        }
+
     def sentences(self) -> tuple[str, ...]:
         """The findings, for people."""
         slope, intercept = self.weissenberg.parameters
-        rate, tau_max = EXPERIMENT_1
+        rate, tau_max = STRAIN_RATE, TABLE_1[2].time.value
         own = float(WEISSENBERG_AS_PRINTED.relaxation_time([rate])[0])
         printed, eq_12 = self.percent["(11) as printed"], self.percent["(12) as printed"]
         ratios = " and ".join(f"{ratio.printed:.3f}" for ratio in self.ratios)
@@ -101,9 +112,9 @@ class PaperRelations:
 @cache
 def paper_relations() -> PaperRelations:
     """Compute the findings: three regressions of Table 2, six identifications of alpha on the synthetic data."""
-    weissenberg, exponential = (regress(FORMS[name], TABLE_2) for name in ("weissenberg", "exponential"))
-    power = regress(FORMS["power"], TABLE_2)
-    rounded = np.polyfit(np.log10(TABLE_2.rates), PRINTED_WEISSENBERG, 1)
+    weissenberg, exponential = (regress(FORMS[name], RATE_TABLE) for name in ("weissenberg", "exponential"))
+    power = regress(FORMS["power"], RATE_TABLE)
+    rounded = np.polyfit(np.log10(RATE_TABLE.rates), [row.weissenberg for row in TABLE_2], 1)
     relations = {
         "(11) as printed": WEISSENBERG_AS_PRINTED,
         "(11) regressed": weissenberg.relation,
@@ -111,7 +122,7 @@ def paper_relations() -> PaperRelations:
         "(12) regressed": exponential.relation,
         "power law": power.relation,
     }
-    rate, tau_max = EXPERIMENT_1
+    rate, tau_max = STRAIN_RATE, TABLE_1[2].time.value
     return PaperRelations(
         weissenberg,
         exponential,
@@ -123,17 +134,17 @@ def paper_relations() -> PaperRelations:
 
 
 def _percent(relation: Companion) -> FloatArray:
-    return np.asarray(100.0 * (relation.relaxation_time(TABLE_2.rates) / TABLE_2.tau_max - 1.0))
+    return np.asarray(100.0 * (relation.relaxation_time(RATE_TABLE.rates) / RATE_TABLE.tau_max - 1.0))
 
 
 def _printed_r_squared() -> float:
-    left = TABLE_2.tau_max - EXPONENTIAL_AS_PRINTED.relaxation_time(TABLE_2.rates)
-    return 1.0 - float(left @ left) / float(np.sum((TABLE_2.tau_max - TABLE_2.tau_max.mean()) ** 2))
+    left = RATE_TABLE.tau_max - EXPONENTIAL_AS_PRINTED.relaxation_time(RATE_TABLE.rates)
+    return 1.0 - float(left @ left) / float(np.sum((RATE_TABLE.tau_max - RATE_TABLE.tau_max.mean()) ** 2))
 
 
 def _ratio(number: Literal[2, 3], regressed: Companion) -> AlphaRatio:
     """Identify alpha on one synthetic record with each relation, E_u held as in the paper."""
-    with_11, with_12 = PRINTED_ALPHAS[number]
+    with_11, with_12 = (PUBLISHED[number].identifications[row].time.value for row in (2, 3))
     printed, own, other = (
         _alpha(number, relation) for relation in (WEISSENBERG_AS_PRINTED, regressed, EXPONENTIAL_AS_PRINTED)
     )
@@ -142,4 +153,4 @@ def _ratio(number: Literal[2, 3], regressed: Companion) -> AlphaRatio:
 
 def _alpha(number: Literal[2, 3], relation: Companion) -> float:
     problem = DirectProblem([experiment(number).record()], LawSettings(), "sa3", "by-record")
-    return float(np.exp(record_alpha(problem, 0, relation, _HELD_MODULUS).log_alpha))
+    return float(np.exp(record_alpha(problem, 0, relation, UNRELAXED_MODULUS).log_alpha))

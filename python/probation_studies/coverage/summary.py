@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from probation.identify.coverage import TRUTH
 from probation.inference.parameter import SYMBOLS
 from probation.report.table import Table
+from probation_studies.coverage.study import TRUTH
 
 if TYPE_CHECKING:
-    from probation.identify.coverage import Coverage
+    from probation_studies.coverage.study import Coverage
 
 
 def coverage_summary(coverage: Coverage) -> str:

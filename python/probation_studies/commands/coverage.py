@@ -36,7 +36,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from probation.identify.coverage import study  # noqa: PLC0415 - see the package
+    from probation_studies.coverage.study import study  # noqa: PLC0415 - see the package
 
     with shown("counting") as advance:
         answer = study(

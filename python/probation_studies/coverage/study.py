@@ -10,7 +10,7 @@ import json
 from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from scipy.special import betaincinv
@@ -143,6 +143,10 @@ class Coverage(Summarised, Plotted, Stored):
     """
 
     SCHEMA = "probation.coverage/1"
+    RENDERERS: ClassVar = {
+        "summary": "probation_studies.coverage.summary.coverage_summary",
+        "plot": "probation_studies.coverage.figure.coverage_figure",
+    }
 
     counted: tuple[Counted, ...]
     seed: int

@@ -1,0 +1,1 @@
+"""How close methods of smoothing come to a strain rate that is known."""
