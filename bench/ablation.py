@@ -72,7 +72,7 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     },
     "judging again with the noise of the best": {"search.reconsidered": 1},
     "additions to more than the best explanation": {"search.extended_explanations": 1, "search.additions": 3},
-    "an unknown beside more than two explanations": {"search.with_unknown": 2, "search.fewer_with_unknown": 1},
+    "an unknown in addition to more than two explanations": {"search.with_unknown": 2, "search.fewer_with_unknown": 1},
 }
 """Groups of chosen or calibrated settings, with the values by which they have no say."""
 

@@ -114,7 +114,7 @@ def main() -> None:
         "Aims": aims(content, reasons(given.reasons)),
         "By detectability": detection(board),
         "By stratum": strata(board),
-        "Beside other answers": beside(content["scores"]),
+        "Compared with other answers": beside(content["scores"]),
         "Reliability": reliability(board),
         "Confusions": confusions(board),
     }

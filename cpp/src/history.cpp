@@ -31,7 +31,7 @@ void require_length(Index found, Index expected, const char* argument) {
                    std::to_string(expected) + " are needed to match time");
 }
 
-/// By how much a step may differ from the first of an even stretch. Times read from a file or made by
+/// By how much a step may differ from the first of an even segment. Times read from a file or made by
 /// linspace are even to rounding only: the limit is relative to the times around it, since later times must
 /// not change it.
 double evenness(double step, double time, double other_time) {
@@ -56,7 +56,7 @@ void History::assign(const Samples& time, const Samples& true_strain, const Samp
   const bool even = check();
   jumps_ = std::move(jumps);
   mark_fresh();
-  find_stretches(even);
+  find_segments(even);
 }
 
 void History::assign(FindJumps, const Samples& time, const Samples& true_strain, const Samples& strain_rate,
@@ -65,7 +65,7 @@ void History::assign(FindJumps, const Samples& time, const Samples& true_strain,
   const bool even = check();
   jumps_ = find_rate_jumps(time_, true_strain_);
   mark_fresh();
-  find_stretches(even);
+  find_segments(even);
 }
 
 void History::take(const Samples& time, const Samples& true_strain, const Samples& strain_rate,
@@ -108,7 +108,7 @@ void History::mark_fresh() {
   }
 }
 
-void History::find_stretches(bool even) {
+void History::find_segments(bool even) {
   step_.resize(steps());
   uniform_until_.resize(static_cast<std::size_t>(steps()));
   const auto end_of = [&](Index m) {
@@ -126,7 +126,7 @@ void History::find_stretches(bool even) {
   };
   for (Index m = 0; m < steps();) {
     const Index end = end_of(m);
-    // A clock since 1970 ticks in 2e-7 s: the mean of the stretch knows its step better than any one
+    // A clock since 1970 ticks in 2e-7 s: the mean of the segment knows its step better than any one
     // difference.
     step_.segment(m, end - m).setConstant((time_[end] - time_[m]) / static_cast<double>(end - m));
     std::fill(uniform_until_.begin() + m, uniform_until_.begin() + end, end);

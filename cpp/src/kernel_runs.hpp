@@ -10,7 +10,7 @@
 
 namespace probation {
 
-/// Calls take(first, count, uniform) for stretches of steps that one kernel call can do.
+/// Calls take(first, count, uniform) for runs of steps that one kernel call can do.
 template <class Take>
 void for_each_run(const History& history, const std::vector<StepRule>& rule, bool constant_scale, Take take) {
   constexpr Eigen::Index shortest_uniform = 8;

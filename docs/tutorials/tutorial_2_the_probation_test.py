@@ -165,8 +165,8 @@ certificate.plot()
 # ------------------------
 #
 # Now let the fast test harden less: G falls from 1.8 to 1.5 MPa, as if the specimen had warmed.
-# Each record by itself is still fitted to the noise: fits of single records would not have told
-# us, and one fit to all shows a bias, but not which parameter. The verdict is one of
+# Each record by itself is still fitted to the noise: fits of single records would not show
+# it, and one fit to all shows a bias, but not which parameter. The verdict is one of
 # ``intrinsic``, ``intrinsic_except`` (all parameters but the one that the reason names) and
 # ``not_intrinsic``.
 

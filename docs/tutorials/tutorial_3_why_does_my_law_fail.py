@@ -127,13 +127,13 @@ diagnosis.plot()
 # Which effect, and what else could it be?
 # ----------------------------------------
 #
-# Every effect is refitted together with the law, because the parameters of the law bend to hide
-# part of it. The probability weighs how well the effect explains the records against how many
-# ways it has to do so. The starred lines are the *credible set*: what these records cannot tell
-# apart. The headline's probability is that the effect is *part* of the explanation, alone or
-# with another; a bar is one explanation. So the first may be larger than any bar. What is left
-# to it are pairs with a second effect too small to show: nothing speaks against them, nothing
-# for them, and the set leaves them out.
+# Every effect is refitted together with the law, because the parameters of the law bend to
+# hide part of it. The probability weighs how well the effect explains the records against how
+# many ways it has to do so. The starred lines are the *credible set*: these records do not
+# distinguish them. The headline's probability is that the effect is *part* of the explanation,
+# alone or with another; a bar is one explanation. So the first may be larger than any bar.
+# What is left to it are pairs with a second effect too small to show: nothing speaks against
+# them, nothing for them, and the set leaves them out.
 
 probability_figure(diagnosis)
 
@@ -218,7 +218,7 @@ for explanation in fewer.explanations[:3]:
 # Next
 # ----
 #
-# - What can these tests tell apart at all? ``probation diagnose tutorial-3/warm
+# - What can these tests distinguish at all? ``probation diagnose tutorial-3/warm
 #   --isolability``. What would planned ones? ``probation plan`` (:doc:`/isolability`).
 # - How an answer is reached: :doc:`/diagnosis-method`; how often it is right:
 #   :doc:`/blind-results`.

@@ -15,8 +15,8 @@ law alone.
 # The law
 # -------
 #
-# A *standard linear solid*: a spring beside a Maxwell element, the simplest solid that
-# relaxes. A law is a function of time [s], true strain, its parameters in an order of
+# A *standard linear solid*: a spring in parallel with a Maxwell element, the simplest solid
+# that relaxes. A law is a function of time [s], true strain, its parameters in an order of
 # yours, and a ``modification``. It gives the true stress [MPa], one value for each sample.
 #
 # The modification is what makes a diagnosis of the material possible: it says what an

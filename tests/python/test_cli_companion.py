@@ -73,7 +73,7 @@ def test_a_campaign_is_written_with_its_relation_and_can_be_fitted(campaign, tmp
     assert abs(alpha["value"] - 1.0) < 4 * alpha["se"]
 
 
-def test_data_files_stand_in_for_a_campaign_and_each_is_foretold_by_the_right_form_only(campaign, tmp_path, capsys):
+def test_data_files_stand_in_for_a_campaign_and_each_is_predicted_by_the_right_form_only(campaign, tmp_path, capsys):
     files = sorted(str(path) for path in campaign.glob("*.csv"))
     page, plot = tmp_path / "a.html", tmp_path / "a.svg"
     outputs = ["--json", "-", f"--report={page}", f"--plot={plot}"]
@@ -81,7 +81,7 @@ def test_data_files_stand_in_for_a_campaign_and_each_is_foretold_by_the_right_fo
     told = json.loads(capsys.readouterr().out)
     assert told["route"] == "direct"
     assert told["chosen"] == "weissenberg"
-    middle = {each["form"]: each for each in told["foretold"] if each["record"] == "ramp-1"}
+    middle = {each["form"]: each for each in told["predicted"] if each["record"] == "ramp-1"}
     assert middle["weissenberg"]["rms_MPa"] == pytest.approx(0.04, rel=0.3)  # nothing adjusted: the noise is left
     assert middle["power"]["rms_MPa"] > 0.1
     assert middle["constant"]["hardening_free_rms_MPa"] > 1.0

@@ -136,7 +136,7 @@ def test_on_one_ramp_damage_cannot_be_told_from_a_slow_loss_and_both_are_checked
     found = diagnosed(few_records(damage(0.05), names=("middle",)), effects=["damage", "slow_process"])
     assert_sound(found)
     assert {("damage",), ("slow_process",)} <= set(found.answer_set) <= {("damage",), ("slow_process",), ("unknown",)}
-    assert "cannot tell it from" in found.headline
+    assert "cannot distinguish it from" in found.headline
     for each in found.explanations:
         assert (each.checks is not None) == (each.effects in found.answer_set and each.effects != ("unknown",))
 

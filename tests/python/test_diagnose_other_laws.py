@@ -40,7 +40,7 @@ def test_a_maxwell_bar_that_is_one_has_no_gap():
 
 
 def test_nothing_is_held_in_a_law_of_ones_own():
-    with pytest.raises(probation.InputError, match="hold: found modulus_MPa beside law=, expected one of the two"):
+    with pytest.raises(probation.InputError, match="hold: found modulus_MPa together with law=, expected one"):
         probation.diagnose(campaign(), law=maxwell_bar(), hold={"modulus_MPa": 1200.0})
 
 

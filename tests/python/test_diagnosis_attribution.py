@@ -48,7 +48,7 @@ def test_each_effect_has_its_probability_its_records_and_what_it_closes_in_any_o
     assert smaller.records == ("middle",)
     for each in (larger, smaller):
         assert each.probability > 0.9
-        assert min(each.alone, each.beside) <= each.share <= max(each.alone, each.beside)
+        assert min(each.alone, each.in_addition) <= each.share <= max(each.alone, each.in_addition)
 
 
 def test_the_probability_of_an_effect_is_summed_over_all_explanations_that_hold_it(two_effects):

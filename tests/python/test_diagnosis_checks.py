@@ -47,7 +47,7 @@ def explained(views, effect=None, records=None):
     return Hypothesis(found, unasked), base, problem.whitened(base)
 
 
-def test_a_record_left_out_is_foretold_as_by_a_fit_without_it():
+def test_a_record_left_out_is_predicted_as_by_a_fit_without_it():
     """Ordinary least squares on the other three, their parameters put into the fourth."""
     views = recorded((2.0, 2.0, 3.0, 2.0))
     hypothesis, _, whitened = explained(views)
@@ -132,7 +132,7 @@ def test_a_true_effect_foretells_the_records_that_are_left_out_and_wants_one_amp
     assert found.notes == ()
 
 
-def test_amplitudes_that_differ_are_noted_and_records_left_out_are_foretold_poorly():
+def test_amplitudes_that_differ_are_noted_and_records_left_out_are_predicted_poorly():
     hypothesis, base, whitened = explained(recorded((20.0, -18.0, 19.0, -15.0)))
     found = checks(hypothesis, base, whitened, 0.4)
     assert found.left_out < 0.5
@@ -147,7 +147,7 @@ def test_records_are_left_out_only_where_there_are_three_and_the_explanation_sit
     assert (alone.left_out, alone.amplitude_p_value) == (None, None)
 
 
-def test_without_a_gap_nothing_can_be_foretold_better():
+def test_without_a_gap_nothing_can_be_predicted_better():
     assert checks(*explained(recorded((0.0,) * 4)), 0.4).left_out is None
 
 

@@ -150,7 +150,7 @@ def test_a_short_record_has_one_colour_per_sample():
     assert levels_of(np.array([5.0, -5.0, 0.0]), np.ones(3)) == [2, -2, 0]
 
 
-def test_bars_always_show_none_and_unknown_and_star_what_cannot_be_told_apart():
+def test_bars_always_show_none_and_unknown_and_star_what_cannot_be_distinguished():
     axes = probability_figure(made_up.self_heating()).axes[0]
     names = [label.get_text().replace("\n", " ") for label in axes.get_yticklabels()]
     assert "no effect is needed" in names

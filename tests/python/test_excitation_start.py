@@ -81,7 +81,7 @@ def test_an_average_that_the_curve_of_one_record_hides_is_known_from_the_others(
     assert together.noise_inflation == pytest.approx(9.0, rel=0.35)
     errors = [np.sqrt(np.mean((found.true_strain - strains["neck"]) ** 2)) for found in (alone, together)]
     assert errors[1] < errors[0]
-    assert next(excite_each(records[:1], beside=records[1:])).freedom == together.freedom
+    assert next(excite_each(records[:1], further=records[1:])).freedom == together.freedom
 
 
 def test_averaged_noise_makes_no_jumps_of_the_rate():

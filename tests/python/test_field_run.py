@@ -59,7 +59,7 @@ def same(maps, others):
 
 def test_the_example_s_material_comes_back_as_near_as_is_told(example, precise):
     """95 % intervals hold the truth: of n pixels, within 3.3 binomial deviations (one in a thousand) of 95 %."""
-    found = precise.beside(example[1])
+    found = precise.compared_with(example[1])
     count = np.count_nonzero(precise.identified)
     assert count > 200
     product = found.closeness[0]
@@ -74,7 +74,7 @@ def test_intervals_hold_the_truth_however_far_apart_the_samples_are(times, tmp_p
     """Steps of 4.5 and 2.2 s at a tau_max of 5 s: bE2 takes the steps between the samples that it needs."""
     field, truth = make_example(tmp_path, size=24, times=times, processes=1)
     identify_field(field, tmp_path / "maps.zarr", pixels=1024, processes=1, threads=1)
-    maps = open_maps(tmp_path / "maps.zarr").beside(truth)
+    maps = open_maps(tmp_path / "maps.zarr").compared_with(truth)
     assert maps.run["scheme"] == "be2"
     assert maps.substeps[0] > 1
     count = np.count_nonzero(maps.identified)
@@ -84,7 +84,7 @@ def test_intervals_hold_the_truth_however_far_apart_the_samples_are(times, tmp_p
 
 
 def test_maps_come_back_from_json_with_their_text_and_with_curves_with_their_figure(example, whole):
-    maps = whole.beside(example[1])
+    maps = whole.compared_with(example[1])
     again = FieldMaps.from_json(maps.to_json())
     assert again.to_json() == maps.to_json()
     assert again.summary() == maps.summary()
@@ -221,7 +221,7 @@ def test_the_command_on_a_cluster_then_in_words_pictures_and_json(cluster, examp
     page = tmp_path / "maps.html"
     arguments = ["--truth", str(example[1]), "--json", str(answer), "--plot", str(picture), "--report", str(page)]
     assert main(["field", "map", str(out), *arguments]) == 0
-    assert "beside the truth" in capsys.readouterr().out
+    assert "against the truth" in capsys.readouterr().out
     assert " of 256 pixels identified" in page.read_text(encoding="utf-8")
     content = json.loads(answer.read_text())
     assert content["schema"] == "probation.field/1"

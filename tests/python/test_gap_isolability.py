@@ -125,7 +125,7 @@ def test_a_gain_hides_in_the_modulus_and_says_so():
     assert "modulus_MPa by +2 %" in found.sentence
 
 
-def test_orthogonal_waves_are_told_apart_and_equal_ones_are_not():
+def test_orthogonal_waves_are_discriminated_and_equal_ones_are_not():
     """Whole waves: orthogonal to each other, nearly so to the ramp; b is a over again at twice the unit."""
     effects = [
         made_up("a", wave(20)),
@@ -143,7 +143,7 @@ def test_orthogonal_waves_are_told_apart_and_equal_ones_are_not():
     np.testing.assert_allclose(np.diag(found.probability), 1.0)
 
 
-def test_opposite_signs_are_told_apart():
+def test_opposite_signs_are_discriminated():
     """The same wave, one up only, the other down only."""
     up, down = made_up("up", wave(20), lower=0.0), made_up("down", wave(20), upper=0.0)
     found = analysed([up, down])

@@ -294,7 +294,7 @@ def drift_or_hardening():
     return model, explanations, next_test(model, explanations, noises=white_noise(model.views, SIGMA))
 
 
-def test_drift_of_the_force_and_hardening_are_told_apart_without_a_specimen(drift_or_hardening):
+def test_drift_of_the_force_and_hardening_are_discriminated_without_a_specimen(drift_or_hardening):
     """The zero-load hold shows the drift alone, and takes no specimen."""
     _, explanations, found = drift_or_hardening
     assert max(chance for *_, chance, _ in explanations) < 0.95

@@ -190,7 +190,7 @@ def test_a_short_elastic_record_does_not_determine_the_law():
     assert answer.verdict.startswith("Not all parameters")
 
 
-def test_noise_and_bias_are_told_apart():
+def test_noise_and_bias_are_distinguished():
     """A wave of 1 MPa (rms 0.71) over 0.04 MPa of noise: the bias is most of it."""
     record = ramp_record(samples=2001)
     wavy = Record("w", record.time, record.true_strain, record.true_stress + np.sin(record.time / 20.0))

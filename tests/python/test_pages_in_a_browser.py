@@ -42,7 +42,7 @@ def written(name, folder):
     elif name == "maps of a field":
         field, truth = make_example(folder, size=8, times=60, processes=1)
         identify_field(field, folder / "maps.zarr", processes=1, threads=1)
-        open_maps(folder / "maps.zarr").beside(truth).report(path)
+        open_maps(folder / "maps.zarr").compared_with(truth).report(path)
     elif name == "demonstration":
         demonstration().report(path)
     elif name == "diagnosis of the demonstration":  # by all effects of the catalogue

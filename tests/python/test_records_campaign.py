@@ -235,7 +235,7 @@ def test_a_bad_record_is_refused_by_its_own_file(refusal, folder):
     assert refusal(ENTRY).startswith("a.csv, row 7, column 'true_strain': found 'x'")
 
 
-def test_a_missing_folder_and_a_folder_without_campaign_are_told_apart(tmp_path):
+def test_a_missing_folder_and_a_folder_without_campaign_are_distinguished(tmp_path):
     with pytest.raises(InputError, match="found no such file or folder"):
         Campaign.load(tmp_path / "nowhere")
     with pytest.raises(InputError, match=r"found no campaign\.toml, expected a campaign folder"):

@@ -41,9 +41,12 @@ def test_the_page_of_settings_is_what_they_say():
 
 STATISTICS = (
     *("noise", "detection", "smoothing", "effects", "inference", "design"),
-    *("identify", "certificate", "calibration", "diagnosis", "comparison"),
+    *("identify", "certificate", "calibration", "diagnosis", "comparison", "field"),
 )
-"""Rooms whose constants stand in the settings. Priors of effects stand in their catalogue, each with its reason."""
+"""Rooms whose constants stand in the settings.
+
+Priors of effects stand in their catalogue, each with its reason; the example of a field is data.
+"""
 
 NUMERICAL = {
     "effects/instants.py": {"_EVEN"},
@@ -53,7 +56,7 @@ NUMERICAL = {
     "noise/local_noise.py": {"MEMORY"},
     "noise/local_size.py": {"MEDIAN_OF_NORMAL"},
     "noise/span.py": {"DEPENDENT", "HARDLY_NEW"},
-    "noise/white_level.py": {"LEAST", "MOST", "FINE"},
+    "noise/white_level.py": {"FINE"},
     "noise/whitener.py": {"LEAST_SHARED"},
     "detection/gap_test.py": {"ABSORBED"},
     "detection/strain_periodic.py": {"FINE", "GRID"},
@@ -62,9 +65,7 @@ NUMERICAL = {
     "smoothing/comparison.py": {"NOISES", "DRAWS", "AIM"},
     "smoothing/known_histories.py": {"SAMPLES", "_SLOW", "_FAST", "_DURATION", "_JUMP"},
     "smoothing/necking.py": {"REFINED"},
-    "smoothing/penalised_spline.py": {
-        *("FEWEST_KNOTS", "MOST_KNOTS", "ALL_KNOTS", "LEAST_TURNS", "COARSE", "TRENDS", "WANDERS", "NEIGHBOURHOOD")
-    },
+    "smoothing/penalised_spline.py": {"FEWEST_KNOTS", "MOST_KNOTS", "ALL_KNOTS", "LEAST_TURNS", "COARSE"},
     "smoothing/savitzky_golay.py": {"WINDOWS", "EVEN", "AT_ONCE"},
     "smoothing/smoothed.py": {"ROUNDS"},
     "effects/coordinate.py": {"NEARLY"},
@@ -99,12 +100,11 @@ NUMERICAL = {
     "identify/base_law.py": {"START"},
     "identify/coverage.py": {"TRUTH", "STRAIN_RATE", "END_STRAIN", "SAMPLES", "CASES"},
     "identify/draws.py": {"ROUNDS"},
-    "identify/ends.py": {"BEYOND"},
     "identify/fit.py": {"PARAMETERS"},
-    "identify/profile.py": {"FIRST_STEP", "FARTHEST", "MOST_POINTS", "FINE_ENOUGH"},
+    "identify/profile.py": {"FIRST_STEP", "MOST_POINTS", "FINE_ENOUGH"},
     "identify/scheme_error.py": {"ENOUGH_INSTANTS"},
     "identify/search.py": {"FINE", "LONGEST_STEP", "ZERO"},
-    "identify/variable_projection.py": {"POINTS", "NEARBY", "EDGE"},
+    "identify/variable_projection.py": {"POINTS", "NEARBY"},
     "identify/weighting.py": {"SMALL_STEP", "ROUGH_STEP"},
     "certificate/bias.py": {"LENGTHS", "RATIOS"},
     "certificate/trial.py": {"LATE", "PARAMETERS"},
@@ -117,6 +117,11 @@ NUMERICAL = {
     "diagnosis/headline.py": {"MOST_RIVALS"},
     "diagnosis/search.py": {"_USUAL"},
     "comparison/measured_law.py": {"ROUNDING", "TINY"},
+    "field/block.py": {"SEED"},
+    "field/fingerprint.py": {"PIECE", "PIECES"},
+    "field/identify.py": {"PIXELS"},
+    "field/source.py": {"SHOWN_REASON", "UNITS"},
+    "field/store.py": {"_MARK", "_RUN"},
 }
 """Constants of modules: steps, grids and ends of numerical methods, rounding, closed forms, histories, words."""
 
@@ -169,6 +174,11 @@ IN_FUNCTIONS = {
     "calibration/record_fits.py": {50.0},  # the median; rounds
     "calibration/result.py": {0.975},
     "diagnosis/calibration_check.py": {10.0},  # digits
+    "field/identify.py": {157, 160},  # words
+    "field/maps.py": {0.05, 0.95},  # the percentiles that the key of the answer names
+    "field/smoothing.py": {10.0, 64},  # the base of the exponents; a cache
+    "field/status.py": {20},  # a code
+    "field/store.py": {60},  # words
     "comparison/measured_law.py": {40},  # finer intervals than any record has
 }
 """Numbers in functions that have no say in an answer, or belong to a formula."""
@@ -179,7 +189,7 @@ FORMULAS = {0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 100.0}
 def _sources():
     for room in STATISTICS:
         for path in sorted((PACKAGE / room).rglob("*.py")):
-            if "catalogue" not in path.parts:
+            if not {"catalogue", "example"} & {*path.parts}:
                 yield path.relative_to(PACKAGE).as_posix(), ast.parse(path.read_text(encoding="utf-8"))
 
 
@@ -220,3 +230,33 @@ def test_no_number_in_a_function_has_a_say_of_its_own():
                 }
                 found[path] = found.get(path, set()) | own
     assert {path: numbers for path, numbers in found.items() if numbers} == IN_FUNCTIONS
+
+
+EXPLAINED = ("records", "schemes", "law", "effects/catalogue")
+"""Rooms whose own constants stay where they are used, each with a comment or a docstring that says what it is."""
+
+
+def _unexplained(path):
+    """Names of a module's constants without either."""
+    source = path.read_text(encoding="utf-8")
+    lines, body = ["", *source.split("\n")], ast.parse(source).body
+    for statement, next_one in zip(body, [*body[1:], None], strict=True):
+        if isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
+            says = isinstance(next_one, ast.Expr) or "#" in lines[statement.end_lineno]
+            above = lines[statement.lineno - 1].startswith("#")
+            if not says and not above and any(number not in {0, 1} for number in _numbers(statement.value)):
+                target = statement.targets[0] if isinstance(statement, ast.Assign) else statement.target
+                yield ast.unparse(target)
+
+
+@pytest.mark.parametrize("room", EXPLAINED)
+def test_a_constant_that_stays_in_its_module_says_what_it_is(room):
+    """A table of units and the object of an effect have names for their numbers."""
+    found = [
+        f"{path.relative_to(PACKAGE).as_posix()}: {name}"
+        for path in sorted((PACKAGE / room).rglob("*.py"))
+        if path.name != "units.py"
+        for name in _unexplained(path)
+        if name != "EFFECT"
+    ]
+    assert not found

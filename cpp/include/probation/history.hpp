@@ -103,7 +103,7 @@ class History {
   /// Computes e_HT, throws for invalid samples, and returns whether all steps are even.
   bool check();
   void mark_fresh();
-  void find_stretches(bool even);
+  void find_segments(bool even);
 
   Eigen::ArrayXd time_, true_strain_, strain_rate_, haward_thackray_strain_, step_;
   Indices jumps_;

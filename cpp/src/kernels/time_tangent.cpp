@@ -113,9 +113,9 @@ TangentDirection later(TangentDirection d, int steps) {
   return d;
 }
 
-/// Calls take(part of the steps, d there, stress there, n) for stretches of at most `most` steps.
+/// Calls take(part of the steps, d there, stress there, n) for runs of at most `most` steps.
 template <class Take>
-void in_stretches(const Steps& steps, int most, double* stress, const TangentDirection& d, Take take) {
+void in_runs(const Steps& steps, int most, double* stress, const TangentDirection& d, Take take) {
   for (int n = 0; n < steps.count;) {
     const int rest = steps.count - n;
     n += take(part_of(steps, n, rest < most ? rest : most), later(d, n), stress + n);
@@ -124,17 +124,17 @@ void in_stretches(const Steps& steps, int most, double* stress, const TangentDir
 
 void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const TangentDirection& d,
                 double* scratch) {
-  in_stretches(steps, Bdf2Steps::most, stress, d,
-               [&](const Steps& part, const TangentDirection& there, double* stress_there) {
-                 const Bdf2Steps a(part);
-                 if (a.in_range(modes, 0, modes.padded))
-                   in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
-                     uneven_bdf2_block<decltype(size)::value>(modes, part, a, at, stress_there, there);
-                   });
-                 else
-                   general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
-                 return part.count;
-               });
+  in_runs(steps, Bdf2Steps::most, stress, d,
+          [&](const Steps& part, const TangentDirection& there, double* stress_there) {
+            const Bdf2Steps a(part);
+            if (a.in_range(modes, 0, modes.padded))
+              in_blocks<largest_block>(0, modes.padded, [&](auto size, int at) {
+                uneven_bdf2_block<decltype(size)::value>(modes, part, a, at, stress_there, there);
+              });
+            else
+              general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
+            return part.count;
+          });
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress,
@@ -155,18 +155,18 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
                        double* scratch) {
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
-  in_stretches(most, TabledSteps::most, stress, d,
-               [&](const Steps& part, const TangentDirection& there, double* stress_there) {
-                 if (modes.table) {
-                   const TabledSteps tabled(modes, part.scale, part.count);
-                   if (tabled.count > 0) {
-                     tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
-                     return tabled.count;
-                   }
-                 }
-                 general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
-                 return part.count;
-               });
+  in_runs(most, TabledSteps::most, stress, d,
+          [&](const Steps& part, const TangentDirection& there, double* stress_there) {
+            if (modes.table) {
+              const TabledSteps tabled(modes, part.scale, part.count);
+              if (tabled.count > 0) {
+                tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
+                return tabled.count;
+              }
+            }
+            general_tangent_sweep(modes, part, stress_there, &there, 1, scratch);
+            return part.count;
+          });
   const TangentDirection end = later(d, last);
   general_tangent_sweep(modes, part_of(steps, last, 1), stress + last, &end, 1, scratch);
 }

@@ -114,7 +114,7 @@ def calibrate_companion(
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
     advance = progress or (lambda done, total, what: None)
     driven = []
-    for at, drive in enumerate(excite_each(source.identify, beside=source.held_out)):
+    for at, drive in enumerate(excite_each(source.identify, further=source.held_out)):
         driven.append(drive)
         advance(at + 1, len(source.identify), f"strain rate of {source.identify[at].id}")
     rates = tuple(record_rate(record, excitation) for record, excitation in zip(source.identify, driven, strict=True))

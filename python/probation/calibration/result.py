@@ -247,7 +247,7 @@ class Calibration(Result, Stored):
             "route": self.route,
             "chosen": self.chosen,
             "chosen_by": self.chosen_by,
-            "told_apart": self.discriminated,
+            "discriminated": self.discriminated,
             "constant_is_enough": self.why_constant is not None,
             "companion": {"form": companion.form, **companion.parameters},
             "relations": {name: candidate.to_dict() for name, candidate in self.candidates.items()},
@@ -266,7 +266,7 @@ class Calibration(Result, Stored):
                 "rms_MPa": self.check.rms,
             }
         if self.predicted:
-            content["foretold"] = [
+            content["predicted"] = [
                 {
                     "record": prediction.record,
                     "form": prediction.form,

@@ -111,8 +111,8 @@ def certify(
     gap = gap_of(campaign)
     scatter = None if gap is None else gap.scatter
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
-    beside = campaign.identify if campaign.held_out else ()
-    driven = excitations_of(campaign.held_out or campaign.records, excitation, beside=beside)
+    further = campaign.identify if campaign.held_out else ()
+    driven = excitations_of(campaign.held_out or campaign.records, excitation, further=further)
     predictions = {
         record.id: predict(source, known, record, tolerance, driven[record.id], relation)
         for source, known, record in _pairs(trial, base, step)

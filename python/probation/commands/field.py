@@ -165,6 +165,6 @@ def _map(options: argparse.Namespace) -> int:
 
     with shown("reading the maps") as advance:
         maps = open_maps(options.maps, progress=advance)
-        answer = maps if options.truth is None else maps.beside(options.truth)
+        answer = maps if options.truth is None else maps.compared_with(options.truth)
     deliver(answer.summary(), outputs_with_report(answer, options))
     return 0

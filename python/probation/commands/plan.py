@@ -1,4 +1,4 @@
-"""``probation plan``: what planned tests would tell, before any of them is done."""
+"""``probation plan``: what planned tests would show, before any of them is done."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ In a first reading: the first line, and the effects that "may be taken for" anot
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
     """Add the command."""
-    parser = subparsers.add_parser(NAME, help="what planned tests would tell", description=_DESCRIPTION)
+    parser = subparsers.add_parser(NAME, help="what planned tests would show", description=_DESCRIPTION)
     parser.add_argument("files", metavar="HISTORY.csv", nargs="*", help="time_s,true_strain of a planned test")
     parser.add_argument(
         "--history",

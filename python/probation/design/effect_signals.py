@@ -71,7 +71,7 @@ def effect_signals(
 ) -> tuple[list[EffectSignal], dict[str, str]]:
     """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
 
-    Beside them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of
+    With them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of
     a form are a grid and not a function. In all records with one amplitude; a form that can sit in single records
     only: in each of them.
 

@@ -74,8 +74,8 @@ class NextTest:
     what : str
         One sentence.
     separates : list of list of str
-        Effects of the explanations that it tells from another one; if it does so of none surely, of the two that it
-        discriminates best.
+        Effects of the explanations that it discriminates from another one; if it does so of none surely, of the two
+        that it discriminates best.
     probability_before, probability_after : float
         Of the most probable explanation being the right one, given that one of them is.
     ranking : tuple of RankedTest
@@ -123,7 +123,7 @@ def next_test(
     explanations : sequence of (CampaignModel, ndarray, float, tuple of str)
         Those still in the answer set: the model with its causes on the same records, parameters at their optimum,
         probability, names of the effects. Explanations with the same effects count as one answer: give every form that
-        describes the records, or a test may be chosen that tells a form from the rest rather than the effect.
+        describes the records, or a test may be chosen that discriminates a form from the rest rather than the effect.
     noises : sequence of NoiseModel
         One per record.
     threads : int

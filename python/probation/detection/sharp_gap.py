@@ -48,6 +48,6 @@ def _p_values(whitened: Whitened) -> dict[str, float]:
     return {
         "lines": min((line.p_value for line in find_lines(whitened)), default=1.0),
         "steps": min((step.p_value for step in find_steps(whitened)), default=1.0),
-        "ripples": min((component.p_value for component in find_strain_periodic(whitened)), default=1.0),
+        "strain_periodic": min((component.p_value for component in find_strain_periodic(whitened)), default=1.0),
         "recurring": min((bump.p_value for bump in find_recurring(whitened)), default=1.0),
     }

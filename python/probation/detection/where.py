@@ -176,7 +176,7 @@ def contribution_regions(
 ) -> tuple[Located, ...]:
     """Where an effect shows: what a refit cannot smear.
 
-    In each record the shortest stretch that holds nine tenths of the effect's energy, as far as its own contribution
+    In each record the shortest segment that holds nine tenths of the effect's energy, as far as its own contribution
     is certain; records that hold next to nothing of it are left out.
 
     Parameters

@@ -43,7 +43,7 @@ class EffectShare:
     share : float
         Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
         in which its effects can be added (Shapley 1953). 0 for an effect that is not in it.
-    alone, beside : float or None
+    alone, in_addition : float or None
         What it closes alone, and in addition to all others of the best explanation; None if it is not in it.
     records : tuple of str
         Ids of those that it touches.
@@ -55,7 +55,7 @@ class EffectShare:
     probability: float
     share: float
     alone: float | None
-    beside: float | None
+    in_addition: float | None
     records: tuple[str, ...]
     named: bool
 
@@ -66,7 +66,7 @@ class EffectShare:
             "probability": self.probability,
             "share": self.share,
             "alone": self.alone,
-            "beside": self.beside,
+            "in_addition": self.in_addition,
             "records": list(self.records),
         }
 
@@ -134,7 +134,7 @@ def attribution(
                 probability=probability,
                 share=share,
                 alone=closed[(name,)] if inside else None,
-                beside=closed[known] - closed[_without(known, name)] if inside else None,
+                in_addition=closed[known] - closed[_without(known, name)] if inside else None,
                 records=_records(name, weighed),
                 named=name in named,
             )

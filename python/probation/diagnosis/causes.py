@@ -73,7 +73,7 @@ class Causes:
         """What stands for the most probable explanation."""
         return self.weighed[0].hypothesis
 
-    def with_unknown_beside(self) -> Causes:
+    def with_unknown_added(self) -> Causes:
         """The best explanation with its checks, also where it leads only together with an unknown effect."""
         known = self.weighed[0].effects
         kept = dict(self.checks)
@@ -90,7 +90,7 @@ class Causes:
         causes = self
         shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
         while causes.verdict != "no_gap" and UNKNOWN not in causes.weighed[0].effects and leaves_too_much(shrink):
-            before, causes = causes.best, causes.with_unknown_beside()
+            before, causes = causes.best, causes.with_unknown_added()
             if causes.best is not before:
                 shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
         return causes, shrink, curves
@@ -144,7 +144,7 @@ def causes_of(
     causes = Causes(base, considered, found, weighed, judged, verdict)
     worse = account.worse(causes.best)
     if UNKNOWN not in weighed[0].effects and (worse or _another_acts(causes.best, base, seed)):
-        return causes.with_unknown_beside()
+        return causes.with_unknown_added()
     return causes
 
 

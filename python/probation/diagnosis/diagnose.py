@@ -112,14 +112,14 @@ def diagnose(
     ------
     InputError
         For an unknown effect or parameter, suggesting the nearest, for a budget or a tolerance that is not positive,
-        and for `hold` beside `law`.
+        and for `hold` together with `law`.
     """
     deadline = Budget(budget)
     as_tolerance(tolerance)
     if law is not None and hold:
         raise InputError(
-            f"hold: found {', '.join(hold)} beside law=, expected one of the two; a law of your own holds what it does "
-            "not give as a parameter"
+            f"hold: found {', '.join(hold)} together with law=, expected one of the two; a law of your own holds what "
+            "it does not give as a parameter"
         )
     scheme_name = identifying(scheme)[0].name
     known = catalogue(effects)

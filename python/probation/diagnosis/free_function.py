@@ -1,4 +1,4 @@
-"""A free function of one variable beside the law, judged on records left out.
+"""A free function of one variable in addition to the law, judged on records left out.
 
 docs/diagnosis-method.md, section 12.
 """
@@ -229,7 +229,7 @@ class FreeFunctions:
 
     def with_function(self, term: Term) -> FloatArray:
         """Parameters of the explanation refitted jointly with a function, to first order."""
-        solved = self._beside(term)[: self._count]
+        solved = self._fitted_jointly(term)[: self._count]
         coordinates = self._found.coordinates
         moved = np.clip(coordinates.of(self._parameters) + solved, coordinates.bounds.lower, coordinates.bounds.upper)
         return coordinates.parameters(np.asarray(moved))
@@ -258,7 +258,7 @@ class FreeFunctions:
     def curve(self, term: Term) -> RemainderCurve:
         """For a figure."""
         count = self._tangent.shape[1]
-        solved = self._beside(term)
+        solved = self._fitted_jointly(term)
         followed = self._tangent @ solved[:count]
         least = SMALLEST_STRESS * float(np.max(np.abs(self._stress)))
         size = np.copysign(np.maximum(np.abs(self._stress), least), self._stress) / 100.0
@@ -284,7 +284,7 @@ class FreeFunctions:
         """Fitted to all records."""
         together = self._weight[:, None] * np.hstack([self._tangent, self._columns(term)])
         normal = _regular(together.T @ together, self._precision, smooth=_is_smooth(term))
-        solved = self._beside(term)
+        solved = self._fitted_jointly(term)
         size = np.sqrt(np.diag(normal))
         size[size == 0.0] = 1.0  # a parameter that nothing depends on
         values, vectors = np.linalg.eigh(normal / np.outer(size, size))
@@ -311,7 +311,7 @@ class FreeFunctions:
         columns[inside] = _basis(values[inside], values[inside], term)
         return columns * self._stress[:, None] if term.acts == "factor" else columns
 
-    def _beside(self, term: Term) -> FloatArray:
+    def _fitted_jointly(self, term: Term) -> FloatArray:
         """Change of the parameters and coefficients of a function that together describe what is left best."""
         columns, smooth = self._columns(term), _is_smooth(term)
         together = self._weight[:, None] * np.hstack([self._tangent, columns])

@@ -154,12 +154,12 @@ def _cause(
     if rivals:
         shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot tell {pronoun} from {shown}{more}"
+        return f"{sentence}; these tests cannot distinguish {pronoun} from {shown}{more}"
     return f"{sentence} (probability {chance(parts.probability)})"
 
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:
-    """Whether the named effects close a part of the gap that is worth naming beside an unknown one."""
+    """Whether the named effects close a part of the gap that is worth naming in addition to an unknown one."""
     share = sum(each.share for each in parts.effects if each.named)
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 

@@ -90,12 +90,12 @@ def remainder_of(
         )
         moved = problem.with_function(trials[0].term)
         try:
-            beside = FreeFunctions(base, found, moved, phases, closure.noise_MPa)
+            linearised_anew = FreeFunctions(base, found, moved, phases, closure.noise_MPa)
         except UNSOLVABLE:
             break
-        if not beside.has_stress:
+        if not linearised_anew.has_stress:
             break
-        problem = beside
+        problem = linearised_anew
     best: dict[str, Trial] = {}
     for trial in trials:
         best.setdefault(trial.term.variable.name, trial)

@@ -46,7 +46,7 @@ def description(
     text += f": {_size(curve)}"
     rivals = [function_name(each) for each in others if each.explained > first.explained - REMAINDER.not_discriminated]
     if rivals:
-        text += f"; these records do not tell it from a function of {listed(rivals)}"
+        text += f"; these records do not distinguish it from a function of {listed(rivals)}"
     return f"{text}."
 
 

@@ -269,7 +269,7 @@ class Diagnosis(Result, Stored):
     explanations : tuple of Explanation
         By probability, which sums to 1.
     answer_set : tuple of tuple of str
-        Every explanation that the data cannot tell from the best, best first.
+        Every explanation that the data cannot distinguish from the best, best first.
     shrink : Shrink
     next_test : NextTest or None
         The first of `next_tests`.
@@ -279,7 +279,7 @@ class Diagnosis(Result, Stored):
     data_sha256 : str
     seed : int
     isolability : Isolability or None
-        Which effects these tests could tell apart, whatever they show.
+        Which effects these tests could distinguish, whatever they show.
     effects : tuple of EffectShare
         How probable each effect is, and how much of the gap it closes; by share.
     remainder : Remainder or None

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.field.samples import LENGTHS
 from probation.settings.field import FIELD
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ def neighbourhoods(used: BoolArray, shape: tuple[int, int]) -> IndexArray:
     side = FIELD.neighbourhood
     tile = y // side * (-(-shape[1] // side)) + x // side
     within = np.where(used.any(axis=1), used.shape[1] - np.argmax(used[:, ::-1], axis=1), 0)
-    return np.asarray(tile * (LENGTHS + 1) + -(-within * LENGTHS // used.shape[1]), dtype=np.intp)
+    return np.asarray(tile * (FIELD.lengths + 1) + -(-within * FIELD.lengths // used.shape[1]), dtype=np.intp)
 
 
 def rounds(identified: BoolArray, neighbourhood: IndexArray) -> Iterator[IndexArray]:

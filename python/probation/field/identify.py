@@ -20,6 +20,7 @@ from probation.field.grid import block_grid
 from probation.field.pixels import Substeps, Way
 from probation.field.source import FieldSource, open_field
 from probation.field.store import MapStore, read_run
+from probation.identify.base_law import START
 from probation.inference.parameter import by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import Law
@@ -193,7 +194,11 @@ def _run_blocks(
 
 def _law_with(law: Law | None, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
     """The law with what is held, and the names of that."""
-    law = law or Law(unrelaxed_modulus=1000.0, tau_max=1.0, hardening_modulus=1.0)
+    law = law or Law(
+        unrelaxed_modulus=START["unrelaxed_modulus"],
+        tau_max=START["tau_max"],
+        hardening_modulus=START["hardening_modulus"],
+    )
     held = {name: float(value) for name, value in by_inside_name(hold, law.parameter_names, "hold").items()}
     if len(held) == len(law.parameter_names):
         raise InputError("hold: found every parameter held, expected one left to identify")

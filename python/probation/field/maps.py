@@ -50,7 +50,7 @@ class FieldMaps(Result, Stored, WithCurves):
     substeps : (int, int)
         Fewest and most steps of the scheme from sample to sample that a block took.
     closeness : tuple of Closeness
-        To the truth, where that is known; see `FieldMaps.beside`.
+        To the truth, where that is known; see `FieldMaps.compared_with`.
     """
 
     SCHEMA = "probation.field/1"
@@ -89,8 +89,8 @@ class FieldMaps(Result, Stored, WithCurves):
         second = "tau_max" if "tau_max" in self.units else "alpha"
         return f"unrelaxed_modulus_times_{second}", "unrelaxed_modulus", second, "hardening_modulus"
 
-    def beside(self, truth: str | os.PathLike[str]) -> FieldMaps:
-        """The same maps, held against a store of what is true, as `probation field example` writes one.
+    def compared_with(self, truth: str | os.PathLike[str]) -> FieldMaps:
+        """The same maps, compared with a store of what is true, as `probation field example` writes one.
 
         Raises
         ------

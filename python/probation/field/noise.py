@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from probation.field.samples import IndexArray
     from probation.field.source import Samples
 
-_FEW = 3.8  # over the number of differences: by how much the square of their median is too large in the mean
-
 
 def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> FloatArray:
     """Standard deviation of white noise along each record, from third divided differences: they cancel any parabola.
@@ -53,7 +51,7 @@ def scatter(time: FloatArray, values: Samples, neighbourhood: IndexArray) -> Flo
 
 def _deviation(differences: FloatArray) -> FloatArray:
     """From the moduli of differences, along the rows."""
-    few = np.sqrt(1.0 + _FEW / differences.shape[1])
+    few = np.sqrt(1.0 + FIELD.excess_of_squared_median / differences.shape[1])
     return np.asarray(SD_OF_MEDIAN / few * np.median(differences, axis=1))
 
 

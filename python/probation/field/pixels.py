@@ -12,9 +12,9 @@ from probation.field.between import between
 from probation.field.noise import scatter
 from probation.field.samples import bridged, of_equal_samples
 from probation.field.smoothing import smoothed_records
-from probation.field.source import SHORTEST
 from probation.field.status import Status
 from probation.inference.parameter import outside_name
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -90,7 +90,7 @@ def identify_pixels(
     found = Pixels(np.full((count, 3), np.nan), np.full((count, 3), np.nan), np.full(count, np.nan), empty)
     drawn = smoothed_records(time, strain, used) if way.smoothing else strain
     for pixels, samples in of_equal_samples(used):
-        if np.count_nonzero(samples) < SHORTEST:
+        if np.count_nonzero(samples) < READING.fewest_samples:
             continue
         fine, driving = between(time[samples], drawn[np.ix_(pixels, samples)], substeps, smooth=way.smoothing)
         some = identify_many(
@@ -129,7 +129,7 @@ def with_more_noise(
     for values in (strain, stress):
         noise = np.zeros(values.shape)
         for pixels, samples, own in bridged(time, values, used):
-            if np.count_nonzero(samples) >= SHORTEST:
+            if np.count_nonzero(samples) >= READING.fewest_samples:
                 part = scatter(time[samples], own, neighbourhood[pixels])
                 noise[np.ix_(pixels, samples)] = part
                 level[pixels] = np.sqrt(np.mean(part**2, axis=1))  # the stress comes last

@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 BoolArray: TypeAlias = NDArray[np.bool_]
 IndexArray: TypeAlias = NDArray[np.intp]
 
-LENGTHS = 16
-"""Lengths that a record which ends early is cut to: pixels that share their instants are identified together."""
-
 
 def used_samples(strain: Samples, stress: Samples) -> BoolArray:
     """Samples up to the first long gap where both are finite; none where the first sample lacks, for the start is lost.
@@ -40,7 +37,9 @@ def used_samples(strain: Samples, stress: Samples) -> BoolArray:
     ends[:, : there.shape[1] - FIELD.longest_gap] = seen[:, gap:] == seen[:, :-gap]  # nothing in the next `gap` samples
     before = ~np.maximum.accumulate(ends, axis=1)
     length = np.count_nonzero(before, axis=1)
-    length = np.where(length < there.shape[1], length * LENGTHS // there.shape[1] * there.shape[1] // LENGTHS, length)
+    instants = there.shape[1]
+    cut = length * FIELD.lengths // instants * instants // FIELD.lengths
+    length = np.where(length < instants, cut, length)
     return np.asarray(there & (np.arange(there.shape[1]) < length[:, None]) & there[:, :1])
 
 

@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from probation.field.samples import BoolArray
     from probation.field.source import Samples
 
-STIFFNESS: FloatArray = 10.0 ** np.arange(-3.0, 14.1, 0.5)
-"""Tried, with times in steps of the median between instants."""
-
 
 def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
     """Each record by the spline of least generalised cross-validation.
@@ -39,7 +36,9 @@ def smoothed(time: FloatArray, strain: Samples) -> FloatArray:
     ndarray, shape (pixels, n_times) [-]
     """
     roughness, shapes = _shapes(time.tobytes())
-    kept = 1.0 / (1.0 + STIFFNESS[:, None] * roughness)  # of each shape, by stiffness
+    first, last = FIELD.stiffness_exponents
+    stiffness = 10.0 ** np.arange(first, last + 0.5 * FIELD.stiffness_step, FIELD.stiffness_step)
+    kept = 1.0 / (1.0 + stiffness[:, None] * roughness)  # of each shape, by stiffness
     parts = strain.astype(np.float64) @ shapes
     left = parts**2 @ ((1.0 - kept) ** 2).T
     freedom = 1.0 - SMOOTHING.prudence * kept.sum(axis=1) / len(time)

@@ -16,6 +16,7 @@ from probation.field.chunks import Region, array_of, damage, first_absent, requi
 from probation.field.extra import load
 from probation.records.conversions import true_strain_from, true_stress_from
 from probation.records.units import convert
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     import os
@@ -42,8 +43,6 @@ UNITS = {
 """What may be in a field, and the unit it is converted to."""
 
 DIMENSIONS = ("y", "x", "time")
-SHORTEST = 10
-"""Instants of a field, at least."""
 
 
 @dataclass(frozen=True)
@@ -292,8 +291,8 @@ def _values(path: str, variable: xr.DataArray, region: Region | None = None, *, 
 
 
 def _check_time(path: object, name: str, time: FloatArray) -> None:
-    if len(time) < SHORTEST:
-        raise InputError(f"{path}: {name}: found {len(time)} instants, expected at least {SHORTEST}")
+    if len(time) < READING.fewest_samples:
+        raise InputError(f"{path}: {name}: found {len(time)} instants, expected at least {READING.fewest_samples}")
     wrong = np.flatnonzero(~(np.diff(time) > 0.0))
     if not np.isfinite(time).all() or len(wrong):
         at = int(wrong[0]) + 1 if len(wrong) else int(np.flatnonzero(~np.isfinite(time))[0])

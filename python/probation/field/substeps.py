@@ -9,10 +9,10 @@ import numpy as np
 
 from probation.field.errors import drawn_errors
 from probation.field.pixels import Pixels, identify_pixels, with_more_noise
-from probation.field.source import SHORTEST
 from probation.law.schemes import SA3
 from probation.settings.certificate import CERTIFICATE
 from probation.settings.field import FIELD
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -20,11 +20,6 @@ if TYPE_CHECKING:
     from probation.field.pixels import Way
     from probation.field.samples import BoolArray
     from probation.field.source import Samples
-
-TRIED = 64
-"""Pixels of a block, evenly spaced, on which the error of the scheme is measured."""
-REFERENCE_SUBSTEPS = 4
-"""Of SA3, which the error is measured against: its own error falls with their cube."""
 
 
 def needed_substeps(
@@ -39,16 +34,16 @@ def needed_substeps(
     chance : Generator
         Of the noise that the standard errors are drawn with.
     """
-    there = np.flatnonzero(np.count_nonzero(used, axis=1) >= SHORTEST)
+    there = np.flatnonzero(np.count_nonzero(used, axis=1) >= READING.fewest_samples)
     if len(there) == 0:
         return 1
-    tried = there[np.unique(np.linspace(0, len(there) - 1, TRIED).astype(np.intp))]
+    tried = there[np.unique(np.linspace(0, len(there) - 1, FIELD.scheme_pixels).astype(np.intp))]
     strain, stress, used = strain[tried], stress[tried], used[tried]
     precise = replace(way, scheme=SA3())
-    reference = identify_pixels(precise, time, strain, stress, used, REFERENCE_SUBSTEPS)
+    reference = identify_pixels(precise, time, strain, stress, used, FIELD.reference_substeps)
     alone, together = np.arange(len(tried)), np.zeros(len(tried), dtype=np.intp)
     more_strain, more_stress, level = with_more_noise(time, strain, stress, used, alone, chance)
-    again = identify_pixels(precise, time, more_strain, more_stress, used, REFERENCE_SUBSTEPS)
+    again = identify_pixels(precise, time, more_strain, more_stress, used, FIELD.reference_substeps)
     errors = drawn_errors(reference, [(alone, again)], level, together)
     steps = 1
     while steps < CERTIFICATE.most_substeps:

@@ -75,13 +75,13 @@ def _excitations(campaign: Campaign, fit: Fit) -> dict[str, Excitation]:
     """What drives the law: the smoothed strains, or the recorded ones if the stress shows their wiggles to be real.
 
     What a smoother takes off a strain is noise of its record, which the specimen never saw, or the test's own restless
-    control, which it did. The strain does not tell; the stress does, of all smoothed records together, by what is
-    rougher than any effect that the law may lack. Where it tells nothing, since the law is soft there or lacks what
+    control, which it did. The strain does not show which; the stress does, of all smoothed records together, by what is
+    rougher than any effect that the law may lack. Where it shows nothing, since the law is soft there or lacks what
     makes it stiff, the wiggles are noise: a law that follows the rate would make much of them.
     """
     chosen = excitations_of(campaign.records)
     raw = {record.id: excite(record, "raw") for record in campaign.records if chosen[record.id].operators is not None}
-    favours_raw, told_apart = 0.0, 0.0
+    favours_raw, discriminated = 0.0, 0.0
     for record in campaign.identify:
         if record.id in raw:
             smooth, recorded = (
@@ -90,9 +90,9 @@ def _excitations(campaign: Campaign, fit: Fit) -> dict[str, Excitation]:
             rough = [leftover(residual, chosen[record.id].jumps) for residual in (smooth, recorded)]
             variance = _local_noise_variance(smooth)
             favours_raw += float(np.sum((rough[0] ** 2 - rough[1] ** 2) / variance))
-            told_apart += float(np.sum((rough[0] - rough[1]) ** 2 / variance))
-    # Were the wiggles noise, the sum would have the mean -told_apart and the variance 4 told_apart.
-    by_chance = 2.0 * NOISE.strain_beyond_chance * np.sqrt(told_apart) - told_apart
+            discriminated += float(np.sum((rough[0] - rough[1]) ** 2 / variance))
+    # Were the wiggles noise, the sum would have the mean -discriminated and the variance 4 discriminated.
+    by_chance = 2.0 * NOISE.strain_beyond_chance * np.sqrt(discriminated) - discriminated
     return chosen | raw if favours_raw > max(by_chance, 0.0) else chosen
 
 

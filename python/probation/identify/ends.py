@@ -8,18 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.identify.search import search_range
-from probation.identify.variable_projection import EDGE, project
+from probation.identify.variable_projection import project
 from probation.inference.parameter import SYMBOLS, UNITS
 from probation.settings.certificate import CERTIFICATE
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from probation._arrays import FloatArray
     from probation.inference.problem import Problem
-
-BEYOND = 100.0
-"""How far beyond an edge of the search tau_max (or alpha) is moved to see which parameters follow it."""
 
 
 @dataclass(frozen=True)
@@ -66,10 +64,10 @@ def ends_of(problem: Problem, parameters: FloatArray, limits: Mapping[str, tuple
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
     low, high = search_range(problem, limits)
     value = float(values[1])
-    end = "lower" if value <= low * EDGE else "upper" if value >= high / EDGE else ""
+    end = "lower" if value <= low * IDENTIFICATION.edge else "upper" if value >= high / IDENTIFICATION.edge else ""
     if not end:
         return Ends(frozenset(withdrawn), ended, tuple(warnings))
-    moved_to = value / BEYOND if end == "lower" else value * BEYOND
+    moved_to = value / IDENTIFICATION.beyond_edge if end == "lower" else value * IDENTIFICATION.beyond_edge
     beyond = problem.law_at(project(problem.frozen_at(parameters), moved_to)[0]).parameters
     moved = np.abs(beyond - values) > CERTIFICATE.identifiable * np.abs(values)
     product = abs(beyond[0] * beyond[1] - values[0] * value) > CERTIFICATE.identifiable * abs(values[0] * value)

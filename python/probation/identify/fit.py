@@ -108,7 +108,7 @@ def fit(
     limits = _limits(law, bounds or {})
     views = []
     steps = 1 if substeps == "auto" else substeps
-    driven = excite_each(campaign.identify, excitation, beside=campaign.held_out)
+    driven = excite_each(campaign.identify, excitation, further=campaign.held_out)
     for index, (record, drive) in enumerate(zip(campaign.identify, driven, strict=True)):
         views.append(measured_view(record, drive, chosen, steps))
         if progress:

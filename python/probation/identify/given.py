@@ -46,7 +46,7 @@ def given(
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
     chosen, substeps = identifying(scheme)
     steps = 1 if substeps == "auto" else substeps
-    driven = excite_each(campaign.identify, excitation, beside=campaign.held_out)
+    driven = excite_each(campaign.identify, excitation, further=campaign.held_out)
     views = [
         measured_view(record, drive, chosen, steps) for record, drive in zip(campaign.identify, driven, strict=True)
     ]

@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 from probation.identify.search import by_least_squares, search_range
 from probation.identify.variable_projection import project, search
 from probation.identify.weighting import SMALL_STEP
+from probation.settings.identification import IDENTIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
 
 FIRST_STEP = 0.75
 """Distance of neighbouring points [standard errors]; it grows where the cost rises slowly."""
-
-FARTHEST = 1.25
-"""Signed root of the deviance, over its 95 % quantile, up to which the profile is followed."""
 
 MOST_POINTS = 12
 """On each side."""
@@ -108,7 +106,7 @@ def profile(
             there, cost = _best_jointly(problem, index, at, there, limits)
             rise = float(np.sqrt(max(cost - least, 0.0) / scatter)) / widened
             points.append((at, sign * rise))
-            if rise > FARTHEST * quantile:
+            if rise > IDENTIFICATION.profile_reach * quantile:
                 break
             if count > 4 or rise < 0.07 * quantile * (count + 1):
                 step *= 2.0

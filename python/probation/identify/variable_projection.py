@@ -21,9 +21,6 @@ POINTS = 41
 NEARBY = 1.5
 """Factor around a minimum that is known to be close within which it is looked for."""
 
-EDGE = 1.05
-"""A minimum within this factor of an end of the range is at its edge."""
-
 
 def time_of(problem: Problem, parameters: FloatArray) -> float:
     """tau_max (or alpha) of the law with these parameters, identified or held."""

@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.noise.joint_noise import joint_root
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-
-LEAST, MOST = 0.1, 2.0
-"""Ends of the search, over the noise as it is known and over the residual's own size."""
 
 FINE = 0.01
 """Of the level's logarithm: small against its standard error."""
@@ -45,7 +43,8 @@ def white_level(residual: FloatArray, tangent: FloatArray, propagated: FloatArra
         within = 2.0 * float(np.log(np.maximum(triangle[:free], 1e-300)).sum())
         return float(2.0 * count * log_level + root.log_determinant + within + triangle[free] ** 2)
 
-    ends = np.log(LEAST * min(known, max(rms, 1e-300))), np.log(MOST * max(known, rms))
+    least, most = NOISE.level_range
+    ends = np.log(least * min(known, max(rms, 1e-300))), np.log(most * max(known, rms))
     from scipy.optimize import minimize_scalar  # noqa: PLC0415 - slow to load; only noise of the strain needs it
 
     found = minimize_scalar(criterion, bounds=ends, method="bounded", options={"xatol": FINE})

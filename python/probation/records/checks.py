@@ -13,13 +13,12 @@ from probation._complaint import bad_input
 from probation.errors import InputError
 from probation.limits import LARGEST, SHORTEST_STEP, SMALLEST
 from probation.records.roles import ROLES
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     from probation.records.table import Column, Table
 
 FloatArray = NDArray[np.float64]
-
-MINIMUM_SAMPLES = 10
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,7 @@ class Fault:
     remedy: str = ""
 
 
-def find_fault(samples: Mapping[str, FloatArray], minimum: int = MINIMUM_SAMPLES) -> Fault | None:
+def find_fault(samples: Mapping[str, FloatArray], minimum: int = READING.fewest_samples) -> Fault | None:
     """First fault of a record's samples, or None.
 
     Parameters

@@ -26,14 +26,20 @@ FloatArray = NDArray[np.float64]
 Signals = tuple[FloatArray, FloatArray]
 """Times, shape (n,), and what is known then, shape (n,) or (n, k)."""
 
-_STEPS = 400  # of the grid on which rates are compared, over the shorter record
-_SMOOTHED = 4  # steps of the grid that a rate is taken over, either way
-_KEPT = 1000  # means of neighbouring samples, over the shorter record, in which the strain itself is compared
-_MOST_PROPOSED = 8  # of such minima
-_FEWEST = 10  # samples of an onset
-_FEWEST_STEPS = 20  # of the grid in the shorter record: fewer tell no shift
-_FINER = 5  # times, in each of the refinements
-_REFINEMENTS = 4
+_STEPS = 400
+"""Steps of the grid on which rates are compared, in the shorter record; no step is shorter than a sample's."""
+_SMOOTHED = 4
+"""Steps of the grid that a rate is taken over, either way: 1 % of the shorter record."""
+_KEPT = 1000
+"""Means of neighbouring samples, in the shorter record, in which the strain itself is compared: for speed."""
+_MOST_PROPOSED = 8
+"""Shifts that the rates propose and the strain judges, at most: for speed."""
+_FEWEST = 10
+"""Samples of an onset, at least; half of them rest before it."""
+_FEWEST_STEPS = 20
+"""Steps of the grid in the shorter record, at least: fewer do not determine a shift."""
+_FINER, _REFINEMENTS = 5, 4
+"""Factor by which the step of the shift falls in each refinement, and how often: to 1/625 of a step of the grid."""
 _BY = "strain, displacement and force"
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from probation._complaint import bad_input, joined, listed, quoted
 from probation.errors import InputError
 from probation.records.assignment import assign_columns, is_role_of_unit
-from probation.records.checks import MINIMUM_SAMPLES, find_excess, find_fault, find_short_step, refusal
+from probation.records.checks import find_excess, find_fault, find_short_step, refusal
 from probation.records.clock import Shift
 from probation.records.conversions import stretch_from, true_strain_from
 from probation.records.joining import Film, join
@@ -26,6 +26,7 @@ from probation.records.strain_limits import (
 )
 from probation.records.table import Column, Table
 from probation.records.units import convert, measures
+from probation.settings.reading import READING
 
 FloatArray = NDArray[np.float64]
 
@@ -67,7 +68,7 @@ def extract(
     options: ReadOptions,
     *,
     with_stress: bool = True,
-    minimum: int = MINIMUM_SAMPLES,
+    minimum: int = READING.fewest_samples,
     film: Film | None = None,
 ) -> Extraction:
     """Read, check and convert the columns of one specimen.

@@ -15,6 +15,7 @@ from probation.records.source import Source
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}
 BLANKS = "blanks"
 _SNIFFED_LINES = 200
+"""First and last lines of a text by which its separator is recognised."""
 _NAME_AND_UNIT = re.compile(r"[^\s(\[]+(?:\s*[(\[][^)\]]*[)\]])?")
 
 

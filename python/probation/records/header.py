@@ -11,6 +11,7 @@ from probation.records.table import Column
 from probation.records.units import is_percent, is_unit, measures
 
 _SEARCHED_ROWS = 400
+"""Rows in which headings are looked for: exports have pages of text above them."""
 _LABORATORY_UNITS = ("s", "mm", "N", "MPa", "1/s")
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]([^()\[\]]*)[)\]]\s*")
 _BRACKETED_ALONE = re.compile(r"[(\[](.*)[)\]]")

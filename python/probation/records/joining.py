@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from probation._complaint import joined
 from probation.errors import InputError
-from probation.records.checks import MINIMUM_SAMPLES
 from probation.records.clock import FloatArray, Shift, estimate_shift
+from probation.settings.reading import READING
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,10 +80,10 @@ def join(path: Path, film: Film, time: FloatArray, force: FloatArray, displaceme
         shift = Shift(film.shift, 0.0, "")
     at = time - shift.value
     within = (at >= film.time[0]) & (at <= film.time[-1])
-    if within.sum() < MINIMUM_SAMPLES:
+    if within.sum() < READING.fewest_samples:
         raise InputError(
             f"{path}: found {int(within.sum())} samples within the time of {film.file}, shifted by "
-            f"{shift.value:.6g} s, expected at least {MINIMUM_SAMPLES}; check shift_s and the units of time"
+            f"{shift.value:.6g} s, expected at least {READING.fewest_samples}; check shift_s and the units of time"
         )
     strain = np.interp(at[within], film.time, film.true_strain)
     return Joined(within, strain, shift, _note(film, shift, int((~within).sum())))

@@ -22,6 +22,7 @@ from probation.results.rendering import Plotted, Summarised
 FloatArray = NDArray[np.float64]
 
 _SHOWN_ROWS = 5
+"""First rows that a preview shows."""
 
 
 @dataclass(frozen=True, eq=False)

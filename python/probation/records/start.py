@@ -27,8 +27,10 @@ FloatArray = NDArray[np.float64]
 STARTS = ("auto", "relaxed", "loaded")
 """`auto` is loaded where no more than a trigger may lose is missing, and else relaxed."""
 
-_FEWEST = 10  # samples behind the strain rate at the start
-_FEWEST_OF_FORCE = 4  # ... behind the rate of the stress, which bends soon
+_FEWEST = 10
+"""Samples behind the strain rate at the start, at least."""
+_FEWEST_OF_FORCE = 4
+"""Samples behind the rate of the stress, at least: it bends soon."""
 
 
 def as_started(record: Record, start: str = "auto") -> Record:

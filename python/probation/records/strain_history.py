@@ -16,6 +16,7 @@ from probation.records.options import ReadingKeys, read_options
 FloatArray = NDArray[np.float64]
 
 _MINIMUM_SAMPLES = 2
+"""Samples of a history, at least: a straight line."""
 
 
 @dataclass(frozen=True, eq=False)

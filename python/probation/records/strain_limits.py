@@ -11,11 +11,10 @@ FloatArray = NDArray[np.float64]
 # A stretch of 148. Superplastic metals reach 80, elastomers 5 to 15.
 LARGEST_TRUE_STRAIN = 5.0
 
-# Values from which on a column that states no unit is questioned, and from which on it is refused. True strain above
-# 2.5 is a stretch of 12. Elastomers reach engineering strains above 5, so these are questioned only; above 20, more
-# than any of them bears, a value without unit is a percentage.
 _QUESTIONED = {"true_strain": 2.5, "engineering_strain": 5.0, "stretch": 12.0}
+"""Values [-] from which on a column that states no unit is questioned: elastomers reach engineering strains above 5."""
 _REFUSED = {"engineering_strain": 20.0, "stretch": 21.0}
+"""... and from which on it is refused: no elastomer bears as much, a value without unit is a percentage."""
 
 
 def impossible_sample(role: str, values: FloatArray, true_strain: FloatArray, stated: bool) -> int | None:

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 _BLANK = 0x2800
+"""The braille character without a dot (Unicode)."""
 # Bit of each dot in a braille character, by row from the top and column.
 _DOTS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
 

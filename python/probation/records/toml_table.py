@@ -27,6 +27,7 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _LONGEST_VALUE = 60
+"""Characters of a value that a complaint quotes."""
 _NOT_TOO_LARGE = f"a magnitude of at most {LARGEST_PARAMETER:g}"
 _T = TypeVar("_T")
 _TYPES: dict[type, str] = {

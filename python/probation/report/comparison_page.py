@@ -97,7 +97,7 @@ def write_comparison_page(comparison: Comparison, path: Path) -> None:
 
 
 def _explanations(comparison: Comparison) -> Table:
-    """The most probable explanations; a star marks those that the data cannot tell apart."""
+    """The most probable explanations; a star marks those that the data cannot distinguish."""
     rows = tuple(
         (
             "★" if explanation in comparison.answer_set else "",
@@ -108,7 +108,7 @@ def _explanations(comparison: Comparison) -> Table:
         )
         for explanation in comparison.explanations[:_EXPLANATIONS]
     )
-    caption = "What may have changed (★: the data cannot tell these apart)"
+    caption = "What may have changed (★: the data cannot distinguish these)"
     return Table(("", "change", "in", "its size (95 % interval)", "probability"), rows, caption, left=4)
 
 

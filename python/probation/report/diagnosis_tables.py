@@ -74,7 +74,7 @@ def held_out_table(diagnosis: Diagnosis) -> Table:
 
 
 def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
-    """Explanations, the most probable first; a star marks those that the data cannot tell from the best."""
+    """Explanations, the most probable first; a star marks those that the data cannot distinguish from the best."""
     shown = list(diagnosis.explanations)
     rows = []
     for each in shown:
@@ -93,7 +93,7 @@ def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     inside = [max(each.probability, float(bool(row[0]))) for each, row in zip(shown, rows, strict=True)]
     kept = _kept(inside, most)
     headings = ("", "explanation", "its parameters", "checks", "probability")
-    caption = "Which effect explains the gap (★: the data cannot tell these apart)"
+    caption = "Which effect explains the gap (★: the data cannot distinguish these)"
     lines = tuple(_without(row, empty) for row in rows[:kept])
     table = Table(_without(headings, empty), lines, caption, left=4 - len(empty))
     return table, _rest([explanation.probability for explanation in shown[kept:]], "explanation")
@@ -109,14 +109,14 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
             chance(effect.probability),
             _signed(effect.share) if effect.name in diagnosis.best.effects else "–",
             "" if effect.alone is None else _signed(effect.alone),
-            "" if effect.beside is None else _signed(effect.beside),
+            "" if effect.in_addition is None else _signed(effect.in_addition),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
         )
         for effect in diagnosis.effects
     ]
     empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
     kept = _kept([max(effect.probability, effect.share) for effect in diagnosis.effects], most)
-    headings = ("effect", "probability", "share of the gap", "alone", "beside the others", "only in")
+    headings = ("effect", "probability", "share of the gap", "alone", "in addition to the others", "only in")
     table = Table(
         _without(headings, empty),
         tuple(_without(row, empty) for row in rows[:kept]),

@@ -245,7 +245,7 @@ def _integration(time: FloatArray, measured: FloatArray, integrated: FloatArray)
 
 
 def _dots(axes: Axes, x: FloatArray, y: FloatArray, label: str) -> None:
-    every = slice(None, None, -(-len(x) // _DOTS))  # not the extremes of each stretch: these are samples, not a line
+    every = slice(None, None, -(-len(x) // _DOTS))  # not the extremes of each segment: these are samples, not a line
     axes.plot(x[every], y[every], ".", ms=4, mew=0, color=colour("data"), label=label, zorder=1.5)
 
 

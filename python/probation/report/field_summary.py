@@ -92,7 +92,7 @@ def closeness_table(maps: FieldMaps) -> Table:
         )
         for map_closeness in maps.closeness
     )
-    return Table(("beside the truth", "bias", "scatter", "error over standard error", "in the 95 % interval"), rows)
+    return Table(("against the truth", "bias", "scatter", "error over standard error", "in the 95 % interval"), rows)
 
 
 def origin(maps: FieldMaps) -> list[str]:

@@ -375,7 +375,7 @@ def _shortened(number: re.Match[str]) -> str:
 
 
 def thinned(x: FloatArray, y: FloatArray, limit: int = _DRAWN) -> tuple[FloatArray, FloatArray]:
-    """At most about `limit` points that draw the same line: the first, lowest and highest of each stretch.
+    """At most about `limit` points that draw the same line: the first, lowest and highest of each segment.
 
     Parameters
     ----------
@@ -386,7 +386,7 @@ def thinned(x: FloatArray, y: FloatArray, limit: int = _DRAWN) -> tuple[FloatArr
     edges = np.linspace(0, len(x), limit // 3 + 1).astype(int)
     kept = {len(x) - 1}
     for first, end in pairwise(edges):
-        stretch = y[first:end]
-        kept |= {int(first), int(first + stretch.argmin()), int(first + stretch.argmax())}
+        segment = y[first:end]
+        kept |= {int(first), int(first + segment.argmin()), int(first + segment.argmax())}
     at = np.array(sorted(kept))
     return x[at], y[at]

@@ -55,7 +55,7 @@ def write_plan_page(plan: Plan, path: Path) -> None:
     correlated = (f"Correlations of the estimates: {pairs}.",) if pairs else ()
     warnings = (Section("Mind", tuple(map(sentence, plan.warnings))),) if plan.warnings else ()
     Page(
-        title="What planned tests would tell",
+        title="What planned tests would show",
         verdict=plan_verdict(plan),
         lead="Asked of the strain histories, the noise and a guess of the law, before any test is done.",
         sections=(

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from probation.records.record import Record
 
 _FINER = 50
+"""Steps of the reference in one of the record."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from probation.schemes.smooth import SmoothHistory
 
 _COARSEST, _HALVINGS = 125, 6
+"""Steps of the coarsest grid over the whole history, and grids, each twice as fine as the one before."""
 _AWAY_FROM_START = 1.0 / 3.0  # of the duration: an order is observed where the start is forgotten
 _FLOOR = 2e-9  # MPa; below, round-off and the reference show
 

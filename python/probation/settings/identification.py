@@ -32,6 +32,17 @@ class IdentificationSettings:
     beyond_records: float = chosen(
         1e3, "-", "How far beyond the records' own times tau_max is searched, and how far from 1 alpha."
     )
+    edge: float = chosen(
+        1.05, "-", "Factor from an end of the search for tau_max within which a minimum is at its edge."
+    )
+    beyond_edge: float = chosen(
+        100.0,
+        "-",
+        "Factor by which tau_max is moved beyond such an edge: parameters that follow are not identified.",
+    )
+    profile_reach: float = chosen(
+        1.25, "95 % quantile", "Signed root of the deviance up to which a likelihood profile is followed."
+    )
     walkers: int = chosen(16, "walkers", "Walkers of the ensemble that samples the posterior.")
     burn_in: int = chosen(300, "steps", "Its first steps, which are dropped.")
     thinned: int = chosen(10, "steps", "Of the others one step in so many is kept.")

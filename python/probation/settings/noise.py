@@ -62,6 +62,12 @@ class NoiseSettings:
         8, "half periods", "Orders from here on are looked at: further down a bias is all there is."
     )
     highest_drift_order: int = chosen(4, "samples", "Orders up to the samples over this are looked at.")
+    level_range: tuple[float, float] = chosen(
+        (0.1, 2.0),
+        "-",
+        "Ends of the search for a level of white noise: over the smaller and the larger of the known noise and the "
+        "residual.",
+    )
     outlying_power: float = chosen(
         8.0, "mean power", "Power of one wave, over the mean, above which it is a line and no noise."
     )
@@ -76,8 +82,8 @@ class NoiseSettings:
     transient_ratio: float = chosen(
         4.0,
         "-",
-        "A stretch whose low frequencies hold this many times as much, beside its high ones, as the median "
-        "stretch's holds a transient of the model, and is left out.",
+        "A segment whose low frequencies hold this many times as much, relative to its high ones, as the median "
+        "segment's holds a transient of the model, and is left out.",
     )
     quiet_samples: int = chosen(80, "samples", "Quiet samples that suffice for an estimate of their own.")
     coarse_step: float = chosen(

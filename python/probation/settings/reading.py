@@ -11,6 +11,7 @@ from probation.settings.setting import chosen
 class ReadingSettings:
     """What a record is taken for when it is read."""
 
+    fewest_samples: int = chosen(10, "samples", "Samples of a record, or instants of a field, at least.")
     clock_overlap: float = chosen(
         0.5, "shorter record", "Time that two records of different clocks have in common at least."
     )

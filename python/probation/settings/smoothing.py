@@ -121,6 +121,9 @@ class SmoothingSettings:
     lag_times: tuple[float, ...] = chosen(
         (0.5, 1.0, 2.0, 4.0), "sampling interval", "Time constants of the lags at a start."
     )
+    trends: int = chosen(50, "sizes", "Sizes of an unknown trend of the strain that are averaged over.")
+    wanders: int = chosen(20, "sizes", "Sizes of an unknown wander of its slope that are averaged over.")
+    spacing_window: float = chosen(0.05, "samples", "Part of the samples over which their usual spacing is a median.")
     border_samples: int = chosen(12, "samples", "Samples next to a border whose slope is the rate there.")
 
 

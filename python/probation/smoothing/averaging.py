@@ -49,14 +49,14 @@ class Averaging:
     def pooled(cls, segments: Iterable[FloatArray]) -> Averaging:
         """Of segments whose strains have one extensometer.
 
-        In some of them the curve hides an average that others show. The mean of those that tell, by their samples;
-        white noise if none does.
+        In some of them the curve hides an average that others show. The mean of those that show it, weighted by their
+        samples; white noise if none does.
         """
-        told = [(len(values), found) for values in segments if (found := averaging_of(values)) is not None]
-        if not told:
+        estimates = [(len(values), found) for values in segments if (found := averaging_of(values)) is not None]
+        if not estimates:
             return cls()
-        parts = [(found.inflation, found.hidden) for _, found in told]
-        inflation, hidden = np.average(parts, axis=0, weights=[count for count, _ in told]).tolist()
+        parts = [(found.inflation, found.hidden) for _, found in estimates]
+        inflation, hidden = np.average(parts, axis=0, weights=[count for count, _ in estimates]).tolist()
         return cls(inflation, hidden)
 
 
@@ -71,7 +71,7 @@ def averaging_of(values: FloatArray) -> Averaging | None:
 
     By second differences over lags k, whose variance is :math:`6\gamma_0 - 8\gamma_k + 2\gamma_{2k}`: constant for
     white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
-    the fourth power of k; where it does, or no level is reached, fourth differences may still tell. None if neither
+    the fourth power of k; where it does, or no level is reached, fourth differences may still show it. None if neither
     does.
 
     Parameters
@@ -79,8 +79,8 @@ def averaging_of(values: FloatArray) -> Averaging | None:
     values : ndarray, shape (n,)
         At even intervals or nearly so, without a jump of the slope.
     """
-    told = [found for order in ORDERS if (found := _by_differences(values, order)) is not None]
-    return max(told, key=lambda each: each.inflation) if told else None
+    estimates = [found for order in ORDERS if (found := _by_differences(values, order)) is not None]
+    return max(estimates, key=lambda estimate: estimate.inflation) if estimates else None
 
 
 def _by_differences(values: FloatArray, order: int) -> Averaging | None:

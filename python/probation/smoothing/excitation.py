@@ -197,11 +197,11 @@ def excite(record: Record, method: Method = "auto") -> Excitation:
 
 
 def excite_each(
-    records: Sequence[Record], method: Method = "auto", *, beside: Sequence[Record] = ()
+    records: Sequence[Record], method: Method = "auto", *, further: Sequence[Record] = ()
 ) -> Iterator[Excitation]:
     """Those of the records of one campaign, in their order.
 
-    Their strains have the same extensometer. All of them together tell how far it averages its noise: a segment in
+    Their strains have the same extensometer. All of them together show how far it averages its noise: a segment in
     which the curve hides an average would be followed too closely.
 
     Parameters
@@ -209,8 +209,8 @@ def excite_each(
     records : sequence of Record
     method : str
         As in `excite`.
-    beside : sequence of Record
-        Further ones of the campaign, which only tell of the extensometer.
+    further : sequence of Record
+        Other records of the campaign, which only show how the extensometer averages.
 
     Raises
     ------
@@ -218,7 +218,7 @@ def excite_each(
         As in `excite`.
     """
     one_of(method, "excitation", METHODS)
-    measured = [_Measured.of(record, method) for record in (*records, *beside)]
+    measured = [_Measured.of(record, method) for record in (*records, *further)]
     smoothed = [each for each in measured if each.method != "raw"]
     averaging = Averaging.pooled(
         segment for each in smoothed for segment in segments_of(each.record.true_strain, each.jumps)
@@ -228,10 +228,10 @@ def excite_each(
 
 
 def excitations_of(
-    records: Sequence[Record], method: Method = "auto", *, beside: Sequence[Record] = ()
+    records: Sequence[Record], method: Method = "auto", *, further: Sequence[Record] = ()
 ) -> dict[str, Excitation]:
     """The same by record id."""
-    driven = excite_each(records, method, beside=beside)
+    driven = excite_each(records, method, further=further)
     return {record.id: drive for record, drive in zip(records, driven, strict=True)}
 
 

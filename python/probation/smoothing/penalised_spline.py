@@ -31,12 +31,6 @@ LEAST_TURNS = 2
 COARSE = 120
 """Points of the coarse search for the smoothness."""
 
-TRENDS, WANDERS = 50, 20
-"""Sizes of the trend and of the wander over which what is unknown is averaged."""
-
-NEIGHBOURHOOD = 0.05
-"""Part of the samples over which the usual spacing is looked up."""
-
 
 def smooth_cubic(
     time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
@@ -180,8 +174,8 @@ class Score:
         order = self.basis.order
         inner = self.basis.penalties[order:]
         lowest, highest = self.limits
-        trend = np.exp(-np.linspace(lowest, highest, TRENDS))[:, None] / inner
-        wander = np.exp(-np.linspace(lowest, highest, WANDERS) / order)[:, None] / inner ** (1.0 / order)
+        trend = np.exp(-np.linspace(lowest, highest, SMOOTHING.trends))[:, None] / inner
+        wander = np.exp(-np.linspace(lowest, highest, SMOOTHING.wanders) / order)[:, None] / inner ** (1.0 / order)
         prior = (trend[:, None] + wander[None]).reshape(-1, len(inner))
         power = self.weights[order:] ** 2 / variance
         chance = 0.5 * np.sum(power * prior / (1.0 + prior) - np.log1p(prior), axis=1)
@@ -276,7 +270,7 @@ def _spacing(x: FloatArray) -> FloatArray:
     Gaps and jitter leave no trace, nor does a change by less than `changed_spacing`.
     """
     step = np.diff(x)
-    width = max(2 * int(0.5 * NEIGHBOURHOOD * len(step)) + 1, 5)
+    width = max(2 * int(0.5 * SMOOTHING.spacing_window * len(step)) + 1, 5)
     usual = np.log(median_filter(step, width, mode="nearest") / np.median(step))
     usual = np.sign(usual) * np.maximum(np.abs(usual) - np.log(SMOOTHING.changed_spacing), 0.0)
     spacing: FloatArray = np.exp(np.concatenate([usual[:1], 0.5 * (usual[1:] + usual[:-1]), usual[-1:]]))

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
+_NO_STRAIN = 1e-9
+"""Strain over that of the middle [-] which stands for none: no area is lost there, and its power is finite."""
+
 _REASON = "voids and broken lamellae take some tenths of the section before failure"
 
 
@@ -31,7 +34,7 @@ def _growing(view: RecordView, values: Values) -> Modification:
 def _about_a_strain(view: RecordView, values: Values) -> Modification:
     """Area e^(-a h), h = e^m / (e^m + e_c^m) (Hill), e the largest strain so far."""
     part = np.maximum(view.largest_strain, 0.0) / values[1]
-    return Modification(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, 1e-9) ** -values[2])))
+    return Modification(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, _NO_STRAIN) ** -values[2])))
 
 
 def _beyond_a_strain(view: RecordView, values: Values) -> Modification:
@@ -64,7 +67,7 @@ _GROWTH = EffectParameter(
 
 
 def _thresholds(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Parts of the largest strain."""
+    """Thresholds at 10 to 70 % of the largest true strain, with a growth over 30 % of it."""
     largest = max(float(np.max(view.largest_strain)) for view in views)
     return [
         (

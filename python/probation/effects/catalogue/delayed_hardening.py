@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 SMALL = 1e-9
-"""e_HT below which the hardening is zero to rounding."""
+"""e_HT [-] below which the hardening is zero to rounding."""
 
 _LAGS = (0.03, 0.15, 0.6)
-"""Lags in strain from which searches begin: a lag of some tenths is not what a small one is."""
+"""Lags [true strain] from which searches begin: a lag of some tenths is not what a small one is."""
 
 _TIME = EffectParameter(
     name="build_up_time_s",
@@ -69,7 +69,7 @@ def _in_strain(view: RecordView, values: Values) -> Modification | None:
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Fractions of the longest record."""
+    """Build-up times of 3 and 30 % of the longest record [s]."""
     longest = max(view.duration for view in views)
     times = np.clip(np.array([0.03, 0.3]) * longest, _TIME.lower, _TIME.upper)
     return [(float(time),) for time in times]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 _LIMIT = EffectParameter("inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress")
 _ROUNDING = 0.02
+"""Width of the bend over the limit [-] from which a search begins: some per cent of a cell's range."""
 
 
 def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
@@ -40,7 +41,7 @@ def _bend(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Just below, and well below, the largest force that was recorded."""
+    """Limits at 99.5 and at 90 % of the largest nominal stress that was recorded: hard, and bent into."""
     largest = max(float(np.max(np.abs(view.nominal_data))) for view in views)
     return [(1.0 / (part * largest),) for part in (0.995, 0.9)] if largest > 0.0 else []
 

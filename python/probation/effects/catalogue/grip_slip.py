@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 _DURATION = 0.004
+"""Duration of a slip over that of its record [-] from which a search begins: half a usual one, some samples."""
+
 _PULL = EffectParameter(
     name="holding_stress_MPa",
     unit="MPa",
@@ -28,6 +30,8 @@ _PULL = EffectParameter(
     reason="friction holds up to about the stress for which grips are tightened",
 )
 _FADING = (0.03, 0.1, 0.3)
+"""Time constants of creep in the grips over the duration of the record [-] from which searches begin, by threes."""
+
 _SLIP = EffectParameter("slip_strain", "", -0.2, 0.2, 0.005, "a slip of a tenth of a millimetre over a gauge of 20 mm")
 _PARAMETERS = (
     _SLIP,
@@ -63,7 +67,7 @@ def _progressive(view: RecordView, values: Values) -> FloatArray:
 
 
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Parts of the largest nominal stress."""
+    """A tenth, three and six tenths of the largest nominal stress [MPa]: more holds nearly all along the record."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
     return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.1, 0.3, 0.6)]
 
@@ -76,7 +80,7 @@ EFFECT = Effect(
     name="grip_slip",
     title="slip in the grips",
     physics=(
-        "The specimen slips in its grips at some instant, and its strain jumps back beside the recorded one; or it "
+        "The specimen slips in its grips at some instant, and its strain jumps back, the recorded one does not; or it "
         "creeps out of them from some instant on; or it gives way little by little beyond the pull that friction "
         "holds.\n"
         "Amplitude: recorded strain that is lost (per stress beyond what holds). The true stress was made of it, or "

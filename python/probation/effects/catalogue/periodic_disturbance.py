@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 _CYCLES = (3.0, 6.0, 12.0, 25.0, 50.0)
+"""Frequencies [cycles in the longest record] from which searches begin without residuals, by twos."""
 _PEAKS = 3
+"""Peaks of a residual's periodogram from which searches begin."""
 _FREQUENCY = EffectParameter(
     name="frequency_Hz",
     unit="Hz",
@@ -69,11 +71,15 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
 
 
 def _peaks(view: RecordView, residual: FloatArray) -> list[float]:
-    """Frequencies of the highest peaks, two cycles over the record or more."""
+    """Frequencies [Hz] of the highest peaks, two cycles over the record or more.
+
+    The residual is padded to four times its length: a bin is a quarter of a cycle over the record, and the main lobe
+    of the Hann window ends two cycles, eight bins, from a peak (Harris 1978).
+    """
     n = len(residual)
     even = np.interp(np.linspace(0.0, view.duration, n), view.sampled(view.elapsed), residual)
     power = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(n), 4 * n)) ** 2
-    power[: 4 * 2] = 0.0  # bins of a quarter of a cycle over the record
+    power[: 4 * 2] = 0.0  # less than two cycles over the record: a trend
     peaks = []
     for _ in range(_PEAKS):
         best = int(np.argmax(power))

@@ -47,7 +47,7 @@ _HARDENING_LOSS = EffectParameter(
     reason="G of polyethylene falls by about 0.5 % per degree",
 )
 _LEAST_STRESS = 0.02
-"""Part of the stress that is left at any temperature."""
+"""Part of the stress [-] that is left at any temperature: the line that falls with the work ends above zero."""
 
 _MEASURED_SOFTENING = EffectParameter(
     name="softening_per_degC",

@@ -20,10 +20,15 @@ if TYPE_CHECKING:
 _DROP = 0.04
 """Least part of a period that a drop takes; a sample where that is more."""
 _RECOVERIES = (0.3, 3.0)
+"""Recoveries over the period [-] from which searches begin: soon after the drop, and nearly a straight line."""
 _ONSET, _GROWTH = 0.05, 0.2
+"""Onset, and strain over which drops grow [true strain], from which searches begin: yield, and some tenths."""
 _HARMONICS = 12
+"""Harmonics of a tooth that place its first drop; of the highest, a drop of `_DROP` is half a wave."""
 _NEWTON_STEPS = 3
+"""Steps by which the best phase on the grid is refined: each doubles its digits."""
 _GRID = np.arange(256) / 256.0
+"""Phases [periods] that are tried first: twenty to a wave of the highest harmonic."""
 
 _PERIOD = EffectParameter(
     name="period_strain",

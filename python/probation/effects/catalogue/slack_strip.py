@@ -18,13 +18,16 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 _LOADED, _NONE = 0.1, 0.02
-"""Parts of the largest force above which a record has been loaded, and within which there is no force."""
+"""Parts of the largest force [-]: above the first a record has been loaded, within the second there is no force.
+
+The second is above the zero error of a load cell and below what a strip that has buckled still carries.
+"""
 
 _SIZE = EffectParameter("slack_part", "", 0.0, 1.0, 1.0, "a thin strip buckles at once (1), a stout bar never (0)")
 
 
 def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
-    """First and last sample of each stretch without force after a loading, while the strain is below its largest."""
+    """First and last sample of each segment without force after a loading, while the strain is below its largest."""
     force = view.data / view.sampled(view.stretch)
     largest = float(np.max(force))
     if largest <= 0.0:

@@ -18,7 +18,7 @@ _PART = EffectParameter(
     lower=0.0,
     upper=1.0,
     scale=0.4,
-    reason="some tenths of it: a process beside the law's; 1 is another spectrum altogether",
+    reason="some tenths of it: a process in addition to the law's; 1 is another spectrum altogether",
 )
 _TIME = EffectParameter(
     name="time_over_tau_max",

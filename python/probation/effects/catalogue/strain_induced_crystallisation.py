@@ -44,7 +44,11 @@ def _beyond(view: RecordView, onset: float) -> FloatArray:
 
 
 def _filler(view: RecordView, values: Values) -> Modification:
-    """G times 1 + 2.5 x + 14.1 x^2 (Guth and Gold), x = a (1 - e^(-(e - e_c) / g)), e the largest strain so far."""
+    """G times 1 + 2.5 x + 14.1 x^2, x = a (1 - e^(-(e - e_c) / g)), e the largest strain so far.
+
+    Crystals are spheres of the volume fraction x in a rubber: 2.5 is Einstein's (1911), of
+    single spheres, 14.1 is that of pairs (Guth 1945).
+    """
     part = -values[0] * np.expm1(-_beyond(view, values[1]) / values[2])
     return Modification(hardening_factor=1.0 + 2.5 * part + 14.1 * part**2)
 
@@ -55,7 +59,7 @@ def _carried(view: RecordView, values: Values) -> Modification:
 
 
 def _onsets(views: Sequence[RecordView]) -> list[float]:
-    """Parts of the largest strain."""
+    """Onsets at 35 and 65 % of the largest true strain: before and after the middle."""
     largest = max(float(np.max(view.largest_strain)) for view in views)
     return [float(np.clip(part * largest, _ONSET.lower, _ONSET.upper)) for part in (0.35, 0.65)]
 

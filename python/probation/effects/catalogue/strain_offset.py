@@ -49,7 +49,7 @@ def _straightening(view: RecordView, values: Values) -> FloatArray:
 
 
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """A fiftieth and a fifth of the largest nominal stress."""
+    """A fiftieth and a fifth of the largest nominal stress [MPa]: a strip is straight long before it yields."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
     return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.02, 0.2)]
 

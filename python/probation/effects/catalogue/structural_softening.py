@@ -28,7 +28,7 @@ _STRAIN = EffectParameter(
     reason="aged glassy and semi-crystalline polymers soften within 5 to 20 % of strain",
 )
 _SHARPNESS = 30.0
-"""Klompen and others' r_1: how sharply the plateau ends."""
+"""Klompen and others' r_1 [1/true strain] (2005): the plateau ends within some 2 / r_1 = 0.07 of strain."""
 
 
 def _excess(view: RecordView, values: Values) -> FloatArray:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 _ZERO = 273.15
+"""0 °C [K]."""
 _SOFTENING = EffectParameter(
     name="softening_per_degC",
     unit="1/°C",

@@ -5,7 +5,8 @@ import numpy as np
 from probation.records.record import FloatArray, Record
 from probation.settings.reading import READING
 
-_STRETCHES = 20
+_SEGMENTS = 20
+"""Segments of equal duration whose mean rates show how a test was driven."""
 
 
 def guess_control(record: Record) -> str:
@@ -34,7 +35,7 @@ def guess_control(record: Record) -> str:
 
 
 def _rates(time: FloatArray, strain: FloatArray) -> FloatArray:
-    """Slope of the strain over each of some stretches of equal duration."""
-    edges = np.linspace(time[0], time[-1], _STRETCHES + 1)
+    """Slope of the strain over each of some segments of equal duration."""
+    edges = np.linspace(time[0], time[-1], _SEGMENTS + 1)
     rates: FloatArray = np.diff(np.interp(edges, time, strain)) / np.diff(edges)
     return rates

@@ -37,6 +37,7 @@ _ROLES = {
     "transverse_strain": "true transverse strain SOI",
 }
 _ZERO = 6
+"""Column of each block that holds zeros only, from 0."""
 
 
 def recognises(source: Source) -> bool:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from probation._complaint import bad_input, quoted, suggestion
 from probation.errors import InputError
 from probation.limits import INFLATED_BYTES, MEBIBYTE
-from probation.records.checks import MINIMUM_SAMPLES
 from probation.records.grid import Grid, check_extent
 from probation.records.header_block import header_block
 from probation.records.options import ReadOptions
@@ -21,12 +20,14 @@ from probation.records.profiles.tables import read_tables
 from probation.records.source import Source
 from probation.records.table import Table
 from probation.records.units import is_percent
+from probation.settings.reading import READING
 
 if TYPE_CHECKING:
     from openpyxl.cell.cell import Cell, MergedCell
     from openpyxl.workbook import Workbook
 
 _HEADED_ROWS = 60
+"""First rows of every sheet that are searched for headings like those of the table, and for dimensions of specimens."""
 _ZIP_MAGIC = b"PK\x03\x04"
 _PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a number format: text that is shown beside the number
 _OLD_EXCEL_MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -66,7 +67,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
         workbook.close()
     if not filled:
         raise bad_input(source.path, "an empty sheet", "a table with headings and at least ten rows")
-    long = [sheet for sheet in filled if len(sheet[1][0].rows) > MINIMUM_SAMPLES]
+    long = [sheet for sheet in filled if len(sheet[1][0].rows) > READING.fewest_samples]
     name, (grid, percents) = (long or filled)[0]
     reading = read_tables(source, grid, options)
     like = tuple(other for other, head in heads.items() if _is_headed_alike(head, reading.tables[0]))

@@ -12,6 +12,7 @@ from probation.records.table import Column
 from probation.records.units import measures
 
 _RECOGNISED_ROWS = 60
+"""First rows by which the software of a machine is recognised."""
 _DECIDED_BY_UNIT = {"engineering_strain": ("mm", "displacement"), "force": ("MPa", "engineering_stress")}
 
 

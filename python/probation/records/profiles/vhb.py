@@ -13,6 +13,7 @@ from probation.records.source import Source
 _HEADINGS = "时间,位移,力"  # time, displacement, force
 _ROLES = {"time": "时间", "displacement": "位移", "force": "力"}
 _SPECIMEN = {"area_mm2": 22.0, "gauge_length_mm": 80.0}
+"""Implied by the data; see above."""
 
 
 def recognises(source: Source) -> bool:

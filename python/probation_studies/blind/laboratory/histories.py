@@ -68,7 +68,7 @@ def ramp(rate: float, end: float) -> Schedule:
 
 
 def rate_jumps(random: Generator, rate: float, end: float, decades: float) -> Schedule:
-    """Three to five stretches, alternately faster and slower."""
+    """Three to five segments, alternately faster and slower."""
     count = int(random.integers(3, 6))
     cuts = np.sort(random.uniform(0.15, 0.85, count - 1))
     cuts = np.concatenate([np.linspace(0.0, 1.0, count + 1)[1:-1] * 0.6 + 0.4 * cuts, [1.0]])

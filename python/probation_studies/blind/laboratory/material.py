@@ -122,7 +122,7 @@ class Specimen:
     overstress : ndarray, shape (modes,) [MPa]
         u_j at the start.
     extra : ndarray, shape (n,) [MPa]
-        Stress carried beside the spectrum.
+        Stress carried in parallel with the spectrum.
     activation, heating : optional
         Feedbacks of the stress.
     """

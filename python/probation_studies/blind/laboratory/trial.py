@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from probation_studies.blind.laboratory.material import Activation, FloatArray, Heating
 
 Shape: TypeAlias = "dict[str, float]"
-"""A cause's parameters beside its amplitude, with their units in their names."""
+"""A cause's parameters in addition to its amplitude, with their units in their names."""
 
 _ITERATIONS = 60
 _SETTLED = 1e-5

@@ -63,7 +63,7 @@ def _windows(bank: Bank, planted: Planted, touched: list[int]) -> tuple[Window, 
 
 
 def shortest_window(signal: FloatArray) -> tuple[int, int]:
-    """First and last sample of the shortest stretch that holds nine tenths of the squares."""
+    """First and last sample of the shortest segment that holds nine tenths of the squares."""
     passed = np.concatenate([[0.0], np.cumsum(signal**2)])
     ends = np.searchsorted(passed, passed[:-1] + _PART * passed[-1])
     length = np.where(ends < len(passed), ends - np.arange(len(signal)), len(passed))

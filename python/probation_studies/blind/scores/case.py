@@ -95,7 +95,7 @@ class Case:
 
     @property
     def clear(self) -> bool:
-        """Whether what lies outside the catalogue, if anything does, shows beside the nearest cause of it."""
+        """Whether what lies outside the catalogue, if anything does, shows in addition to the nearest cause of it."""
         return self.stratum not in ("outside", "mimic") or self.left >= OUTSIDE_ENOUGH
 
     @property

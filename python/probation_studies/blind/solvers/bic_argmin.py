@@ -18,7 +18,7 @@ STEPS = 12
 
 
 def bic_argmin(folder: Path) -> dict[str, object]:
-    """Weigh refits by exp(-BIC / 2), BIC = chi^2 + p ln N of p parameters beside the base law's; no priors count.
+    """Weigh refits by exp(-BIC / 2), BIC = chi^2 + p ln N of p parameters more than the base law's; no priors count.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""One test on the bench: what the specimen does, what the machine reads, what is left of it beside the base law."""
+"""One test on the bench: what the specimen does, what the machine reads, what the base law leaves of it."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ averaged over these. For pairs of one amplitude each,
 
     P(i beats j) = Phi(t sin(psi/2)) Phi(t cos(psi/2)) + Phi(-t sin(psi/2)) Phi(-t cos(psi/2)),
 
-psi the angle between the two signals and t = sqrt(lambda), is told beside every other cause.
+psi the angle between the two signals and t = sqrt(lambda), is distinguished from every other cause.
 """
 
 from __future__ import annotations

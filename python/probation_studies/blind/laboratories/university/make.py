@@ -317,7 +317,7 @@ def _left(gram: FloatArray, others: NDArray[np.intp]) -> float:
 
 
 def _windows(planted: Planted, bench: Bench) -> list[dict[str, object]]:
-    """The shortest stretch of every record that holds nine tenths of the squared signal."""
+    """The shortest segment of every record that holds nine tenths of the squared signal."""
     found: list[dict[str, object]] = []
     for test, column in zip(bench.tests, planted.columns, strict=True):
         if column is None or not np.any(column):

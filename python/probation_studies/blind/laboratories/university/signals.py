@@ -105,7 +105,7 @@ class Bench:
         return Products(inside, across, self.inverse)
 
     def detectability(self, added_stress: Sequence[FloatArray | None]) -> float:
-        """Norm of what is added, whitened, beside what the base law follows; None where nothing is."""
+        """Norm of what is added, whitened and orthogonal to what the base law follows; None where nothing is."""
         norm, across = 0.0, np.zeros(len(PARAMETERS))
         for k, column in enumerate(added_stress):
             if column is not None:
@@ -133,7 +133,7 @@ class Products:
     inverse: FloatArray
 
     def gram(self, placed: Sequence[tuple[int, int | None]]) -> FloatArray:
-        """Of columns that each act in one record, or in all (None), beside what the base law follows."""
+        """Of columns that each act in one record, or in all (None), orthogonal to what the base law follows."""
         records = len(self.inside)
         acts = np.array([[place is None or place == k for k in range(records)] for _, place in placed], dtype=float)
         which = [column for column, _ in placed]

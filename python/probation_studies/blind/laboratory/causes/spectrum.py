@@ -1,4 +1,4 @@
-"""What changes the modes: their weights, slower ones beside them, their stress at the start."""
+"""What changes the modes: their weights, slower ones in addition to them, their stress at the start."""
 
 from __future__ import annotations
 

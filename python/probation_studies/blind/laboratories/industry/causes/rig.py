@@ -25,7 +25,7 @@ def _linear_frame(test: BenchTest, a: float, shape: Shape) -> None:
 
 
 def _hertz_frame(test: BenchTest, a: float, shape: Shape) -> None:
-    """Hertz 1882: surfaces in contact approach by F^(2/3), beside a linear frame."""
+    """Hertz 1882: surfaces in contact approach by F^(2/3), in series with a linear frame."""
     part = shape["contact"]
 
     def read(travel: FloatArray, force: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Causes in the relaxation times: rate, stress, heat, an aged start; in the spectrum; processes beside it.
+"""Causes in the relaxation times: rate, stress, heat, an aged start; in the spectrum; processes parallel to it.
 
 Every form is written as a shift of ln(tau_max), all modes alike, unless it says otherwise.
 
