@@ -21,8 +21,9 @@ struct ModeStep {
 
 }  // namespace
 
-Eigen::ArrayXd stress_behind_frame(const Samples& time, const Samples& modulus, const Samples& relaxation_time,
-                                   const Samples& give, const Samples& change) {
+Eigen::ArrayXd stress_behind_frame(const Samples& time, const Samples& modulus,
+                                   const Samples& relaxation_time, const Samples& give,
+                                   const Samples& change) {
   const Eigen::Index count = time.size(), modes = modulus.size();
   if (give.size() != count || change.size() != count || relaxation_time.size() != modes)
     throw InputError("time, give and change need the same length, and so do modulus and relaxation_time");

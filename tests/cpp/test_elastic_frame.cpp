@@ -31,8 +31,7 @@ TEST_CASE("a Maxwell specimen behind a frame relaxes with the time of both, at s
     const ArrayXd stress =
         stress_behind_frame(time, ArrayXd::Constant(1, modulus), ArrayXd::Constant(1, relaxation),
                             ArrayXd::Constant(count, -compliance), time);
-    const ArrayXd exact =
-        time - ratio * relaxation * (1.0 - (-time / (relaxation * (1.0 + ratio))).exp());
+    const ArrayXd exact = time - ratio * relaxation * (1.0 - (-time / (relaxation * (1.0 + ratio))).exp());
     error[fine] = (stress - exact).abs().maxCoeff();
   }
   CHECK(error[1] < 2e-4);
