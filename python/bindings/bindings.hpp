@@ -46,6 +46,7 @@ void bind_batch(py::module_& m);
 void bind_build(py::module_& m);
 void bind_companion(py::module_& m);
 void bind_creep(py::module_& m);
+void bind_elastic_frame(py::module_& m);
 void bind_errors(py::module_& m);
 void bind_feedback(py::module_& m);
 void bind_history(py::module_& m);

@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m) {
   probation::kernel_build();  // a wrong name in PROBATION_KERNELS stops the import
   bind_errors(m);
   bind_kinematics(m);
+  bind_elastic_frame(m);
   bind_spectrum(m);
   bind_companion(m);
   bind_feedback(m);

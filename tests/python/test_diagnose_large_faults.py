@@ -110,6 +110,24 @@ def test_a_frame_that_takes_much_of_the_travel_is_found_alone_with_its_complianc
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
 
 
+def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
+    """A crosshead that shows twice the specimen's strain: alone, neither fault is anywhere near what it really is."""
+    size, slack = compliance_taking(0.5, set(TESTS)), 0.25 * ELONGATION
+
+    def fault(time, elongation, nominal):
+        return late_by(slack, time, elongation + size * nominal, nominal)
+
+    found = probation.diagnose(campaign(set(TESTS), fault), design=False)
+    best = found.explanations[0]
+    assert found.verdict == "explained"
+    assert best.effects == ("machine_compliance", "strain_offset")
+    assert best.probability > 0.8
+    compliance, offset = best.parameters
+    assert compliance.value == pytest.approx(size, rel=0.01)
+    assert offset.value == pytest.approx(slack, rel=0.01)
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
 @pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])
 def test_a_compliance_does_not_turn_noise_of_the_force_into_strain(slack):
     size = compliance_taking(0.4, {"grip1"})

@@ -80,10 +80,11 @@ NUMERICAL = {
     "inference/laplace.py": {"UNDETERMINED"},
     "inference/least_squares.py": {"FIRST_DAMPING", "LEAST_DAMPING", "MOST_DAMPING", "ALL_DIGITS"},
     "inference/modal_law.py": {"_BOUNDS"},
+    "inference/elastic_frame.py": {"MODES", "SAMPLES", "STEP", "MOVING"},
     "inference/model.py": {"_PROBE", "_PARABOLA"},
     "inference/moving_noise.py": {"KEPT"},
     "inference/own_force.py": {
-        *("MOST_STEPS", "MOST_DIRECTIONS", "PARTS", "LOOK", "SETTLED", "ROUGHLY", "GOOD_ENOUGH", "ROUGHEST", "FINEST"),
+        *("MOST_STEPS", "MOST_DIRECTIONS", "PARTS", "SETTLED", "SLOPE", "ROUGHLY", "GOOD_ENOUGH", "ROUGHEST", "FINEST"),
         *("PATIENCE", "HOPELESS", "PROBE"),
     },
     "inference/propagated.py": {"ROUNDING", "STRAIN_STEP"},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from itertools import compress, product
+from itertools import combinations, compress, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -154,6 +154,23 @@ class Search:
         more = [each for each in others if cause_key(each.cause) in keys]
         polished += self._refitted(self.base.refit, more, self.base.other_starts)
         self.found += self._judged(polished)
+        if self._gap_left(polished) > SEARCH.strong_gap:
+            self.found += self._judged(self._begun_jointly(running))
+
+    def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
+        """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both."""
+        jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
+        for one, other in combinations(_least_of_each([each for each in singles if _hidden(each)]).values(), 2):
+            pair = one.model.causes[-1], other.model.causes[-1]
+            if _hidden(one) != _hidden(other) or pair[0].effect is pair[1].effect:
+                continue
+            model = self.base.model.with_causes(pair)
+            views = [view for view in model.views if pair[0].touches(view.id)]
+            residuals = [residual[model.rows(view.id)] for view in views]
+            for starts in product(*(each.form.shapes_at(views, residuals)[: SEARCH.starts] for each in pair)):
+                jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
+        begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda each: each.chi_square)
+        return self._further(begun[: SEARCH.starts], MOST_STEPS)
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""
@@ -519,6 +536,12 @@ def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
         seen.add(key)
         found.append(each)
     return found
+
+
+def _hidden(single: Refit) -> tuple[str, tuple[str, ...] | None] | None:
+    """By which faults a single cause may be hidden, and where it acts; None if by none."""
+    cause = single.model.causes[-1]
+    return None if cause.form.hidden_by is None else (cause.form.hidden_by, cause.records)
 
 
 def _placed(refit: Refit) -> tuple[str, tuple[str, ...] | None]:

@@ -144,6 +144,9 @@ class Form:
     own_force : bool
         With `driving_strain`: the force that it takes from the view (`nominal_data`) is to be the model's own, not the
         recorded one, whose noise would become a strain of the specimen.
+    hidden_by : str, optional
+        Gross faults of one name hide each other: what one does alone is far from what it does jointly with the other,
+        so that they are begun jointly, too.
     placements : tuple of {"all", "one"}
         Whether the fault may sit in all records with one amplitude, in a single one, or either. Empty: all for a
         material's effect, either for a rig's.
@@ -171,6 +174,7 @@ class Form:
     recorded_stress: StressHook | None = None
     converts: bool = True
     own_force: bool = False
+    hidden_by: str | None = None
     placements: tuple[Placement, ...] = ()
     starts: StartsHook | None = None
     threshold: bool = False

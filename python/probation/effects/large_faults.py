@@ -126,9 +126,12 @@ def _force_begins(view: RecordView) -> float:
 
 
 def _of_travel(form: Form, whole: float) -> Form:
-    """Searched for from several sizes; `whole` is the amplitude that would take all of the elongation."""
+    """Searched for from several sizes; `whole` is the amplitude that would take all of the elongation.
+
+    A frame that takes half of the travel hides a slack of a quarter of it, and the reverse.
+    """
     return _widened(
-        form,
+        replace(form, hidden_by="travel"),
         EFFECTS.large_travel * whole,
         0.0,
         EFFECTS.largest_travel * whole,

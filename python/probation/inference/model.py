@@ -11,12 +11,15 @@ import numpy as np
 from probation._complaint import suggestion
 from probation.effects.cause import Cause
 from probation.errors import InputError
-from probation.inference.own_force import SETTLED, OwnForce
+from probation.inference.elastic_frame import ElasticFrame
+from probation.inference.own_force import SETTLED, SLOPE, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from probation._arrays import FloatArray
     from probation.effects.effect import EffectParameter
     from probation.effects.record_view import RecordView
@@ -41,10 +44,13 @@ class Specimen:
         As a faultless force channel would have recorded it.
     sensitivity : ndarray, shape (n, n_base), or None
         Its derivatives along the base parameters.
+    own_force : OwnForce or None
+        How the stress answers where the force is the model's own.
     """
 
     stress: FloatArray
     sensitivity: FloatArray | None
+    own_force: OwnForce | None = None
 
 
 class CampaignModel:
@@ -267,7 +273,7 @@ class CampaignModel:
                 for position in range(len(values)):
                     if each.touches(view.id):
                         jacobian[rows, column + position] = view.sampled(
-                            self._slope(view, base, causes, index, position, specimen.stress, stress)
+                            self._slope(view, base, causes, index, position, specimen, stress)
                         )
                 column += len(values)
         return residual, jacobian
@@ -286,10 +292,12 @@ class CampaignModel:
         *,
         sensitivity: bool = False,
         settled: float = SETTLED,
+        near: FloatArray | None = None,
     ) -> Specimen:
         """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel.
 
-        With `settled`, to so much of the largest force where this is the model's own (`own_force.ROUGHLY`).
+        Where the force is the model's own, to `settled` of the largest (`own_force.ROUGHLY`), found from a stress that
+        is `near`, shape (n,) [MPa], or from the recorded one.
         """
         if not any(each.form.own_force for each, _ in causes):
             return self._driven(view, base, causes, sensitivity)
@@ -297,35 +305,41 @@ class CampaignModel:
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
             return self._driven(view.quietened(stress), base, causes, sensitivity)
 
-        found = OwnForce(lambda stress: under(stress).stress, view.smooth_nominal_data * view.stretch, settled)
+        start = view.smooth_nominal_data * view.stretch if near is None else near
+        frame = self._frame(view.quietened(start), base, causes)
+        found = OwnForce(lambda stress: under(stress).stress, start, frame.answer, settled)
         if not sensitivity:
-            return Specimen(found.stress, None)
+            return Specimen(found.stress, None, found)
         slopes = under(found.stress, sensitivity=True).sensitivity
         assert slopes is not None
         answers = np.empty_like(slopes)  # of no column, where all of the law is held
         for column, slope in enumerate(slopes.T):
-            answers[:, column] = found.answer(slope)
-        return Specimen(found.stress, answers)
+            answers[:, column] = found.answer(slope, SLOPE)
+        return Specimen(found.stress, answers, found)
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""
-        seen, conversion, modification = view, None, None
-        for each, values in causes:
-            if each.form.driving_strain is None:
-                continue
-            strain = each.form.driving_strain(seen, values)
-            if each.form.converts:
-                conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
-            seen = seen.driven(strain)
-        for each, values in causes:
-            if each.form.modification is not None and (change := each.form.modification(seen, values)) is not None:
-                modification = change if modification is None else modification.and_(change)
-        stress, slopes = self._solved(seen, base, modification, sensitivity)
+        seen, conversion = _seen(view, causes)
+        stress, slopes = self._solved(seen, base, _modification(seen, causes), sensitivity)
         if conversion is not None:
             factor = np.exp(conversion)
             stress = factor * stress
             slopes = None if slopes is None else factor[:, None] * slopes
         return Specimen(stress, slopes)
+
+    def _frame(self, view: RecordView, base: FloatArray, causes: CauseValues) -> ElasticFrame:
+        """About how the specimen's stress answers, with what a change of the force does to its strain."""
+        seen, _ = _seen(view, causes)
+        assert view.quiet_stress is not None
+        probe = _PROBE * max(float(np.max(np.abs(view.quiet_stress))), 1.0)
+        moved, _ = _seen(view.quietened(view.quiet_stress + probe), causes)
+        give = (moved.true_strain - seen.true_strain) / probe
+        change = _modification(seen, causes)
+
+        def stress_at(step: FloatArray) -> FloatArray:
+            return self.law.stress(seen.driven(seen.true_strain + step), base, change)
+
+        return ElasticFrame.of(seen.time, seen.true_strain, give, stress_at)
 
     def recorded(
         self,
@@ -335,15 +349,16 @@ class CampaignModel:
         specimen_stress: FloatArray | None = None,
         *,
         settled: float = SETTLED,
+        near: FloatArray | None = None,
     ) -> FloatArray:
         """Recorded true stress as the model has it, at the view's instants; shape (n,) [MPa].
 
         With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved. `settled`
-        as in `specimen`.
+        and `near` as in `specimen`.
         """
         here = _touching(causes, view)
         if specimen_stress is None:
-            specimen_stress = self.specimen(view, base, here, settled=settled).stress
+            specimen_stress = self.specimen(view, base, here, settled=settled, near=near).stress
         return _as_recorded(view, here, specimen_stress)
 
     def _solved(
@@ -360,24 +375,68 @@ class CampaignModel:
         causes: CauseValues,
         index: int,
         position: int,
-        specimen_stress: FloatArray,
+        specimen: Specimen,
         stress: FloatArray,
     ) -> FloatArray:
         """Derivative of the recorded stress along one parameter of one cause; shape (n,)."""
         cause, values = causes[index]
-        parameter = cause.form.parameters[position]
+        parameter, value = cause.form.parameters[position], values[position]
 
-        def at(value: float) -> FloatArray:
+        def changed(value: float) -> CauseValues:
             moved = (*values[:position], value, *values[position + 1 :])
-            changed = (*causes[:index], (cause, moved), *causes[index + 1 :])
-            return self.recorded(view, base, changed, None if cause.form.needs_solve else specimen_stress)
+            return (*causes[:index], (cause, moved), *causes[index + 1 :])
 
-        value, step = values[position], parameter.step(values[position])
-        if value - step < parameter.lower:
-            return (4.0 * at(value + step) - 3.0 * stress - at(value + 2.0 * step)) / (2.0 * step)
-        if value + step > parameter.upper:
-            return (3.0 * stress - 4.0 * at(value - step) + at(value - 2.0 * step)) / (2.0 * step)
-        return (at(value + step) - at(value - step)) / (2.0 * step)
+        def recorded(value: float) -> FloatArray:
+            return self.recorded(view, base, changed(value), None if cause.form.needs_solve else specimen.stress)
+
+        own = specimen.own_force
+        if own is None or not cause.form.needs_solve:
+            return _difference(recorded, stress, value, parameter)
+
+        def with_this_force(value: float) -> FloatArray:
+            here = _touching(changed(value), view)
+            return self._driven(view.quietened(specimen.stress), base, here, False).stress
+
+        answer = own.answer(_difference(with_this_force, specimen.stress, value, parameter), SLOPE)
+
+        def linear(other: float) -> FloatArray:
+            return self.recorded(view, base, changed(other), specimen.stress + (other - value) * answer)
+
+        return _difference(linear, stress, value, parameter)
+
+
+def _difference(
+    at: Callable[[float], FloatArray], here: FloatArray, value: float, parameter: EffectParameter
+) -> FloatArray:
+    """Derivative at a value where it is `here`: a central difference, one-sided of second order at a bound."""
+    step = parameter.step(value)
+    if value - step < parameter.lower:
+        return (4.0 * at(value + step) - 3.0 * here - at(value + 2.0 * step)) / (2.0 * step)
+    if value + step > parameter.upper:
+        return (3.0 * here - 4.0 * at(value - step) + at(value - 2.0 * step)) / (2.0 * step)
+    return (at(value + step) - at(value - step)) / (2.0 * step)
+
+
+def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:
+    """The record as the specimen saw it, and the true strain by which its stress was converted too far (n,) [-]."""
+    seen, conversion = view, None
+    for each, values in causes:
+        if each.form.driving_strain is None:
+            continue
+        strain = each.form.driving_strain(seen, values)
+        if each.form.converts:
+            conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
+        seen = seen.driven(strain)
+    return seen, conversion
+
+
+def _modification(seen: RecordView, causes: CauseValues) -> Modification | None:
+    """What the causes change in the law."""
+    modification = None
+    for each, values in causes:
+        if each.form.modification is not None and (change := each.form.modification(seen, values)) is not None:
+            modification = change if modification is None else modification.and_(change)
+    return modification
 
 
 def _touching(causes: CauseValues, view: RecordView) -> CauseValues:

@@ -114,7 +114,8 @@ def screen(
             size = values[0] if form.threshold else form.amplitude.step(0.0)
             moved = (*active, (cause, (size, *values[1:])))
             try:
-                stress = model.recorded(view, base, moved, None if form.needs_solve else specimen, settled=ROUGHLY)
+                known = None if form.needs_solve else specimen
+                stress = model.recorded(view, base, moved, known, settled=ROUGHLY, near=specimen)
                 found[_key(cause, values)] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
                 found[_key(cause, values)] = error

@@ -1,0 +1,72 @@
+"""The force that a frame and a specimen share."""
+
+import numpy as np
+import pytest
+
+import probation
+from probation.inference.elastic_frame import ElasticFrame
+from probation.inference.own_force import OwnForce
+
+LAW = probation.Law(unrelaxed_modulus=1500.0, tau_max=4.0, hardening_modulus=1.5)
+COMPLIANCE = 0.01
+TIME = np.concatenate([np.linspace(0.0, 5.0, 150, endpoint=False), np.linspace(5.0, 60.0, 250)])
+TRAVEL = 0.4 * TIME / TIME[-1]
+
+
+def stress_left(stress):
+    """The law's stress of what a stress leaves of the travel to the specimen."""
+    return LAW.stress(TIME, TRAVEL - COMPLIANCE * stress, "sa2")
+
+
+def frame_at(stress):
+    strain = TRAVEL - COMPLIANCE * stress
+    return ElasticFrame.of(
+        TIME, strain, np.full(len(TIME), -COMPLIANCE), lambda step: LAW.stress(TIME, strain + step, "sa2")
+    )
+
+
+def test_the_relaxation_is_read_off_the_law():
+    frame = frame_at(np.zeros(len(TIME)))
+    since = np.geomspace(0.2, 50.0, 30)
+    read = np.exp(-since[:, None] / frame.relaxation_time) @ frame.modulus
+    modes = LAW.spectrum
+    expected = 1500.0 * np.exp(-since[:, None] / (4.0 * modes.relaxation_ratio)) @ modes.modal_weight
+    hardening = 1.5 * 6.0  # d(e^2x - e^-x)/dx is 3 at no strain and 5.1 at 0.4
+    assert np.max(np.abs(read - expected)) < 0.02 * expected[0] + hardening
+
+
+def test_the_force_is_the_same_with_and_without_a_linear_specimen_and_takes_a_third_of_the_solves():
+    solved, found = [], []
+    for about in (np.asarray, frame_at(np.zeros(len(TIME))).answer):
+        count = 0
+
+        def counted(stress):
+            nonlocal count
+            count += 1
+            return stress_left(stress)
+
+        start = LAW.stress(TIME, 0.5 * TRAVEL, "sa2")
+        found.append(OwnForce(counted, start, about, settled=1e-4).stress)
+        solved.append(count)
+    left = np.abs(stress_left(found[1]) - found[1])
+    assert np.max(left) < 2e-4 * np.max(found[1])
+    assert found[0] == pytest.approx(found[1], abs=2e-3 * np.max(found[1]))
+    assert solved[1] < solved[0] / 3
+
+
+def test_the_answer_to_a_change_is_its_derivative():
+    frame = frame_at(np.zeros(len(TIME)))
+
+    def with_modulus(modulus):
+        law = probation.Law(unrelaxed_modulus=modulus, tau_max=4.0, hardening_modulus=1.5)
+
+        def stress(y):
+            return law.stress(TIME, TRAVEL - COMPLIANCE * y, "sa2")
+
+        return stress, OwnForce(stress, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), frame.answer)
+
+    _, here = with_modulus(1500.0)
+    more, above = with_modulus(1515.0)
+    less, below = with_modulus(1485.0)
+    slope = here.answer((more(here.stress) - less(here.stress)) / 30.0)
+    assert slope == pytest.approx((above.stress - below.stress) / 30.0, rel=2e-3, abs=1e-6)
