@@ -13,7 +13,7 @@
 - search: told both, the true explanation leads; the full search did not find it;
 - imitation: what acts has no name in the catalogue, and something that has took its place.
 
-Some 20 s of CPU each.
+Some 20 s of CPU each. Answers of another commit are set against the diagnosis of this one.
 """
 
 from __future__ import annotations
