@@ -171,11 +171,11 @@ class _Told:
         return text
 
     def _left(self, truth: Names) -> list[float]:
-        """P-values of the test for a gap after explanations by true effects."""
+        """P-values of the test for a gap after fits of true effects, with or without an unknown beside them."""
         return [
             each["checks"]["remaining_p_value"]
             for each in self.diagnosis["causes"]
-            if each["checks"] and each["effects"] and set(each["effects"]) <= set(truth)
+            if each["checks"] and known(each["effects"]) and known(each["effects"]) <= set(truth)
         ]
 
 
