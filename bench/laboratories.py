@@ -1,6 +1,8 @@
 """Rows of docs/laboratories.md, from what `probation blind score --json` wrote.
 
-`python -m bench.laboratories SCORE.json…`: one row for each; intervals are exact, of 95 %.
+`python -m bench.laboratories SCORE.json…`: one row for each; `--by-strain-noise`: one row for each class of strain
+noise that it holds. Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth,
+bootstrapped ones of the calibration error.
 """
 
 from __future__ import annotations
@@ -14,6 +16,11 @@ HEAD = (
     "false alarms, strain noise to 5e-4",
     "single, resolvable: named", "P of the truth", "pairs, resolvable: named", "unknown found, √λ left of 8",
     "95 % sets that hold the gap's truth", "their size, over the oracle's", "calibration error",
+    "held-out explained fraction, over the oracle's",
+)  # fmt: skip
+BY_STRAIN_NOISE = (
+    "laboratory", "seeds", "strain noise", "false alarms", "single, resolvable: named",
+    "95 % sets that hold the gap's truth",
 )  # fmt: skip
 
 
@@ -21,22 +28,40 @@ def row(content: dict) -> list[str]:
     board = content["scores"]["answers"]
     nulls, resolvable = board["false_alarms_by_kind"], board["resolvable_by_stratum"]
     single, sets = resolvable["single"], board["gaps"]["answer_set"]
+    curve, held_out = board["reliability"], board["closure"]["held_out"]["over_oracle"]
     size, least = sets["mean_size"], sets["oracle_mean_size"]
+    laboratory, seeds = source(content)
     return [
-        str(content.get("laboratory", "own")),
+        laboratory,
         str(content["campaigns"]),
-        ", ".join(str(seed) for seed in content["seeds"]),
+        seeds,
         rate(nulls["alike"]),
         rate(nulls["differing"]),
         rate(nulls["strain_noise_to_5e-4"]),
         rate(single["top1"]),
-        number(single["probability_on_truth"]),
+        between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
         rate(resolvable["pair"]["top1"]),
         rate(board["unknown"]["found_clear"]),
         rate(sets["coverage"]),
         number(size / least if size and least else None),
-        number(board["reliability"]["ece"], 3),
+        between(curve["ece"], curve["ece_interval95"], 3),
+        f"{between(held_out['value'], held_out['interval95'])}, n = {held_out['n']}",
     ]
+
+
+def rows_by_strain_noise(content: dict) -> list[list[str]]:
+    """One of every class of strain noise that has campaigns."""
+    classes = content["scores"]["answers"]["by_strain_noise"]
+    return [
+        [*source(content), name, rate(each["false_alarms"]), rate(each["single_named"]), rate(each["sets_hold"])]
+        for name, each in classes.items()
+        if each["false_alarms"]["n"] or each["sets_hold"]["n"]
+    ]
+
+
+def source(content: dict) -> tuple[str, str]:
+    """Laboratory and seeds."""
+    return str(content.get("laboratory", "own")), ", ".join(str(seed) for seed in content["seeds"])
 
 
 def rate(plain: dict) -> str:
@@ -52,11 +77,25 @@ def number(value: float | None, digits: int = 2) -> str:
     return "–" if value is None else f"{value:.{digits}f}"
 
 
+def between(value: float | None, interval: list[float] | None, digits: int = 2) -> str:
+    """With its interval, where there is one."""
+    if interval is None:
+        return number(value, digits)
+    low, high = (number(each, digits) for each in interval)
+    return f"{number(value, digits)} ({low} to {high})"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scores", nargs="+", type=Path, help="as probation blind score --json wrote them")
-    lines = [HEAD, ("---",) * len(HEAD)]
-    lines += [row(json.loads(each.read_text())) for each in parser.parse_args().scores]
+    parser.add_argument("--by-strain-noise", action="store_true", help="one row for each class of strain noise")
+    chosen = parser.parse_args()
+    contents = [json.loads(each.read_text()) for each in chosen.scores]
+    if chosen.by_strain_noise:
+        head, rows = BY_STRAIN_NOISE, [each for content in contents for each in rows_by_strain_noise(content)]
+    else:
+        head, rows = HEAD, [row(content) for content in contents]
+    lines = [head, ("---",) * len(head), *rows]
     print("\n".join(f"| {' | '.join(line)} |" for line in lines))
 
 

@@ -10,8 +10,10 @@ from probation.effects.registry import effects
 from probation_studies.blind.laboratories import industry
 from probation_studies.blind.laboratories.industry.bench import BenchTest, Law, Programme, Scales, base_stress
 from probation_studies.blind.laboratories.industry.causes import CATALOGUE, CAUSES, effect
+from probation_studies.blind.laboratories.industry.instruments import Instruments
 from probation_studies.blind.laboratories.industry.oracle import beats
-from probation_studies.blind.laboratories.industry.sight import Acting, residual
+from probation_studies.blind.laboratories.industry.sight import Acting, Sight, residual, view_of
+from probation_studies.blind.laboratories.industry.told import Errors, RecordAsTested, left_when_told
 
 CORNERS, TRAVEL = [0.0, 100.0, 150.0, 250.0, 320.0, 420.0], [0.0, 0.2, 0.2, 0.4, 0.36, 0.8]
 TIME = np.unique(np.concatenate([np.linspace(0.0, 420.0, 200), CORNERS]))
@@ -79,6 +81,39 @@ def test_a_campaign_of_each_stratum_reads_and_is_plausible(stratum, tmp_path):
     text = (tmp_path / "campaign" / "campaign.toml").read_text()
     assert ('scatter = "none"' in text) == (not truth["noise"]["replicates"])
     assert not any(each["kind"] in text for each in truth["causes"])  # nothing of the truth
+
+
+def _slower(factor):
+    return Programme(TIME * factor, PROGRAMME.travel, tuple(corner * factor for corner in PROGRAMME.corners), 2)
+
+
+def test_what_a_refit_takes_up_is_left_in_no_record_and_a_held_out_specimen_is_not_known():
+    """Of the held-out record its specimen's response to its deviations is left."""
+    programmes = [PROGRAMME, _slower(2.0), _slower(4.0)]
+    sight = Sight(programmes[:2], LAW, SCALES, Instruments(0.02, 0.002, 1e-4, 1e-5, 1e-6), (0.03, 0.03, 0.03, 0.01))
+    form = CAUSES["network_locking"].forms[0]
+    shape = {key: float(np.sqrt(low * high)) for key, (low, high) in form.shape.items()}
+    acting = Acting("network_locking", form, 0.3 * form.largest, shape)
+    records, own = [], np.array([0.02, 0.0, 0.0, 0.01])
+    for k, programme in enumerate(programmes):
+        view = view_of(programme)
+        tangents = sight.tangents(view)
+        error = tangents[:, :3] @ [0.01, -0.02, 0.03] + 0.2 * residual(view.thin, LAW, SCALES, [acting])
+        errors = Errors(view.at_samples(error[:, None])[:, 0], np.zeros(len(programme.time)), own * (k == 2))
+        records.append(RecordAsTested(programme, k == 2, (acting,), errors))
+    *left, held_out = left_when_told(sight, records)
+    assert max(left) < 1e-6
+    expected = view_of(programmes[2]).at_samples(sight.tangents(view_of(programmes[2]))) @ own
+    assert held_out == pytest.approx(np.sqrt(np.mean(expected**2)), rel=1e-6)
+
+
+def test_a_truth_says_what_a_told_refit_leaves_of_every_record():
+    """Specimens alike: the noise of the force over the true section, little more or less; held out, too."""
+    truth = json.loads(industry.make(11, 9, "develop", "single").truth.to_json())
+    left = truth["left_when_told_MPa"]
+    assert {each["role"] for each in truth["records"].values()} == {"identify", "held-out"}
+    assert left.keys() == truth["records"].keys()
+    assert [left[name] for name in truth["noise_MPa"]] == pytest.approx(list(truth["noise_MPa"].values()), rel=0.05)
 
 
 def test_a_campaign_is_the_same_for_the_same_arguments():

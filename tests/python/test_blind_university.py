@@ -10,12 +10,14 @@ import probation
 from probation_studies.blind.laboratories import university
 from probation_studies.blind.laboratories.university.catalogue_names import CATALOGUE_NAMES, catalogue_name
 from probation_studies.blind.laboratories.university.causes import COMMON, OUTSIDE, Run
-from probation_studies.blind.laboratories.university.design import draw_design
+from probation_studies.blind.laboratories.university.design import Specimen, draw_design
 from probation_studies.blind.laboratories.university.errors import strain_response
 from probation_studies.blind.laboratories.university.histories import FINER, loops, relaxation
 from probation_studies.blind.laboratories.university.modal_law import Material, base_course, integrate
 from probation_studies.blind.laboratories.university.oracle import Candidate, consult, discriminability
-from probation_studies.blind.laboratories.university.signals import added, bench_of, course_of
+from probation_studies.blind.laboratories.university.planting import plant
+from probation_studies.blind.laboratories.university.signals import added, bench_of, course_of, specimen_response
+from probation_studies.blind.laboratories.university.told import left_when_told
 
 PLAIN = Material(2000.0, 5.0, 2.0)
 WITH_COMPANION = Material(3000.0, 1.1, 1.8, (0.00464, 0.0367))
@@ -199,3 +201,56 @@ def test_holds_hold_and_loops_return():
 def test_bad_arguments_are_named(seed, split, stratum):
     with pytest.raises(probation.InputError, match=r"split|stratum|seed, index"):
         university.make(seed, 0, split, stratum)
+
+
+@pytest.fixture(scope="module")
+def predicted():
+    """A bench with two held-out records, specimens that differ, and self-heating."""
+    random = np.random.default_rng(6)
+    bench = bench_of(draw_design(random, unloading=False, replicated=True))
+    planted = plant(random, bench, next(each for each in COMMON if each.name == "self-heating"), 40.0)
+    return bench, [planted]
+
+
+def _taken_up(bench, planted, parameters, amplitude):
+    """Errors that the base law's parameters and the amplitude of the cause take up, in every record."""
+    found = {}
+    for test in bench.design.tests:
+        cause = added(test.run, [planted[0].act(test.run, None)])[:, 0]
+        found[test.id] = specimen_response(test)[:, :3] @ parameters + amplitude * cause
+    return found
+
+
+def test_what_a_refit_takes_up_is_left_in_no_record_and_a_held_out_specimen_is_not_known(predicted):
+    """What is left of a held-out record is its specimen's response to its deviations, to the refit's rounding."""
+    bench, planted = predicted
+    errors = _taken_up(bench, planted, np.array([0.01, -0.02, 0.03]), 0.2)
+    size = {name: np.sqrt(np.mean(each**2)) for name, each in errors.items()}
+
+    def left(specimen):
+        tests = tuple(replace(test, specimen=specimen if test.held_out else Specimen()) for test in bench.design.tests)
+        told = replace(
+            bench,
+            design=replace(bench.design, tests=tests),
+            tests=tuple(test for test in tests if not test.held_out),
+        )
+        return left_when_told(told, planted, [errors[test.id] for test in bench.tests], errors)
+
+    nothing = left(Specimen())
+    assert nothing.keys() == size.keys()
+    assert all(nothing[name] < 1e-6 * size[name] for name in size)
+    own = Specimen(0.02, 0.0, 0.0, 0.01)
+    for name, found in left(own).items():
+        test = next(each for each in bench.design.tests if each.id == name)
+        expected = np.sqrt(np.mean((specimen_response(test) @ np.array(astuple(own))) ** 2)) if test.held_out else 0.0
+        assert found == pytest.approx(expected, rel=1e-6, abs=1e-6 * size[name])
+
+
+def test_a_truth_says_what_a_told_refit_leaves_of_every_record():
+    """Specimens alike: the noise of the force, of several hundred samples; of a held-out record, too."""
+    truth = json.loads(university.make(1312, 7, stratum="pair").truth.to_json())
+    left, records = truth["left_when_told_MPa"], truth["records"]
+    assert left.keys() == records.keys()
+    assert {each["role"] for each in records.values()} == {"identify", "held-out"}
+    noise = np.hypot(truth["noise"]["stress"], truth["noise"]["quantum"] / np.sqrt(12.0))
+    assert np.array(list(left.values())) == pytest.approx(noise, rel=0.15)

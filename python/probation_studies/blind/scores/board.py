@@ -23,6 +23,9 @@ _FALSE_ALARMS = 0.05
 _GOOD_OVERLAP = 0.6
 _USUAL_STRAIN = 5e-4
 
+STRAIN_NOISES = {"to 2e-5": 2e-5, "to 2e-4": 2e-4, "above": np.inf}
+"""Classes of the recorded strain's standard deviation, and the most of each."""
+
 
 def board(cases: Sequence[Case]) -> dict[str, object]:
     """Every score, by stratum and by detectability; rates carry exact intervals."""
@@ -41,6 +44,7 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
         ),
         "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
         "false_alarms_by_kind": _false_alarms(nulls),
+        "by_strain_noise": {name: _quality(each) for name, each in _by_strain_noise(cases).items()},
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
             for name, _, _ in DETECTABILITIES
@@ -64,6 +68,23 @@ def _false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
         "alike": Rate.of(case.answer.gap for case in nulls if not case.specimens_differ).plain(),
         "differing": Rate.of(case.answer.gap for case in nulls if case.specimens_differ).plain(),
         "strain_noise_to_5e-4": Rate.of(case.answer.gap for case in quiet).plain(),
+    }
+
+
+def _by_strain_noise(cases: Sequence[Case]) -> dict[str, list[Case]]:
+    most = np.array(list(STRAIN_NOISES.values()))
+    classes = [int(np.searchsorted(most, case.strain_noise)) for case in cases]
+    return {
+        name: [case for case, of in zip(cases, classes, strict=True) if of == k] for k, name in enumerate(STRAIN_NOISES)
+    }
+
+
+def _quality(cases: Sequence[Case]) -> dict[str, object]:
+    """False alarms, resolvable single causes named, and gaps that the answer set holds."""
+    return {
+        "false_alarms": Rate.of(case.answer.gap for case in cases if case.stratum == "none").plain(),
+        "single_named": Rate.of(case.right for case in cases if case.stratum == "single" and case.resolvable).plain(),
+        "sets_hold": Rate.of(case.covered for case in cases if case.causes).plain(),
     }
 
 

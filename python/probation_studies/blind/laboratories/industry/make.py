@@ -25,6 +25,7 @@ from probation_studies.blind.laboratories.industry.programmes import (
     draw_programme,
 )
 from probation_studies.blind.laboratories.industry.sight import Acting, Sight, refined, residual, tested
+from probation_studies.blind.laboratories.industry.told import Errors, RecordAsTested, left_when_told
 
 SPLITS = ("develop", "calibrate", "test")
 STRATA = ("none", "single", "pair", "outside", "replicates")
@@ -297,7 +298,8 @@ def _finish(
     explanation = tuple(sorted({effect(each.acting.cause) for each in placed}))
     columns = [*bank, *own]
     oracle = consult(random, columns, clean, explanation, len(own))
-    records, ids = _record(random, series, placed)
+    records, errors = _record(random, series, placed)
+    ids = [record.id for record in records]
     identified = [ids[k] for k in series.identified]
     content: dict[str, object] = {
         "schema": _SCHEMA,
@@ -344,7 +346,7 @@ def _finish(
         "oracle": oracle,
         "added_MPa": _added(series, placed, ids),
         "noise_drawn_MPa": {},
-        "left_when_told_MPa": {},
+        "left_when_told_MPa": dict(zip(ids, left_when_told(sight, _tested(series, placed, errors)), strict=True)),
     }
     room = random.uniform(20.0, 25.0)
     notes = [
@@ -445,16 +447,16 @@ def _added(series: _Series, placed: Sequence[_Placed], ids: Sequence[str]) -> di
 
 def _record(
     random: np.random.Generator, series: _Series, placed: Sequence[_Placed]
-) -> tuple[tuple[Record, ...], list[str]]:
-    """Test every specimen and write down what the machine shows."""
-    design, records = series.design, []
+) -> tuple[tuple[Record, ...], list[Errors]]:
+    """Test every specimen and write down what the machine shows; and how far that is off."""
+    design, records, errors = series.design, [], []
     stated = {"strain": series.instruments.strain_white} if random.random() < 0.3 else {}
     for k, (condition, programme, test) in enumerate(
         zip(series.conditions, series.programmes, series.tests, strict=True)
     ):
-        law, section = design.law, 1.0
+        law, section, specimen = design.law, 1.0, np.zeros(4)
         if series.scatter is not None:
-            e, tau, g, area = np.array(series.scatter) * random.standard_normal(4)
+            e, tau, g, area = specimen = np.array(series.scatter) * random.standard_normal(4)
             law = replace(
                 law, modulus=law.modulus * (1 + e), time=law.time * (1 + tau), hardening=law.hardening * (1 + g)
             )
@@ -465,8 +467,8 @@ def _record(
         if twice:
             travel, force = travel[::2], force[::2]
         kept = slice(len(test.time) - len(programme.time), None)
-        travel, force = travel[kept], force[kept]
-        travel, force = read_out(random, programme.time, travel, force * section, series.instruments)
+        true_travel, true_force = travel[kept], force[kept] * section
+        travel, force = read_out(random, programme.time, true_travel, true_force, series.instruments)
         name = f"{k + 1:02d}-{condition.kind}"
         records.append(
             Record(
@@ -480,4 +482,16 @@ def _record(
                 noise=stated,
             )
         )
-    return tuple(records), [record.id for record in records]
+        off = (force - true_force) * (1.0 + true_travel), np.log1p(travel) - np.log1p(true_travel)
+        errors.append(Errors(*off, specimen))
+    return tuple(records), errors
+
+
+def _tested(series: _Series, placed: Sequence[_Placed], errors: Sequence[Errors]) -> list[RecordAsTested]:
+    """Every record with what acts in it."""
+    found = []
+    for k, (programme, off) in enumerate(zip(series.programmes, errors, strict=True)):
+        here = _here(series, placed, k)
+        causes = tuple(each.acting if each.acting in here else None for each in placed)
+        found.append(RecordAsTested(programme, k == series.held_out, causes, off))
+    return found

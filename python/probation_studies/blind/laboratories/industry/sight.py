@@ -58,16 +58,21 @@ def residual(programme: Programme, law: Law, scales: Scales, acting: Sequence[Ac
 
 
 @dataclass(frozen=True, eq=False)
-class _View:
-    """One identified record by its means over blocks of samples."""
+class View:
+    """One record by its means over blocks of samples."""
 
     time: FloatArray
     thin: Programme
     starts: FloatArray
 
-    def means(self, at_nodes: FloatArray) -> FloatArray:
-        values = np.interp(self.time, self.thin.time, at_nodes)
-        return np.asarray(np.add.reduceat(values, self.starts) / np.diff([*self.starts, len(self.time)]))
+    def at_samples(self, at_nodes: FloatArray) -> FloatArray:
+        """Columns of values at the nodes, between them."""
+        return np.stack([np.interp(self.time, self.thin.time, column) for column in at_nodes.T], axis=1)
+
+    def means(self, at_samples: FloatArray) -> FloatArray:
+        """Block means of one or more columns of samples."""
+        counts = np.diff([*self.starts, len(self.time)])
+        return np.asarray((np.add.reduceat(at_samples, self.starts, axis=0).T / counts).T)
 
 
 class Sight:
@@ -92,13 +97,17 @@ class Sight:
         instruments: Instruments,
         scatter: tuple[float, float, float, float] | None,
     ) -> None:
-        self.law, self.scales = law, scales
-        self.views = [_view(each) for each in programmes]
+        self.law, self.scales, self.scatter = law, scales, scatter
+        self.views = [view_of(each) for each in programmes]
+        self.responses = [
+            _response(each, view, law, scales) for each, view in zip(programmes, self.views, strict=True)
+        ]  # of the law less the recorded stress to the read true strain; block means by samples [MPa]
         blocks = [
-            _noise(each, view, law, scales, instruments) for each, view in zip(programmes, self.views, strict=True)
+            _noise(each, view, response, instruments)
+            for each, view, response in zip(programmes, self.views, self.responses, strict=True)
         ]
         covariance = block_diag(*blocks)
-        tangents = [self._tangents(view) for view in self.views]
+        tangents = [view.means(view.at_samples(self.tangents(view))) for view in self.views]
         ends = np.cumsum([0, *(len(block) for block in blocks)])
         self.rows = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         if scatter is not None:
@@ -106,13 +115,14 @@ class Sight:
                 own = each * np.array(scatter)
                 covariance[rows, rows] += own @ own.T
         self._root = np.linalg.cholesky(covariance)
-        self._taken, _ = np.linalg.qr(self._white(np.concatenate([each[:, :3] for each in tangents])))
+        self._taken, _ = np.linalg.qr(self.white(np.concatenate([each[:, :3] for each in tangents])))
 
-    def _white(self, columns: FloatArray) -> FloatArray:
+    def white(self, columns: FloatArray) -> FloatArray:
+        """Block means of all records, one below the other, in units of their noise."""
         return np.asarray(solve_triangular(self._root, columns, lower=True))
 
-    def _tangents(self, view: _View) -> FloatArray:
-        """By ln E, ln tau, ln G and ln of the section; block means."""
+    def tangents(self, view: View) -> FloatArray:
+        """By ln E, ln tau, ln G and ln of the section, at the nodes of a record."""
         law, step = self.law, 1e-3
 
         def stress(changed: Law) -> FloatArray:
@@ -125,7 +135,7 @@ class Sight:
             (stress(replace(law, hardening=law.hardening * (1 + step))) - base) / step,
             base,
         ]
-        return np.stack([view.means(column) for column in columns], axis=1)
+        return np.stack(columns, axis=1)
 
     def seen(self, by_record: Sequence[FloatArray]) -> FloatArray:
         """Block means of all records (zero where an array is empty), whitened and without the base law's tangents."""
@@ -133,13 +143,14 @@ class Sight:
         for rows, estimate in zip(self.rows, by_record, strict=True):
             if len(estimate):
                 whole[rows] = estimate
-        white = self._white(whole)
+        white = self.white(whole)
         return np.asarray(white - self._taken @ (self._taken.T @ white))
 
     def signal(self, acting: Sequence[Acting], record: int) -> FloatArray:
         """Block means of what causes add to one record [MPa]."""
         view = self.views[record]
-        return view.means(residual(view.thin, self.law, self.scales, acting))
+        at_nodes = residual(view.thin, self.law, self.scales, acting)
+        return view.means(np.interp(view.time, view.thin.time, at_nodes))
 
     def sampling(self, programmes: Sequence[Programme], cut: Sequence[Programme]) -> float:
         """sqrt(lambda) of what is lost between samples, and before the first of a record that is cut."""
@@ -160,21 +171,30 @@ def refined(programme: Programme) -> Programme:
     return replace(programme, time=time, travel=np.interp(time, programme.time, programme.travel))
 
 
-def _view(programme: Programme) -> _View:
+def view_of(programme: Programme) -> View:
+    """The record of a programme, its samples in some hundred blocks."""
     thin = programme.thinned(_NODES)
     starts = np.searchsorted(programme.time, thin.time[:-1] if len(thin.time) > 2 else thin.time)
-    return _View(programme.time, thin, np.unique(starts))
+    return View(programme.time, thin, np.unique(starts))
 
 
-def _noise(programme: Programme, view: _View, law: Law, scales: Scales, instruments: Instruments) -> FloatArray:
+def _noise(programme: Programme, view: View, response: FloatArray, instruments: Instruments) -> FloatArray:
     """Covariance of the block means of one record [MPa^2]."""
-    starts, samples = view.starts, len(programme.time)
-    counts = np.diff([*starts, samples]).astype(float)
+    starts = view.starts
+    counts = np.diff([*starts, len(programme.time)]).astype(float)
     section = 1.0 + programme.travel
     white = np.add.reduceat((instruments.force_white * section) ** 2, starts) / counts**2
     centre = np.add.reduceat(programme.time, starts) / counts
     opened = np.add.reduceat(section, starts) / counts
     slow = slow_covariance(centre, instruments) * np.outer(opened, opened)
+    carried = response * (instruments.strain_white / section)
+    return np.asarray(np.diag(white) + slow + carried @ carried.T)
+
+
+def _response(programme: Programme, view: View, law: Law, scales: Scales) -> FloatArray:
+    """Of the law less the recorded stress to the read true strain; block means by samples [MPa]."""
+    starts, samples = view.starts, len(programme.time)
+    counts = np.diff([*starts, samples]).astype(float)
     strain = np.log1p(programme.travel)
     speed = BenchTest(programme, law, scales).speed
     reduced = np.concatenate([[0.0], np.cumsum(np.diff(programme.time) / law.times(speed))])
@@ -188,5 +208,4 @@ def _noise(programme: Programme, view: _View, law: Law, scales: Scales, instrume
     response = np.diff(np.concatenate([edge, averaged, edge], axis=1), axis=1) * -(law.modulus - relaxed)
     owner = np.repeat(np.arange(len(starts)), counts.astype(int))
     response[owner, np.arange(samples)] += (relaxed - stress) / counts[owner]
-    response *= instruments.strain_white / section
-    return np.asarray(np.diag(white) + slow + response @ response.T)
+    return np.asarray(response)

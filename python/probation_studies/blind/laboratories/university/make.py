@@ -25,6 +25,7 @@ from probation_studies.blind.laboratories.university.signals import (
     recorded,
     sampling_error,
 )
+from probation_studies.blind.laboratories.university.told import left_when_told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -121,8 +122,8 @@ def _sealed(
     design = bench.design
     records, strain_errors, stress_errors, added_rms = _record(random, bench, planted)
     noise = [
-        stress - response @ strain
-        for stress, strain, response in zip(stress_errors, strain_errors, bench.responses, strict=True)
+        stress_errors[test.id] - response @ strain_errors[test.id]
+        for test, response in zip(bench.tests, bench.responses, strict=True)
     ]
     errors = [
         each + deviating @ np.array(astuple(test.specimen))
@@ -171,17 +172,20 @@ def _sealed(
         },
         "added_MPa": added_rms,
         "noise_drawn_MPa": {key: float(np.sqrt(np.mean(each**2))) for key, each in zip(identified, noise, strict=True)},
+        "left_when_told_MPa": left_when_told(bench, planted, errors, stress_errors),
     }
     return SealedCampaign(name, records, design.material.companion, design.scatter is None, Truth(content))
 
 
 def _record(
     random: Generator, bench: Bench, planted: Sequence[Planted]
-) -> tuple[tuple[Record, ...], list[FloatArray], list[FloatArray], dict[str, float]]:
-    """The records, the errors of strain and stress of the identified ones, and what was added [MPa]."""
+) -> tuple[tuple[Record, ...], dict[str, FloatArray], dict[str, FloatArray], dict[str, float]]:
+    """The records, their errors of strain and stress [MPa], and what was added to the identified ones [MPa]."""
     design, errors = bench.design, bench.design.errors
     declares = random.uniform() < 0.3
-    records, strain_errors, stress_errors, added_rms = [], [], [], {}
+    records, added_rms = [], {}
+    strain_errors: dict[str, FloatArray] = {}
+    stress_errors: dict[str, FloatArray] = {}
     place = {test.id: k for k, test in enumerate(bench.tests)}
     for test in design.tests:
         at = place.get(test.id)
@@ -201,9 +205,8 @@ def _record(
                 declared_strain_noise=float(f"{errors.strain:.2g}") if declares else None,
             )
         )
+        strain_errors[test.id], stress_errors[test.id] = strain_error, coarse - stress
         if at is not None:
-            strain_errors.append(strain_error)
-            stress_errors.append(coarse - stress)
             columns = [each.columns[at] for each in planted]
             whole = sum((column for column in columns if column is not None), np.zeros(n))
             added_rms[test.id] = float(np.sqrt(np.mean(whole**2)))

@@ -148,22 +148,27 @@ def bench_of(design: Design) -> Bench:
     factors, tangents, responses, specimens = [], [], [], []
     for test in tests:
         run = test.run
-        nudged = [replace(run.material, **{name: getattr(run.material, name) * (1.0 + _NUDGE)}) for name in PARAMETERS]
-        stress = integrate(run.time, [base_course(each, run.time, run.strain) for each in (run.material, *nudged)])
-        stress = stress[:, ::FINER]
-        slopes = (stress[1:] - stress[0]).T / _NUDGE
         response = strain_response(run.material, run.time[::FINER], run.strain[::FINER])
         covariance = design.errors.covariance(response)
-        deviating = np.column_stack([slopes, stress[0]])
+        deviating = specimen_response(test)
         if design.scatter is not None:
             scattered = deviating * np.array(astuple(design.scatter))
             covariance = covariance + scattered @ scattered.T
         factor = cholesky(covariance, lower=True, check_finite=False)
         factors.append(factor)
-        tangents.append(solve_triangular(factor, slopes, lower=True, check_finite=False))
+        tangents.append(solve_triangular(factor, deviating[:, :3], lower=True, check_finite=False))
         responses.append(response)
         specimens.append(deviating)
     return Bench(design, tests, tuple(factors), tuple(tangents), tuple(responses), tuple(specimens))
+
+
+def specimen_response(test: Test) -> FloatArray:
+    """To a specimen's relative deviations, modulus, time, hardening modulus and area; shape (n, 4) [MPa]."""
+    run = test.run
+    nudged = [replace(run.material, **{name: getattr(run.material, name) * (1.0 + _NUDGE)}) for name in PARAMETERS]
+    stress = integrate(run.time, [base_course(each, run.time, run.strain) for each in (run.material, *nudged)])
+    stress = stress[:, ::FINER]
+    return np.column_stack([(stress[1:] - stress[0]).T / _NUDGE, stress[0]])
 
 
 def sampling_error(bench: Bench) -> float:
