@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import probation
-from probation.certificate.trial import bias_of, free_parameters
+from probation.certificate.bias import model_bias
+from probation.certificate.trial import free_parameters
 from probation.effects.cause import Cause
 from probation.effects.record_view import views_of
 from probation.effects.registry import effect
@@ -118,7 +119,7 @@ def judged(record: probation.Record, law: probation.Law) -> tuple[FloatArray, Fl
     alone = probation.Campaign("one", (record,), LawSettings(companion=companion))
     found = probation.fit(alone, "sa2", method="variable-projection", substeps=1, gap=False)
     own = np.array([found.parameters[name].se or np.inf for name in found.law.parameter_names])
-    bias = np.diag(bias_of(found.records[record.id], free_parameters(found)).covariance)
+    bias = np.diag(model_bias(found.records[record.id], free_parameters(found)).covariance)
     values = found.law.parameters
     size = np.maximum(np.abs(values), 1e-300)
     return np.abs(values - law.parameters) / size, np.minimum(np.sqrt(own**2 + bias) / size, WIDEST)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import probation
+from probation.certificate.bias import model_bias
 from probation.certificate.consistency import Estimate, judge
 from probation.certificate.hardening import regress_hardening
-from probation.certificate.trial import bias_of
 from probation.certificate.verdict import decide
 from probation.law.companion import WEISSENBERG_AS_PRINTED
 from probation.law.settings import LawSettings
@@ -235,7 +235,7 @@ def test_a_bias_widens_the_errors_by_what_it_may_have_pulled():
         fit = probation.fit(
             probation.Campaign("wave", (record,)), scheme=QUICK, method="variable-projection", substeps=1
         )
-        bias = bias_of(fit.records[record.id], (0, 1, 2))
+        bias = model_bias(fit.records[record.id], (0, 1, 2))
         assert 0.4 < bias.amplitude < 4.0
         error = np.sqrt(np.diag(bias.covariance))
         assert error[0] > 20.0 * 1.6  # the noise's own: 0.047 % of 3224 MPa
@@ -252,7 +252,7 @@ def test_noise_alone_leaves_no_bias_to_speak_of():
             probation.Campaign("ramp", (record,)), scheme=QUICK, method="variable-projection", substeps=1
         )
         own = np.array([parameter.se for parameter in fit.parameters.values()])
-        bias = np.diag(bias_of(fit.records[record.id], (0, 1, 2)).covariance)
+        bias = np.diag(model_bias(fit.records[record.id], (0, 1, 2)).covariance)
         widened.append(np.sqrt(1.0 + bias / own**2))
     assert np.mean(widened) < 1.1
 

@@ -80,7 +80,6 @@ NUMERICAL = {
     "inference/least_squares.py": {"FIRST_DAMPING", "LEAST_DAMPING", "MOST_DAMPING", "ALL_DIGITS"},
     "inference/modal_law.py": {"_BOUNDS"},
     "inference/model.py": {"_PROBE", "_PARABOLA"},
-    "inference/model_bias.py": {"ENERGIES"},
     "inference/moving_noise.py": {"KEPT"},
     "inference/own_force.py": {
         *("MOST_STEPS", "MOST_DIRECTIONS", "PARTS", "LOOK", "SETTLED", "ROUGHLY", "GOOD_ENOUGH", "ROUGHEST", "FINEST"),
@@ -107,6 +106,7 @@ NUMERICAL = {
     "identify/search.py": {"FINE", "LONGEST_STEP", "ZERO"},
     "identify/variable_projection.py": {"POINTS", "NEARBY", "EDGE"},
     "identify/weighting.py": {"SMALL_STEP", "ROUGH_STEP"},
+    "certificate/bias.py": {"LENGTHS", "RATIOS"},
     "certificate/trial.py": {"LATE", "PARAMETERS"},
     "calibration/cross_validation.py": {"SMALLEST_REPORTED"},
     "calibration/direct.py": {"FINE", "MOST_STEPS", "LONGEST_STEP"},

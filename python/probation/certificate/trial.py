@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.certificate.bias import model_bias
 from probation.certificate.consistency import Estimate
 from probation.identify.fit import fit
 from probation.identify.given import given
-from probation.inference.model_bias import ModelBias, model_bias
 from probation.inference.parameter import outside_name
 from probation.law.schemes import scheme_of
 from probation.records.campaign import Campaign
 from probation.settings.certificate import CERTIFICATE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from probation._arrays import FloatArray
     from probation.calibration.calibrated import CalibratedCompanion
@@ -88,12 +88,6 @@ def free_parameters(found: Fit) -> list[int]:
     return [index for index, name in enumerate(found.law.parameter_names) if name in found.names]
 
 
-def bias_of(record: RecordFit, free: Sequence[int]) -> ModelBias:
-    """What a fit left on a record, and how far that may have pulled the parameters that it identified."""
-    slopes = record.sensitivity[:, list(free)]
-    return model_bias(record.fit_residual, slopes, record.noise_MPa, record.time, record.excitation.jumps)
-
-
 def companion_factor(found: Fit, excitation: Excitation, relation: CalibratedCompanion | None) -> FloatArray:
     """What independent errors of the companion relation's calibration do to the stress, (n_times, n_sources) [MPa].
 
@@ -136,7 +130,7 @@ def estimates(
     """
     free = free_parameters(found)
     record = found.records[record_id]
-    bias = np.diag(bias_of(record, free).covariance)
+    bias = np.diag(model_bias(record, free).covariance)
     common = np.column_stack(
         [record.sensitivity[:, 0] * modulus_error, companion_factor(found, record.excitation, relation)]
     )
@@ -174,6 +168,6 @@ def joint_covariance(found: Fit) -> FloatArray:
     covariance = np.zeros_like(total)
     for name, record in found.records.items():
         share = total @ information[name]
-        covariance += share @ bias_of(record, free).covariance @ share.T
+        covariance += share @ model_bias(record, free).covariance @ share.T
     own = np.array([found.parameters[found.law.parameter_names[index]].se or 0.0 for index in free])
     return np.asarray(covariance + np.outer(own, own) * found.correlation)

@@ -11,6 +11,13 @@ from probation.settings.setting import calibrated, chosen, derived
 class CertificateSettings:
     """When a parameter is known, a law is intrinsic, and noise is white."""
 
+    bias_lengths: tuple[float, float] = chosen(
+        (0.02, 0.3), "record", "Correlation lengths of a bias that are averaged over, shortest and longest."
+    )
+    bias_variances: tuple[float, float] = chosen(
+        (1e-3, 1e6), "variance of a block's noise", "Variances of a bias that are tried, least and largest."
+    )
+    bias_blocks: int = chosen(150, "blocks", "A bias is seen on means over so many blocks of samples.")
     hidden_bias_spread: float = chosen(
         0.3,
         "-",
