@@ -243,6 +243,20 @@ def test_a_bias_widens_the_errors_by_what_it_may_have_pulled():
     assert np.sqrt(np.mean(np.square(off))) < 1.5
 
 
+def test_noise_alone_leaves_no_bias_to_speak_of():
+    """Five records of a law that is exact: the bias widens no error by more than a tenth of the noise's on average."""
+    widened = []
+    for seed in range(5):
+        record = experiment(1, seed).record()
+        fit = probation.fit(
+            probation.Campaign("ramp", (record,)), scheme=QUICK, method="variable-projection", substeps=1
+        )
+        own = np.array([parameter.se for parameter in fit.parameters.values()])
+        bias = np.diag(model_bias(fit.records[record.id], (0, 1, 2)).covariance)
+        widened.append(np.sqrt(1.0 + bias / own**2))
+    assert np.mean(widened) < 1.1
+
+
 def test_of_equal_values_one_in_a_hundred_sets_fails():
     """Cochran's Q with the common shift of a held E_u: p-values are uniform, however large the shift."""
     random = np.random.default_rng(8)

@@ -1,5 +1,6 @@
 """From relaxation times, or ramps, at several rates to a companion relation: the paper's, and what is known of it."""
 
+from dataclasses import FrozenInstanceError
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import probation
 from probation import CalibratedCompanion, Campaign, Law, PowerLaw, RateTable, Record, Weissenberg, calibrate_companion
 from probation.calibration.companion_forms import FORMS
 from probation.calibration.cross_validation import percent
+from probation.calibration.direct import DirectRoute
 from probation.calibration.regression import excess_scatter, regress
 from probation.law.settings import CompanionSettings, LawSettings
 from probation.published.experiments import necking_history
@@ -236,6 +238,23 @@ def test_records_of_changing_rate_are_refused_one_by_one_and_give_the_relation_a
     assert abs(found.companion.unrelaxed_modulus - 3220.0) < 0.01 * 3220.0
     assert found.candidates["weissenberg"].direct.rms == pytest.approx([0.04, 0.04], rel=0.15)
     assert found.candidates["constant"].direct.rms.max() > 2.0  # MPa
+
+
+def test_the_direct_route_is_never_changed():
+    """A part of it, and a thinned one, are others: its own answer stays, to the last digit."""
+    direct = DirectRoute.of(ramps(samples=1200).identify, LawSettings(), "sa3", "by-record")
+    start, rates = np.array([0.005, 0.04]), (1e-4, 1e-2)
+    before = direct.fit(FORMS["weissenberg"], [start], rates)
+    parts = direct.only([0, 2]), direct.thinned()
+    for part in parts:
+        part.fit(FORMS["weissenberg"], [start], rates)
+    assert [view.id for view in parts[0].views] == ["ramp-0.0001", "ramp-0.003"]
+    assert all(len(view) <= 1000 for view in parts[1].views)
+    with pytest.raises(FrozenInstanceError):
+        direct.problem = parts[0].problem
+    after = direct.fit(FORMS["weissenberg"], [start], rates)
+    assert after.companion.parameters.tolist() == before.companion.parameters.tolist()
+    assert after.rms.tolist() == before.rms.tolist()
 
 
 def test_a_held_modulus_is_kept():

@@ -42,6 +42,17 @@ def test_nothing_in_it_can_be_set():
             setattr(problem(), name, None)
 
 
+def test_on_some_records_each_keeps_its_noise():
+    """Rows of the second record alone, whatever stands before it; its strain noise goes with it."""
+    view, moving = problem().views[0], problem().moving
+    both = Problem.white(DnlrLaw(LAW), [replace(view, id="first"), view], [0.1, 0.2])
+    both = both.with_noises(both.whitener.noises, [None, *moving.strain])
+    second = both.only([1])
+    assert_allclose(second.residual(AWAY), both.residual(AWAY)[len(view) :], rtol=1e-12)
+    assert second.carries_strain_noise
+    assert not both.only([0]).carries_strain_noise
+
+
 def test_a_search_and_a_profile_leave_it_as_it_was():
     """The residual at one law, before and after the noise was asked for at many others."""
     asked = problem()

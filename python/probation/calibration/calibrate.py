@@ -12,7 +12,7 @@ from probation.calibration.calibrated import CalibratedCompanion
 from probation.calibration.companion_forms import CHOOSABLE, FORMS, NAMEABLE, Form
 from probation.calibration.constant_time import why_constant
 from probation.calibration.cross_validation import apart, best, leave_one_rate_out
-from probation.calibration.direct import HARDENINGS, DirectProblem, Hardening
+from probation.calibration.direct import HARDENINGS, DirectRoute, Hardening
 from probation.calibration.left_out import leave_one_rate_out as predict
 from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable, rate_groups
@@ -130,13 +130,13 @@ def calibrate_companion(
     if route == "direct" or not steady:
         _need_spread(source, rates)
         return _direct(
-            source, DirectProblem(source.identify, source.law, chosen, hardening, driven), rates, form, advance
+            source, DirectRoute.of(source.identify, source.law, chosen, hardening, driven), rates, form, advance
         )
     _need_two_rates(source, rates)
     fits = fit_records(source, rates, modulus=modulus, scheme=chosen, progress=advance)
     rms = [fitted.rms_MPa for fitted in fits.fits]
-    problem = DirectProblem(source.identify, source.law, chosen, hardening, driven, rms)
-    return _by_rate(source, fits, problem, form, advance)
+    direct = DirectRoute.of(source.identify, source.law, chosen, hardening, driven, rms)
+    return _by_rate(source, fits, direct, form, advance)
 
 
 def _on_table(table: RateTable, form: str) -> Calibration:
@@ -158,9 +158,7 @@ def _on_table(table: RateTable, form: str) -> Calibration:
     )
 
 
-def _by_rate(
-    campaign: Campaign, fits: RecordFits, problem: DirectProblem, form: str, progress: Progress
-) -> Calibration:
+def _by_rate(campaign: Campaign, fits: RecordFits, direct: DirectRoute, form: str, progress: Progress) -> Calibration:
     table, rates = fits.table, fits.rates
     regressions = _regressions(table, form)
     scores = leave_one_rate_out(table, regressions) if len(table.groups) >= COMPANION.fewest_rates else {}
@@ -170,7 +168,7 @@ def _by_rate(
     if chosen != "table":
         progress(1, 1, "all records at once, as a check")
         try:
-            check = problem.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
+            check = direct.fit(FORMS[chosen], [regressions[chosen].parameters], table.range)
         except InputError as error:  # at a rate within a record that is slower than its median
             warnings.append(f"the check on all records at once is left out: {error}")
     if fits.modulus_spread > COMPANION.modulus_scatter:
@@ -196,7 +194,7 @@ def _by_rate(
 
 
 def _direct(
-    campaign: Campaign, problem: DirectProblem, rates: tuple[RecordRate, ...], form: str, progress: Progress
+    campaign: Campaign, direct: DirectRoute, rates: tuple[RecordRate, ...], form: str, progress: Progress
 ) -> Calibration:
     if form == "table":
         raise InputError(
@@ -216,12 +214,12 @@ def _direct(
         progress(done, total, what)
         done += 1
 
-    coarse = problem.thinned()
+    coarse = direct.thinned()
     anchor = _anchor(coarse, whole)
     fits: dict[str, DirectFit] = {}
     for name, each in forms.items():
         advance(f"{name} on all records")
-        fits[name] = _from_coarse(problem, coarse, each, _starts(each, anchor, whole), whole)
+        fits[name] = _from_coarse(direct, coarse, each, _starts(each, anchor, whole), whole)
     scores: dict[str, Score] = {}
     predicted: tuple[Predicted, ...] = ()
     if leaving:
@@ -255,21 +253,21 @@ def _direct(
         why_constant=why_constant(None, scores),
         record_rates=rates,
         predicted=predicted,
-        hardening=problem.hardening,
+        hardening=direct.hardening,
         warnings=tuple(warnings),
         data_sha256=campaign.data_hash,
     )
 
 
 def _from_coarse(
-    problem: DirectProblem, coarse: DirectProblem, form: Form, starts: list[FloatArray], whole: tuple[float, float]
+    direct: DirectRoute, coarse: DirectRoute, form: Form, starts: list[FloatArray], whole: tuple[float, float]
 ) -> DirectFit:
     """Search on few samples, end on all of them."""
     begun = coarse.fit(form, starts, whole).companion.parameters
     try:
-        return problem.fit(form, [begun], whole)
+        return direct.fit(form, [begun], whole)
     except InputError:  # a sample that was left out has a rate at which that relation gives no positive time
-        return problem.fit(form, starts, whole)
+        return direct.fit(form, starts, whole)
 
 
 def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
@@ -326,11 +324,11 @@ def _scattered(regression: Regression) -> bool:
 
 
 def _direct_candidate(
-    problem: DirectProblem, form: Form, fitted: DirectFit, score: Score | None, labels: tuple[str, ...]
+    direct: DirectRoute, form: Form, fitted: DirectFit, score: Score | None, labels: tuple[str, ...]
 ) -> CalibratedForm:
     """The fit, and the scatter around it that each record's own alpha shows."""
     relation = fitted.companion.relation
-    own = [record_alpha(problem, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
+    own = [record_alpha(direct, at, relation, fitted.unrelaxed_modulus) for at in range(len(labels))]
     residual = np.array([-correction.log_alpha for correction in own])
     degrees = len(labels) - len(form.parameter_names)
     errors = np.array([correction.se for correction in own])
@@ -375,12 +373,12 @@ def _range(rates: Sequence[RecordRate]) -> tuple[float, float]:
     return min(rate.slow for rate in rates), max(rate.fast for rate in rates)
 
 
-def _anchor(problem: DirectProblem, whole: tuple[float, float]) -> float:
+def _anchor(direct: DirectRoute, whole: tuple[float, float]) -> float:
     """A constant tau_max that fits all records best [s], for the searches to begin from."""
     form = FORMS["constant"]
-    shortest, longest = problem.time_bounds()
+    shortest, longest = direct.time_bounds()
     starts = [np.array([value]) for value in np.geomspace(100.0 * shortest, 1e-3 * longest, 6)]
-    return float(problem.fit(form, starts, whole).companion.parameters[0])
+    return float(direct.fit(form, starts, whole).companion.parameters[0])
 
 
 def _starts(form: Form, anchor: float, whole: tuple[float, float]) -> list[FloatArray]:

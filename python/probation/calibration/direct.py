@@ -11,20 +11,19 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from probation import _core
 from probation._arrays import FloatArray
 from probation.calibration.calibrated import CalibratedCompanion, seen_rates
 from probation.errors import InputError
+from probation.identify.base_law import base_law
 from probation.identify.covariance import covariance
 from probation.identify.variable_projection import search, time_bounds
 from probation.inference.least_squares import Bounds, minimise
 from probation.inference.measured_view import measured_view
-from probation.inference.modal_law import DnlrLaw
+from probation.inference.modal_law import DnlrLaw, solver_of
 from probation.inference.problem import Problem
 from probation.law.direction import Direction
-from probation.law.modal import Law
-from probation.law.schemes import as_scheme, make_solver
-from probation.law.spectrum import spectrum_of
+from probation.law.modified import UNCHANGED
+from probation.law.schemes import as_scheme
 from probation.records.record import Noise
 from probation.settings.companion import COMPANION
 from probation.smoothing.excitation import excite_each
@@ -32,9 +31,12 @@ from probation.smoothing.excitation import excite_each
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from probation.calibration.companion_forms import Form
     from probation.effects.record_view import RecordView
     from probation.law.companion import Companion
+    from probation.law.modal import Law
     from probation.law.schemes import Scheme, SchemeName
     from probation.law.settings import LawSettings
     from probation.records.record import Record
@@ -48,6 +50,9 @@ FINE, MOST_STEPS = 1e-6, 40
 
 LONGEST_STEP = 2.0
 """Largest change of ln tau_max in one step."""
+
+_HELD = ("unrelaxed_modulus_MPa", "hardening_modulus_MPa")
+"""What a campaign may hold here: the relation takes the place of tau_max and alpha."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,69 +80,81 @@ class DirectFit:
     correlated: bool
 
 
-class DirectProblem:
-    """All records, ready to be solved for again and again.
+@dataclass(frozen=True, eq=False)
+class DirectRoute:
+    """A problem whose law's tau_max a relation replaces: its parameters, E_u and every G are searched at once.
 
-    Each is weighted by what scatters it around the law with a constant tau_max, E_u and G of its own: its noise and
-    what the law leaves out, the same for every form.
-
-    Parameters
+    Attributes
     ----------
-    records : sequence of Record
-    settings : LawSettings
-        Spectrum, and what is held; its companion relation is not used.
-    scheme : {"be2", "sa2", "sa3"}
+    problem : Problem
+        The law with a constant tau_max and what is held in it; the records; and what scatters each around that law
+        with a tau_max, E_u and G of its own: its noise and what the law leaves out, the same for every form.
     hardening : {"by-record", "shared"}
-    excitations : sequence of Excitation, optional
-        What drives the law along each record, where that is known already.
-    own_rms : sequence of float, optional
-        Rms of each record's own fit [MPa], where it is known already.
     """
 
-    def __init__(
-        self,
+    problem: Problem
+    hardening: Hardening
+
+    @classmethod
+    def of(
+        cls,
         records: Sequence[Record],
         settings: LawSettings,
         scheme: Scheme | SchemeName,
         hardening: Hardening,
         excitations: Sequence[Excitation] | None = None,
         own_rms: Sequence[float] | None = None,
-    ) -> None:
-        self.settings, self.scheme, self.hardening = settings, scheme, hardening
-        self._solvers: dict[RecordView, _core.Solver] = {}
+    ) -> DirectRoute:
+        """The direct route on records.
+
+        Parameters
+        ----------
+        records : sequence of Record
+        settings : LawSettings
+            Spectrum, and what is held; its companion relation is not used.
+        scheme : {"be2", "sa2", "sa3"}
+        hardening : {"by-record", "shared"}
+        excitations : sequence of Excitation, optional
+            What drives the law along each record, where that is known already.
+        own_rms : sequence of float, optional
+            Rms of each record's own fit [MPa], where it is known already.
+        """
+        kept = {name: value for name, value in settings.fixed.items() if name in _HELD}
+        law, held = base_law(replace(settings, companion=None, fixed=kept), {})
         driven = list(excite_each(records)) if excitations is None else excitations
-        self.views = [
-            measured_view(record, excitation, scheme) for record, excitation in zip(records, driven, strict=True)
-        ]
+        views = [measured_view(record, excitation, scheme) for record, excitation in zip(records, driven, strict=True)]
         if own_rms is None:
-            own_rms = [_own_rms(view, settings) for view in self.views]
-        self.weights = np.array(
-            [1.0 / max(view.stress_noise, own) for view, own in zip(self.views, own_rms, strict=True)]
-        )
-        self.held_modulus = settings.fixed.get("unrelaxed_modulus_MPa")
-        self.held_hardening = settings.fixed.get("hardening_modulus_MPa")
+            levels = [_own_level(view, law) for view in views]
+        else:
+            levels = [max(view.stress_noise, own) for view, own in zip(views, own_rms, strict=True)]
+        return cls(Problem.white(DnlrLaw(law, held), views, levels), hardening)
 
-    def only(self, kept: Sequence[int]) -> DirectProblem:
-        """The same problem on some of the records."""
-        part = DirectProblem([], self.settings, self.scheme, self.hardening)
-        part.views, part._solvers = [self.views[at] for at in kept], self._solvers
-        part.weights = self.weights[list(kept)]
-        return part
+    def only(self, kept: Sequence[int]) -> DirectRoute:
+        """The same on some of the records."""
+        return replace(self, problem=self.problem.only(kept))
 
-    def thinned(self) -> DirectProblem:
+    def thinned(self) -> DirectRoute:
         """The same on at most about `enough_samples` of each record: for searches, and where noise does not matter."""
-        if all(len(view) <= COMPANION.enough_samples for view in self.views):
+        whole = self.problem
+        views = [thinned(view, COMPANION.enough_samples) for view in whole.views]
+        if all(new is old for new, old in zip(views, whole.views, strict=True)):
             return self
-        part = self.only(range(len(self.views)))
-        part.views = [thinned(view, COMPANION.enough_samples) for view in self.views]
-        return part
+        return replace(self, problem=Problem.white(whole.law, views, [noise.sigma for noise in whole.whitener.noises]))
 
     @property
-    def moduli(self) -> int:
-        """How many hardening moduli are identified."""
-        if self.held_hardening is not None:
-            return 0
-        return 1 if self.hardening == "shared" else len(self.views)
+    def views(self) -> tuple[RecordView, ...]:
+        """The records."""
+        return self.problem.views
+
+    def held(self, name: str) -> float | None:
+        """The value of a parameter that is held; None of one that is not."""
+        law = self.problem.engine_law()
+        return float(getattr(law.law, name)) if name in law.held else None
+
+    @property
+    def shared_hardening(self) -> bool:
+        """Whether one G is that of all records."""
+        return self.hardening == "shared" or self.held("hardening_modulus") is not None
 
     def time_bounds(self) -> tuple[float, float]:
         """Relaxation times worth searching [s]."""
@@ -148,49 +165,34 @@ class DirectProblem:
 
     def law(self, relation: Companion, modulus: float, hardening: float) -> Law:
         """The law with alpha = 1."""
-        return Law(
+        return replace(
+            self.problem.engine_law().law,
             unrelaxed_modulus=modulus,
             hardening_modulus=hardening,
+            tau_max=None,
             alpha=1.0,
             companion=relation,
-            decades=self.settings.decades,
-            spectrum=spectrum_of(self.settings.modes, self.settings.decades, self.settings.accuracy),
         )
 
-    def seen(self, at: int, floor: float) -> FloatArray:
-        """Rates that the relation is asked for along one record, shape (n_times,) [1/s]."""
-        view = self.views[at]
-        return seen_rates(view.history, as_scheme(view.scheme).name, floor, view.direction)
-
-    def solver(self, at: int) -> _core.Solver:
-        """Of one record, made once: it keeps its arrays between calls."""
-        view = self.views[at]
-        if view not in self._solvers:
-            self._solvers[view] = make_solver(view.history, view.scheme)
-        return self._solvers[view]
-
-    def linear(self, at: int, form: Form, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Unit solves of one record, u (of E_u) and v (of G), and its derivatives of ln tau_max for each.
+    def unit_solves(self, view: RecordView, form: Form, relation: Companion) -> tuple[FloatArray, FloatArray]:
+        """Unit solves of one record, u (of E_u) and v (of G), and their derivatives along the form's parameters.
 
         Returns
         -------
         unit : ndarray, shape (n_times, 2)
             The stress is E_u u + G v.
-        time_slopes : ndarray, shape (n_times, 2, p)
-            Of u and v along the parameters of the form.
-        rates : ndarray, shape (n_times,)
+        slopes : ndarray, shape (n_times, 2, p)
         """
-        rates, solver = self.seen(at, relation.rate_floor), self.solver(at)
-        gradient = form.log_gradient(relation, rates)
-        count = len(rates)
+        gradient = form.log_gradient(relation, seen(view, relation.rate_floor))
         directions = [Direction(log_relaxation_time=column)._engine() for column in gradient.T]
+        count = len(view)
         unit, slopes = np.empty((count, 2)), np.empty((count, 2, gradient.shape[1]))
         for which, (modulus, hardening) in enumerate(((1.0, 0.0), (0.0, 1.0))):
             stress, derivative = np.empty(count), np.empty((count, gradient.shape[1]))
             law = self.law(relation, modulus, hardening)
-            solver.tangent(law.engine, _core.LawChange(), directions, stress, derivative)
+            solver_of(view).tangent(law.engine, UNCHANGED, directions, stress, derivative)
             unit[:, which], slopes[:, which] = stress, derivative
-        return unit, slopes, rates
+        return unit, slopes
 
     def fit(self, form: Form, start: Sequence[FloatArray], calibrated: tuple[float, float]) -> DirectFit:
         """The best relation of one form.
@@ -231,12 +233,12 @@ class _Search:
     correlated, and positive between the ends whatever is tried.
     """
 
-    def __init__(self, problem: DirectProblem, form: Form, calibrated: tuple[float, float], start: FloatArray) -> None:
-        self.problem, self.form, self.calibrated = problem, form, calibrated
+    def __init__(self, route: DirectRoute, form: Form, calibrated: tuple[float, float], start: FloatArray) -> None:
+        self.route, self.form, self.calibrated = route, form, calibrated
         low, high = calibrated
         self.anchors = np.array([low, high] if len(start) == 2 and high > 1.01 * low else [np.sqrt(low * high)])
         self.start = np.log(self.relation_at(start).relaxation_time(self.anchors))  # raises where it cannot be
-        self._cache: dict[bytes, tuple[FloatArray, FloatArray, FloatArray]] = {}
+        self._cache: dict[bytes, _State] = {}
 
     def parameters(self, log_times: FloatArray) -> FloatArray:
         """The form's parameters from ln tau_max at the anchors."""
@@ -244,12 +246,12 @@ class _Search:
 
     def relation_at(self, values: FloatArray) -> Companion:
         relation = self.form.relation(values, np.empty(0), self.calibrated)
-        for at in range(len(self.problem.views)):
-            relation.relaxation_time(self.problem.seen(at, relation.rate_floor))
+        for view in self.route.views:
+            relation.relaxation_time(seen(view, relation.rate_floor))
         return relation
 
     def run(self) -> FloatArray:
-        low, high = np.log(self.problem.time_bounds())
+        low, high = np.log(self.route.time_bounds())
         count = len(self.start)
         found = minimise(
             self,
@@ -263,89 +265,60 @@ class _Search:
 
     def residual(self, log_times: FloatArray) -> FloatArray:
         """Weighted fit residual with the best moduli at ln tau_max of the anchors, shape (n_samples,)."""
-        return self._state(self.parameters(log_times))[0]
+        return self._state(self.parameters(log_times)).white
 
     def tangent(self, log_times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The same, and its derivatives along ln tau_max of the anchors, shape (n_samples, n_anchors)."""
         values = self.parameters(log_times)
-        return self._state(values)[0], self._projected(values)
+        return self._state(values).white, self._projected(values)
 
-    def _state(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Weighted residual, linear parameters (E_u, G's), and the Jacobian along (E_u, G's, form's parameters)."""
+    def _state(self, values: FloatArray) -> _State:
         key = values.tobytes()
         if key not in self._cache:
             self._cache = {key: self._solved(self.relation_at(values))}
         return self._cache[key]
 
-    def _solved(self, relation: Companion) -> tuple[FloatArray, FloatArray, FloatArray]:
-        problem = self.problem
-        parts = [problem.linear(at, self.form, relation) for at in range(len(problem.views))]
-        shared = problem.hardening == "shared" or problem.held_hardening is not None
-        columns = 1 + (1 if shared else len(parts))
-        rows, data, places = [], [], []
-        for at, ((unit, _, _), weight) in enumerate(zip(parts, problem.weights, strict=True)):
-            block = np.zeros((len(unit), columns))
-            block[:, 0] = weight * unit[:, 0]
-            place = 1 if shared else 1 + at
-            block[:, place] = weight * unit[:, 1]
-            rows.append(block)
-            places.append(place)
-            data.append(weight * problem.views[at].data)
-        design, target = np.concatenate(rows), np.concatenate(data)
-        linear, held = np.zeros(columns), np.zeros(columns, dtype=bool)
-        if problem.held_modulus is not None:
-            linear[0], held[0] = problem.held_modulus, True
-        if problem.held_hardening is not None:
-            linear[1], held[1] = problem.held_hardening, True
-        free = design[:, ~held]
-        linear[~held] = np.linalg.lstsq(free, target - design[:, held] @ linear[held], rcond=None)[0]
-        residual = design @ linear - target
-        slopes = np.concatenate(
-            [
-                weight * (linear[0] * slope[:, 0] + linear[place] * slope[:, 1])
-                for (_, slope, _), weight, place in zip(parts, problem.weights, places, strict=True)
-            ]
-        )
-        return residual, linear, np.column_stack([design, slopes])
-
-    def _free(self) -> FloatArray:
-        """Which columns of the Jacobian are identified."""
-        shared = self.problem.hardening == "shared" or self.problem.held_hardening is not None
-        columns = 1 + (1 if shared else len(self.problem.views))
-        free = np.ones(columns + len(self.anchors), dtype=bool)
-        free[0] = self.problem.held_modulus is None
-        if self.problem.held_hardening is not None:
-            free[1] = False
-        return free
+    def _solved(self, relation: Companion) -> _State:
+        route, problem = self.route, self.route.problem
+        values = [route.held("unrelaxed_modulus")]
+        values += [route.held("hardening_modulus")] * (1 if route.shared_hardening else len(route.views))
+        held = np.array([value is not None for value in values])
+        linear = np.array([value or 0.0 for value in values])
+        data = problem.model.data
+        design, along = np.zeros((len(data), len(linear))), []
+        for at, (view, rows) in enumerate(problem.model.parts):
+            place = 1 if route.shared_hardening else 1 + at
+            unit, slopes = route.unit_solves(view, self.form, relation)
+            design[rows, 0], design[rows, place] = unit.T
+            along.append((place, slopes))
+        columns = problem.whitener.columns(design)
+        target = problem.whitener.residual(data) - columns[:, held] @ linear[held]
+        linear[~held] = np.linalg.lstsq(columns[:, ~held], target, rcond=None)[0]
+        moved = np.concatenate([linear[0] * slopes[:, 0] + linear[place] * slopes[:, 1] for place, slopes in along])
+        residual = design @ linear - data
+        jacobian = np.column_stack([columns, problem.whitener.columns(moved)])
+        free = np.append(~held, np.ones(moved.shape[1], dtype=bool))
+        return _State(residual, problem.whitener.residual(residual), linear, jacobian, free)
 
     def _projected(self, values: FloatArray) -> FloatArray:
         """Jacobian of the projected residual (Kaufman 1975): slopes, less what E_u and G take up."""
-        _, linear, jacobian = self._state(values)
-        design = jacobian[:, : len(linear)][:, self._free()[: len(linear)]]
-        slopes = jacobian[:, len(linear) :]
-        basis = np.linalg.qr(design)[0]
+        state = self._state(values)
+        count = len(state.linear)
+        basis = np.linalg.qr(state.jacobian[:, :count][:, state.free[:count]])[0]
+        slopes = state.jacobian[:, count:]
         inward = np.linalg.inv(self.form.log_gradient(self.relation_at(values), self.anchors))
         return np.asarray((slopes - basis @ (basis.T @ slopes)) @ inward)
 
     def cost(self, values: FloatArray) -> float:
         """Weighted sum of squares."""
-        return float(np.sum(self._state(values)[0] ** 2))
-
-    def rms(self, values: FloatArray) -> FloatArray:
-        """Of the fit residual of each record, shape (n_records,) [MPa]."""
-        residual = self._state(values)[0]
-        lengths = np.cumsum([len(view) for view in self.problem.views])[:-1]
-        parts = np.split(residual, lengths)
-        return np.array([np.sqrt(np.mean(part**2)) / w for part, w in zip(parts, self.problem.weights, strict=True)])
+        return float(np.sum(self._state(values).white ** 2))
 
     def describe(self, values: FloatArray) -> DirectFit:
-        problem = self.problem
-        residual, linear, jacobian = self._state(values)
-        relation = self.relation_at(values)
-        free, everything = self._free(), np.concatenate([linear, values])
-        lengths = [len(view) for view in problem.views]
+        problem, state = self.route.problem, self._state(values)
+        linear, free = state.linear, state.free
+        everything = np.concatenate([linear, values])
         with np.errstate(over="ignore", invalid="ignore"):  # forms that do not fit may determine nothing
-            known = covariance(jacobian[:, free], residual, lengths, everything[free])
+            known = covariance(state.jacobian[:, free], state.white, problem.lengths, everything[free])
         # In the order of the form's parameters, then E_u.
         order = [*range(len(linear), len(everything)), 0]
         place = np.cumsum(free) - 1
@@ -354,29 +327,51 @@ class _Search:
             for b, other in enumerate(order):
                 if free[one] and free[other]:
                     matrix[a, b] = known.matrix[place[one], place[other]]
-        hardening = np.broadcast_to(linear[1:], (len(problem.views),)).copy()
         return DirectFit(
-            CalibratedCompanion(relation, matrix, 0.0, float(linear[0]), self.form),
-            hardening,
+            CalibratedCompanion(self.relation_at(values), matrix, 0.0, float(linear[0]), self.form),
+            np.broadcast_to(linear[1:], (len(problem.views),)).copy(),
             float(linear[0]),
             float(np.sqrt(max(matrix[-1, -1], 0.0))),
-            self.rms(values),
+            np.array([np.sqrt(np.mean(state.residual[rows] ** 2)) for _, rows in problem.model.parts]),
             known.correlated,
         )
 
 
-def _own_rms(view: RecordView, settings: LawSettings) -> float:
-    """Rms of one record's own fit, constant tau_max, E_u and G free [MPa]."""
-    law = Law(
-        unrelaxed_modulus=1.0,
-        hardening_modulus=1.0,
-        tau_max=1.0,
-        decades=settings.decades,
-        spectrum=spectrum_of(settings.modes, settings.decades, settings.accuracy),
-    )
+@dataclass(frozen=True, eq=False)
+class _State:
+    """What the search knows of one relation.
+
+    Attributes
+    ----------
+    residual : ndarray, shape (n_samples,) [MPa]
+        Of the fit with the best moduli.
+    white : ndarray, shape (n_samples,) [-]
+        The same in white coordinates.
+    linear : ndarray, shape (n_linear,) [MPa]
+        E_u, then the G's.
+    jacobian : ndarray, shape (n_samples, n_linear + p)
+        White, along E_u, the G's and the form's parameters.
+    free : ndarray of bool, shape (n_linear + p,)
+        Which of them are identified.
+    """
+
+    residual: FloatArray
+    white: FloatArray
+    linear: FloatArray
+    jacobian: FloatArray
+    free: NDArray[np.bool_]
+
+
+def seen(view: RecordView, floor: float) -> FloatArray:
+    """Rates that the relation is asked for along one record, shape (n_times,) [1/s]."""
+    return seen_rates(view.history, as_scheme(view.scheme).name, floor, view.direction)
+
+
+def _own_level(view: RecordView, law: Law) -> float:
+    """What scatters a record around its own fit, constant tau_max, E_u and G free [MPa]."""
     alone = Problem.white(DnlrLaw(law), [thinned(view, COMPANION.enough_samples)])
-    best = search(alone, time_bounds(alone))
-    return float(np.sqrt(np.mean(alone.model.residual(best) ** 2)))
+    (noise,) = alone.reweighed(search(alone, time_bounds(alone))).whitener.noises
+    return noise.sigma
 
 
 def thinned(view: RecordView, count: int) -> RecordView:

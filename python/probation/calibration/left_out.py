@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.calibration.companion_forms import Form
-    from probation.calibration.direct import DirectFit, DirectProblem
+    from probation.calibration.direct import DirectFit, DirectRoute
     from probation.law.companion import Companion
 
 
@@ -69,12 +69,12 @@ class Predicted:
     largest_stress: float
 
 
-def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: float) -> RecordAlpha:
+def record_alpha(direct: DirectRoute, at: int, relation: Companion, modulus: float) -> RecordAlpha:
     """Fit alpha and G of one record to a relation, E_u held."""
-    hardening = problem.held_hardening
-    law = problem.law(relation, modulus, 1.0 if hardening is None else hardening)
+    hardening = direct.held("hardening_modulus")
+    law = direct.law(relation, modulus, 1.0 if hardening is None else hardening)
     held = ("unrelaxed_modulus",) if hardening is None else ("unrelaxed_modulus", "hardening_modulus")
-    alone = Problem.white(DnlrLaw(law, held), [problem.views[at]])
+    alone = Problem.white(DnlrLaw(law, held), [direct.views[at]])
     best = search(alone, COMPANION.searched_alpha)
     residual, jacobian = alone.residual_and_jacobian(best)
     known = covariance(jacobian, residual, alone.lengths, best)
@@ -82,7 +82,7 @@ def record_alpha(problem: DirectProblem, at: int, relation: Companion, modulus: 
 
 
 def leave_one_rate_out(
-    problem: DirectProblem,
+    direct: DirectRoute,
     groups: Sequence[NDArray[np.intp]],
     forms: Mapping[str, Form],
     start: Callable[[Form], list[FloatArray]],
@@ -103,17 +103,17 @@ def leave_one_rate_out(
     progress : callable
         Called with what is being done.
     """
-    count = len(problem.views)
+    count = len(direct.views)
     scores, predicted = {}, []
     for name, form in forms.items():
         error, weights = np.full(count, np.nan), np.ones(count)
         for group in groups:
             kept = [at for at in range(count) if at not in group]
-            progress(f"{name} without {', '.join(problem.views[at].id for at in group)}")
+            progress(f"{name} without {', '.join(direct.views[at].id for at in group)}")
             try:
-                fitted = problem.only(kept).fit(form, start(form), calibrated(kept))
+                fitted = direct.only(kept).fit(form, start(form), calibrated(kept))
                 for at in group:
-                    each, own = _predict(problem, int(at), name, fitted)
+                    each, own = _predict(direct, int(at), name, fitted)
                     predicted.append(each)
                     error[at] = -own.log_alpha
             except InputError:  # no positive relaxation time at the rates left out
@@ -122,13 +122,13 @@ def leave_one_rate_out(
     return scores, tuple(predicted)
 
 
-def _predict(problem: DirectProblem, at: int, form: str, fitted: DirectFit) -> tuple[Predicted, RecordAlpha]:
-    view = problem.views[at]
+def _predict(direct: DirectRoute, at: int, form: str, fitted: DirectFit) -> tuple[Predicted, RecordAlpha]:
+    view = direct.views[at]
     relation, modulus = fitted.companion.relation, fitted.unrelaxed_modulus
     hardening = float(np.exp(np.mean(np.log(np.maximum(fitted.hardening_modulus, 1e-300)))))
-    law = DnlrLaw(problem.law(relation, modulus, hardening))
+    law = DnlrLaw(direct.law(relation, modulus, hardening))
     base, unit, whole = (law.stress(view, np.array([modulus, 1.0, value])) for value in (0.0, 1.0, hardening))
-    own = record_alpha(problem, at, relation, modulus)
+    own = record_alpha(direct, at, relation, modulus)
     largest = float(np.max(np.abs(view.data)))
     slope = unit - base  # the stress is linear in G
     left = base - view.data

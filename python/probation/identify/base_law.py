@@ -12,15 +12,14 @@ from probation.law.spectrum import spectrum_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from probation.records.campaign import Campaign
+    from probation.law.settings import LawSettings
 
 START = {"unrelaxed_modulus": 1000.0, "tau_max": 1.0, "alpha": 1.0, "hardening_modulus": 1.0}
 """Placeholders: variable projection needs no start."""
 
 
-def base_law(campaign: Campaign, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
+def base_law(settings: LawSettings, hold: Mapping[str, float]) -> tuple[Law, tuple[str, ...]]:
     """The campaign's law, with placeholders for what is not held, and the names of what is."""
-    settings = campaign.law
     companion = from_settings(settings.companion)
     names = ("unrelaxed_modulus", "tau_max" if companion is None else "alpha", "hardening_modulus")
     values = {name: START[name] for name in names}

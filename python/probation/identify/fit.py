@@ -104,7 +104,7 @@ def fit(
     one_of(intervals, "intervals", INTERVALS)
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
-    law, held = base_law(campaign, hold or {})
+    law, held = base_law(campaign.law, hold or {})
     limits = _limits(law, bounds or {})
     views = []
     steps = 1 if substeps == "auto" else substeps

@@ -41,7 +41,7 @@ def given(
     InputError
         If a parameter is not held.
     """
-    law, held = base_law(campaign, {})
+    law, held = base_law(campaign.law, {})
     if len(held) < len(law.parameter_names):
         raise InputError(f"campaign {campaign.name!r}: found law.fixed without every parameter; use fit")
     chosen, substeps = identifying(scheme)

@@ -14,6 +14,8 @@ from probation.noise.span import span_of
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
@@ -76,9 +78,8 @@ class Discrepancy:
             left, upper = np.linalg.qr(noise.whiten(basis.columns / np.linalg.norm(basis.columns, axis=0)))
             size = np.abs(np.diag(upper))
             kept = size > DEPENDENT * float(size.max())
-            falls = [(1.0 + basis.order[kept]) ** -power for power in EVIDENCE.discrepancy_softness]
             columns.append(left[:, kept])
-            spectrum.append(np.mean([share / share.sum() for share in falls], axis=0))
+            spectrum.append(np.mean(spectra(basis.order[kept]), axis=0))
             places.append(slice(at, at + int(kept.sum())))
             at = places[-1].stop
         drift = nuisance_drift(whitened, columns, signals)
@@ -121,6 +122,12 @@ class Discrepancy:
         return columns
 
 
+def spectra(order: NDArray[np.intp]) -> FloatArray:
+    """Shares of waves of these orders in a discrepancy's energy, by its softness; shape (n_softness, d)."""
+    falls = (1.0 + order) ** -np.array(EVIDENCE.discrepancy_softness)[:, None]
+    return np.asarray(falls / falls.sum(axis=1, keepdims=True))
+
+
 def _over_strain(whitened: Whitened) -> FloatArray:
     """Waves over the strain that all records share, falling as a discrepancy's do."""
     largest = max(float(np.max(record.true_strain)) for record in whitened.records)
@@ -130,9 +137,7 @@ def _over_strain(whitened: Whitened) -> FloatArray:
     columns = whitened.whiten(
         [np.cos(np.pi / largest * np.outer(record.true_strain, orders)) for record in whitened.records]
     )
-    falls = [(1.0 + orders) ** -power for power in EVIDENCE.discrepancy_softness]
-    share = np.mean([each / each.sum() for each in falls], axis=0)
-    return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(share))
+    return np.asarray(columns / np.linalg.norm(columns, axis=0) * np.sqrt(np.mean(spectra(orders), axis=0)))
 
 
 def _own_tangents(whitened: Whitened) -> FloatArray:

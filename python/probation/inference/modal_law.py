@@ -34,6 +34,8 @@ _BOUNDS = {
 }
 """In MPa, s, - and MPa: beyond any polymer and any test."""
 
+_THREAD = threading.local()
+
 
 class DnlrLaw:
     """Adapts `probation.Law` to `GapLaw`.
@@ -66,7 +68,6 @@ class DnlrLaw:
         self._companion = None if law.companion is None else law.companion._engine()
         assert law.spectrum is not None
         self._spectrum = law.spectrum._engine()
-        self._own = threading.local()  # a solver keeps its arrays between calls and serves one thread at a time
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
@@ -117,7 +118,7 @@ class DnlrLaw:
         law, change = self._modified(view, parameters, modification)
         stress = np.empty(len(view))
         try:
-            self._solver(view).stress(law, change, stress)
+            solver_of(view).stress(law, change, stress)
         except InputError as error:
             raise _named(error, view) from None
         return stress
@@ -132,7 +133,7 @@ class DnlrLaw:
             directions = [each for each, free in zip(directions, self._free, strict=True) if free]
         stress, tangent = np.empty(len(view)), np.empty((len(view), len(directions)))
         try:
-            self._solver(view).tangent(made.law, made.change, directions, stress, tangent)
+            solver_of(view).tangent(made.law, made.change, directions, stress, tangent)
         except InputError as error:
             raise _named(error, view) from None
         return stress, tangent
@@ -142,21 +143,23 @@ class DnlrLaw:
         values[self._free] = parameters
         return values
 
-    def _solver(self, view: RecordView) -> _core.Solver:
-        kept: WeakKeyDictionary[RecordView, _core.Solver] | None = getattr(self._own, "solvers", None)
-        if kept is None:
-            kept = self._own.solvers = WeakKeyDictionary()
-        solver = kept.get(view)
-        if solver is None:
-            solver = kept[view] = make_solver(view.history, view.scheme)
-        return solver
-
     def _modified(self, view: RecordView, parameters: FloatArray, modification: Modification | None) -> ModifiedLaw:
         values = self._all(parameters).tolist()
         if modification is None:
             return ModifiedLaw(engine_law_of(values, self._companion, self._spectrum), UNCHANGED)
         initial = view.haward_thackray_strain[0]
         return modified(values, self._companion, self._spectrum, modification, initial)
+
+
+def solver_of(view: RecordView) -> _core.Solver:
+    """The engine's solver for a record, made once in every thread that asks: it keeps its arrays between calls."""
+    kept: WeakKeyDictionary[RecordView, _core.Solver] | None = getattr(_THREAD, "solvers", None)
+    if kept is None:
+        kept = _THREAD.solvers = WeakKeyDictionary()
+    solver = kept.get(view)
+    if solver is None:
+        solver = kept[view] = make_solver(view.history, view.scheme)
+    return solver
 
 
 def _named(error: InputError, view: RecordView) -> InputError:

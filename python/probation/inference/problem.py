@@ -52,10 +52,11 @@ class Problem:
     moving: MovingNoise | None = None
 
     @classmethod
-    def white(cls, law: GapLaw, views: Sequence[RecordView]) -> Problem:
-        """A law on its records with white noise, of the size that every record has by itself."""
-        model = CampaignModel(law, views)
-        return cls(model, Whitener(tuple(_white(view, view.stress_noise) for view in views)))
+    def white(cls, law: GapLaw, views: Sequence[RecordView], levels: Sequence[float] | None = None) -> Problem:
+        """A law on its records with white noise, of the size that every record has by itself, or of these [MPa]."""
+        sizes = [view.stress_noise for view in views] if levels is None else levels
+        noises = (_white(view, size) for view, size in zip(views, sizes, strict=True))
+        return cls(CampaignModel(law, views), Whitener(tuple(noises)))
 
     def with_causes(self, causes: Iterable[Cause]) -> Problem:
         """The same with other effects."""
@@ -64,6 +65,12 @@ class Problem:
     def with_model(self, model: CampaignModel) -> Problem:
         """The same records and noise with a model of other effects."""
         return replace(self, model=model)
+
+    def only(self, kept: Sequence[int]) -> Problem:
+        """The same on some of the records, by number."""
+        part = replace(self, model=self.model.on([self.views[at] for at in kept]))
+        strain = () if self.moving is None else [self.moving.strain[at] for at in kept]
+        return part.with_noises([self.whitener.noises[at] for at in kept], strain)
 
     def with_views(self, views: Iterable[RecordView]) -> Problem:
         """The same records solved otherwise: by another scheme, in other steps, driven by another strain."""

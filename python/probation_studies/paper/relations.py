@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from probation.calibration.companion_forms import FORMS
-from probation.calibration.direct import DirectProblem
+from probation.calibration.direct import DirectRoute
 from probation.calibration.left_out import record_alpha
 from probation.calibration.rate_table import RateTable
 from probation.calibration.regression import Regression, regress
@@ -152,5 +152,5 @@ def _ratio(number: Literal[2, 3], regressed: Companion) -> AlphaRatio:
 
 
 def _alpha(number: Literal[2, 3], relation: Companion) -> float:
-    problem = DirectProblem([experiment(number).record()], LawSettings(), "sa3", "by-record")
-    return float(np.exp(record_alpha(problem, 0, relation, UNRELAXED_MODULUS).log_alpha))
+    direct = DirectRoute.of([experiment(number).record()], LawSettings(), "sa3", "by-record")
+    return float(np.exp(record_alpha(direct, 0, relation, UNRELAXED_MODULUS).log_alpha))
