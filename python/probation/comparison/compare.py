@@ -16,6 +16,7 @@ from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.detection.gap_test import GapTester
 from probation.diagnosis.budget import Budget
+from probation.diagnosis.calibration_check import check_calibration
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.probabilities import leading
 from probation.diagnosis.skipped import Skipping
@@ -104,6 +105,7 @@ def compare(
     advance(Part(0.2, "testing for a change"))
     # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
     test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
+    calibration = check_calibration(kept, base, own_law=True)
     causes = causes_of(
         base,
         changes,
@@ -114,6 +116,7 @@ def compare(
         skipping=skipping,
         budget=deadline,
         progress=lambda part: advance(Part(0.3 + 0.55 * part, "trying causes")),
+        power=calibration.power,
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
@@ -128,7 +131,7 @@ def compare(
         headline=headline(explanations[0], len(kept.records), reference.campaign.name),
         pairs=together,
         explanations=explanations,
-        answer_set=leading(explanations),
+        answer_set=leading(explanations, calibration.covered),
         rms_MPa={name: each.before_MPa for name, each in shrink.records.items()},
         noise_MPa={name: each.noise_MPa for name, each in shrink.records.items()},
         curves={
@@ -143,7 +146,8 @@ def compare(
         },
         skipped=skipping.entries(causes.found),
         scatter=causes.base.scatter,
-        warnings=thinned,
+        warnings=(*thinned, *calibration.warnings),
+        calibration=calibration,
     )
 
 

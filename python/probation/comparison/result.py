@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+from probation.diagnosis.calibration_check import CalibrationCheck
 from probation.diagnosis.result import EffectSize
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.rendering import Result
@@ -85,7 +86,7 @@ class Comparison(Result, Stored):
     explanations : tuple of ChangeExplanation
         By probability, which sums to 1.
     answer_set : tuple of ChangeExplanation
-        The most probable ones that hold 95 % together.
+        The most probable ones that hold 95 % together, 98 % outside the calibrated ranges.
     rms_MPa, noise_MPa : dict of str to float
         Of each record's change, and of its noise.
     curves : dict of str to ChangeCurves
@@ -94,6 +95,8 @@ class Comparison(Result, Stored):
     scatter : Scatter
         How far specimens may differ without a change.
     warnings : tuple of str
+    calibration : CalibrationCheck
+        Whether the records lie within those on which the probabilities of diagnoses were calibrated.
     """
 
     SCHEMA: ClassVar[str] = "probation.comparison/1"
@@ -111,6 +114,7 @@ class Comparison(Result, Stored):
     skipped: tuple[Skipped, ...]
     scatter: Scatter
     warnings: tuple[str, ...] = ()
+    calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
 
     @property
     def best(self) -> ChangeExplanation:
@@ -133,4 +137,5 @@ class Comparison(Result, Stored):
             "skipped": [each.to_dict() for each in self.skipped],
             "scatter": self.scatter.to_dict(),
             "warnings": list(self.warnings),
+            "calibration": self.calibration.to_dict(),
         }
