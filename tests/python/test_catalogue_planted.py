@@ -405,6 +405,75 @@ def measured_warming(softening=0.07):
     return campaign(made)
 
 
+def arrhenius(warming):
+    """ln of the times' factor for 70 kJ/mol at 23 °C."""
+    return 70e3 / 8.314 * (1.0 / (296.15 + warming) - 1.0 / 296.15)
+
+
+def wlf(warming):
+    """The same with C1 = 8.86 / 2 and C2 = 101.6 K: a times ten within 29 K."""
+    return -np.log(10.0) * 4.43 * warming / (101.6 + warming)
+
+
+def heated(log_time, *, stored="nothing", stiffness_loss=0.0, loss_time=np.inf):
+    """Four rates; heat over 1.9 MPa/K warms, the room cools; modes step by step, the middle of a step by iteration.
+
+    The work is turned into heat but for what is `stored`: nothing of it, the elastic energy of the stress, or the
+    network's work. E_u and G fall by `stiffness_loss` a degree.
+    """
+    weight, times = LAW.spectrum.modal_weight, LAW.tau_max * LAW.spectrum.relaxation_ratio
+    made = []
+    for seed, rate in enumerate((1e-3, 3e-3, 5e-3, FAST)):
+        time, strain = path(rate, [1.0])
+        carried, warming, stress, h = np.zeros(len(times)), 0.0, [0.0], time[1]
+        for begin, end in pairwise(strain):
+            network = LAW.hardening_modulus * (np.exp(begin + end) - np.exp(-0.5 * (begin + end)))
+            middle = warming
+            for _ in range(3):
+                left = 1.0 - stiffness_loss * middle
+                part = h / (times * np.exp(log_time(middle)))
+                new = carried * np.exp(-part) - np.expm1(-part) * weight * left * (
+                    LAW.unrelaxed_modulus * (end - begin) / part + network
+                )
+                mean, rise = 0.5 * (carried + new).sum(), (new - carried).sum()
+                work = {
+                    "nothing": mean * (end - begin),
+                    "elastic": mean * (end - begin - rise / LAW.unrelaxed_modulus),
+                    "network": (mean - left * network) * (end - begin),
+                }[stored]
+                after = (warming * (1.0 - 0.5 * h / loss_time) + work / 1.9) / (1.0 + 0.5 * h / loss_time)
+                middle = 0.5 * (warming + after)
+            carried, warming = new, after
+            stress.append(carried.sum())
+        made.append(record(f"at-{rate:g}", time, strain, np.array(stress), seed))
+    return campaign(made)
+
+
+@pytest.mark.parametrize(
+    ("log_time", "how"),
+    [
+        (arrhenius, {}),
+        (arrhenius, {"stored": "elastic", "stiffness_loss": 0.003, "loss_time": 300.0}),
+        (arrhenius, {"stored": "network", "stiffness_loss": 0.005, "loss_time": 200.0}),
+        (wlf, {"stored": "elastic", "loss_time": 500.0}),
+    ],
+    ids=["all work", "but elastic energy", "but the network's", "wlf"],
+)
+def test_self_heating_by_other_laws_of_temperature(log_time, how):
+    """Up to 15 K: named, and leading without partners."""
+    found = named(heated(log_time, **how), "self_heating")
+    assert found.best.effects == ("self_heating",)
+    assert found.best.probability > 0.7
+    assert found.shrink.identify.after_MPa < 1.1 * 0.04
+    # Loss of ln tau per degree over heat capacity: Arrhenius 0.0960, WLF 0.1004 per K.
+    slope = -(log_time(1e-3) / 1e-3) / 1.9
+    assert value(found, "log_time_loss_per_MPa") == pytest.approx(slope, rel=0.15)
+
+
+def test_heat_that_changes_no_times_makes_no_gap():
+    assert diagnosed(heated(lambda warming: 0.0)).verdict == "no_gap"
+
+
 def test_a_measured_rise_drives_self_heating():
     """The rise need not be predicted: the coefficient per degree is what is left to find."""
     found = named(measured_warming(), "self_heating")

@@ -10,6 +10,7 @@ from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible_temperature import all_measured, warms_by_work
 from probation.effects.warming import SOFTENING
+from probation.law.kinematics import haward_thackray_strain
 from probation.law.modification import Modification, SelfHeating
 
 if TYPE_CHECKING:
@@ -75,6 +76,40 @@ _LOSS = EffectParameter(
     scale=0.005,
     reason="0.5 °C per MPa of work times 1 % per degree, as a yield stress falls",
 )
+_TIME_LOSS = EffectParameter(
+    name="log_time_loss_per_MPa",
+    unit="1/MPa",
+    lower=0.0,
+    upper=0.5,
+    scale=0.05,
+    reason="0.5 °C per MPa of heat times 0.1 per degree, an activation energy of 70 kJ/mol",
+)
+_LEVELLING = EffectParameter(
+    name="levelling_heat_MPa",
+    unit="MPa",
+    lower=150.0,
+    upper=5000.0,
+    centre=600.0,
+    scale=0.7,
+    log=True,
+    reason="that warms by 296 K (Arrhenius), 0.5 °C per MPa; by C2 of some 100 K (Williams, Landel and Ferry)",
+)
+_STORED_HARDENING = EffectParameter(
+    name="stored_hardening_MPa",
+    unit="MPa",
+    lower=0.0,
+    upper=20.0,
+    scale=2.0,
+    reason="all work into heat: 0; all but the network's: G, some MPa in polyethylene",
+)
+_STORED_COMPLIANCE = EffectParameter(
+    name="stored_compliance_per_MPa",
+    unit="1/MPa",
+    lower=0.0,
+    upper=0.01,
+    scale=0.001,
+    reason="1/E_u of a polymer; more where stresses differ from mode to mode",
+)
 
 
 def _warm(view: RecordView, values: Values) -> Modification:
@@ -90,6 +125,20 @@ def _as_measured(view: RecordView, values: Values) -> Modification | None:
     softening, hardening = values
     return Modification(
         relaxation_time_factor=np.exp(-softening * rise), hardening_factor=np.exp(-hardening * softening * rise)
+    )
+
+
+def _thermally_activated(view: RecordView, values: Values) -> Modification:
+    """tau_max e^(-a w / (1 + w / w_l)), G e^(-b a w); w the heat of the recorded work less what has cooled off.
+
+    In terms of the warming T ~ w the exponent is that of Arrhenius, H/R (1/T_0 - 1/(T_0 + T)), if w_l warms by T_0, and
+    that of Williams, Landel and Ferry if it warms by their C2.
+    """
+    loss, cooling, levelling, hardening, stored_hardening, stored_compliance = values
+    heat = np.maximum(_kept_heat(view, cooling, stored_hardening, stored_compliance), 0.0)
+    return Modification(
+        relaxation_time_factor=np.exp(-loss * heat / (1.0 + heat / levelling)),
+        hardening_factor=np.exp(-hardening * loss * heat),
     )
 
 
@@ -112,9 +161,15 @@ def _warming(view: RecordView, values: Values) -> FloatArray:
 
 def _kept_work(view: RecordView, cooling: float) -> FloatArray:
     """The recorded work so far, less what has cooled off; shape (n,) [MPa]."""
+    return _kept_heat(view, cooling, 0.0, 0.0)
+
+
+def _kept_heat(view: RecordView, cooling: float, stored_hardening: float, stored_compliance: float) -> FloatArray:
+    """The same of the work that is not stored in the network, nor as elastic energy; shape (n,) [MPa]."""
     stress = view.smooth_nominal_data * view.stretch
-    work = np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(view.true_strain)))
-    return maxwell_element(view.time, work, 1.0 / cooling)
+    flow = stress - stored_hardening * haward_thackray_strain(view.true_strain)
+    work = np.append(0.0, np.cumsum(0.5 * (flow[1:] + flow[:-1]) * np.diff(view.true_strain)))
+    return maxwell_element(view.time, work - 0.5 * stored_compliance * stress**2, 1.0 / cooling)
 
 
 EFFECT = Effect(
@@ -123,11 +178,14 @@ EFFECT = Effect(
     physics=(
         "Plastic work turns into heat faster than it leaves: the specimen warms, relaxes faster and hardens less.\n"
         "Amplitude: warming per plastic work; where every record has its measured temperature, that drives the law, "
-        "and the amplitude is the loss of ln tau_max per degree. Of the stress: its relative loss per work."
+        "and the amplitude is the loss of ln tau_max per degree. Thermally activated: that per heat of the recorded "
+        "work. Of the stress: its relative loss per work."
     ),
     source=(
         "Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193; Johnson & Cook 1983 (the "
-        "stress falls in proportion to the warming)"
+        "stress falls in proportion to the warming); Arrhenius 1889, Williams, Landel & Ferry 1955, J. Am. Chem. Soc. "
+        "77, 3701 (times over temperature); Boyce, Parks & Argon 1988, Mech. Mater. 7, 15 (heat is the work of the "
+        "stress beyond the network's)"
     ),
     shows_in="fast records at large strains, against slow ones that stay cool; a measured temperature judges it",
     kind="material",
@@ -138,6 +196,13 @@ EFFECT = Effect(
             (_HEATING, _COOLING, SOFTENING, _HARDENING_LOSS),
             modification=_warm,
             needs=_not_all_measured,
+        ),
+        Form(
+            "thermally_activated",
+            (_TIME_LOSS, _COOLING, _LEVELLING, _HARDENING_PART, _STORED_HARDENING, _STORED_COMPLIANCE),
+            modification=_thermally_activated,
+            needs=_not_all_measured,
+            variant=True,
         ),
         Form("of_the_stress", (_LOSS, _COOLING), modification=_of_the_stress, needs=_not_all_measured, variant=True),
         Form("as_measured", _MEASURED, modification=_as_measured, needs=warms_by_work),
