@@ -18,7 +18,7 @@ from probation.report.diagnosis_words import (
     span_text,
 )
 from probation.report.table import Table
-from probation.wording import chance, percent, plus_minus
+from probation.wording import chance, percent, plus_minus, signed_percent
 
 if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
@@ -107,9 +107,9 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
         (
             title(effect.name),
             chance(effect.probability),
-            _signed(effect.share) if effect.name in diagnosis.best.effects else "–",
-            "" if effect.alone is None else _signed(effect.alone),
-            "" if effect.beside is None else _signed(effect.beside),
+            signed_percent(effect.share) if effect.name in diagnosis.best.effects else "–",
+            "" if effect.alone is None else signed_percent(effect.alone),
+            "" if effect.beside is None else signed_percent(effect.beside),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
         )
         for effect in diagnosis.effects
@@ -216,8 +216,3 @@ def _rest(parts: list[float], what: str) -> str:
     few = max(parts)
     size = "below 1 %" if few < WORTH_A_ROW else f"of {percent(few)} at most"
     return f"… and {len(parts)} more {what}{'s' if len(parts) > 1 else ''} {size}"
-
-
-def _signed(part: float) -> str:
-    """A share, which is negative where an effect makes the misfit larger."""
-    return percent(part) if part > -0.005 else f"−{percent(-part)}"
