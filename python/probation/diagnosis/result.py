@@ -144,7 +144,15 @@ class RecordCurves(WithCurves):
     explained : ndarray, shape (n,) [MPa], or None
         None where no effect is needed or known.
     noise : ndarray, shape (n,) [MPa]
-        Standard deviation of a sample.
+        Standard deviation of a sample, by noise of the stress and of the strain.
+    noise_MPa : float
+        Standard deviation of the stress noise alone, over the record.
+    noise_given : bool
+        Whether it is what the campaign states; else it was estimated, or seen to be larger than stated.
+    strain_noise : float
+        Standard deviation of the strain noise.
+    strain_noise_given : bool
+        Whether the campaign states it; else it was estimated.
     """
 
     id: str
@@ -156,6 +164,20 @@ class RecordCurves(WithCurves):
     base: FloatArray = field(metadata=CURVE)
     explained: FloatArray | None = field(metadata=CURVE)
     noise: FloatArray = field(metadata=CURVE)
+    noise_MPa: float  # noqa: N815 - as it leaves the program
+    noise_given: bool
+    strain_noise: float
+    strain_noise_given: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `records` of docs/formats.md."""
+        return {
+            "role": self.role,
+            "noise_MPa": self.noise_MPa,
+            "noise_given": self.noise_given,
+            "strain_noise": self.strain_noise,
+            "strain_noise_given": self.strain_noise_given,
+        }
 
 
 @dataclass(frozen=True)
@@ -421,6 +443,7 @@ class Diagnosis(Result, Stored):
                     "of_certificate_tolerance": self.size.relative / CERTIFICATE.tolerance,
                 },
             },
+            "records": {name: each.to_dict() for name, each in self.curves.items()},
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
             "judged_on": self.judged_on,
             "scatter": {} if self.scatter is None else self.scatter.to_dict(),

@@ -16,6 +16,7 @@ from probation.report.diagnosis_tables import (
     leading,
     mended_by,
     next_tests_table,
+    noise_table,
     shrink_table,
     where_table,
     which_table,
@@ -153,7 +154,7 @@ def _records(diagnosis: Diagnosis) -> Section:
         f"sample in twenty.{tinted}"
     )
     pictures = tuple(picture(record_figure(diagnosis, name), _caption(diagnosis, name)) for name in diagnosis.curves)
-    return Section("Record by record, before and after", (text, Gallery(pictures)))
+    return Section("Record by record, before and after", (text, Gallery(pictures), noise_table(diagnosis)[0]))
 
 
 def _caption(diagnosis: Diagnosis, record: str) -> str:

@@ -8,6 +8,7 @@ from probation.report.diagnosis_tables import (
     MOST,
     effects_table,
     held_out_table,
+    noise_table,
     shrink_table,
     where_table,
     which_table,
@@ -44,6 +45,7 @@ def summary(diagnosis: Diagnosis) -> str:
     parts.append(
         _shown(*shrink_table(diagnosis, MOST)) + "\n" + _sentence(f"Intervals: {diagnosis.shrink.identify.how}.")
     )
+    parts.append(_shown(*noise_table(diagnosis, MOST)))
     if diagnosis.remainder is not None:
         parts.append(diagnosis.remainder.description)
     if diagnosis.next_test is not None:
