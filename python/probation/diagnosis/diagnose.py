@@ -232,7 +232,7 @@ def diagnose(
         remainder=left,
         skipped=skipping.entries(found),
         scatter=base.scatter,
-        hangs_on_scatter=gap.hangs_on_scatter,
+        gap_if_alike=gap.if_alike,
         calibration=calibration,
     )
 

@@ -271,8 +271,8 @@ class Diagnosis(Result, Stored):
         Of the gap where it is largest relative to the stress.
     scatter : Scatter or None
         How far specimens differ: estimated, assumed or stated.
-    hangs_on_scatter : bool
-        Whether there would be a gap if specimens were alike, and is none as they differ.
+    gap_if_alike : bool
+        Whether there would be a gap if specimens were alike, by the test for a gap alone.
     tolerance : float
         Part of the largest stress below which a gap does not matter.
     matters : bool
@@ -346,7 +346,7 @@ class Diagnosis(Result, Stored):
     size: GapSize | None = None
     judged_on: str | None = None
     scatter: Scatter | None = None
-    hangs_on_scatter: bool = False
+    gap_if_alike: bool = False
     tolerance: float = DETECTION.tolerance
     matters: bool = True
     calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
@@ -447,7 +447,7 @@ class Diagnosis(Result, Stored):
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
             "judged_on": self.judged_on,
             "scatter": {} if self.scatter is None else self.scatter.to_dict(),
-            "gap_if_alike": self.verdict != "no_gap" or self.hangs_on_scatter,
+            "gap_if_alike": self.gap_if_alike,
             "where": [_located(each) for each in self.located],
             "acts": [_located(each) for each in self.acts],
             "signatures": [

@@ -78,8 +78,11 @@ def specimens_text(diagnosis: Diagnosis) -> str:
     if diagnosis.scatter is None:
         return ""
     text = diagnosis.scatter.text
-    if diagnosis.scatter.any and diagnosis.verdict == "no_gap":
-        text += "; if they were alike there would " + ("be a gap" if diagnosis.hangs_on_scatter else "still be no gap")
+    if diagnosis.scatter.any:
+        none = diagnosis.verdict == "no_gap"
+        also = "be a gap" if none else "be a gap as well (causes were not tried again)"
+        text += "; if they were alike there would "
+        text += also if diagnosis.gap_if_alike else "still be no gap" if none else "be no gap"
     return f"{text[:1].upper()}{text[1:]}."
 
 
