@@ -38,7 +38,7 @@ def test_what_the_headline_names_is_added_before_the_others():
     """Heating closes 99.7 % alone; delayed hardening 60 % alone, and 0.2 % more."""
     closed = {(): 0.0, ("a",): 0.6, ("b",): 0.997, ("a", "b"): 0.999}
     assert _shares(("b",), ("a", "b"), closed) == pytest.approx({"a": 0.002, "b": 0.997})
-    assert _undivided(("b",), ("a", "b"), closed) == ()
+    assert _undivided(("a", "b"), closed) == ()
 
 
 def test_shares_sum_to_what_the_explanation_closes(two_effects):
@@ -127,7 +127,7 @@ def attributed(closed):
         for name in sorted(KNOWN, key=lambda name: -shares[name])
     )
     by_share = tuple(sorted(named, key=lambda name: -shares[name]))
-    return Attribution(effects, by_share, 0.2, 0.9, _undivided(named, ORDERED, closed))
+    return Attribution(effects, by_share, 0.2, 0.9, _undivided(ORDERED, closed))
 
 
 def told(parts, verdict="explained"):

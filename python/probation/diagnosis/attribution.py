@@ -150,7 +150,7 @@ def attribution(
         named=tuple(sorted(named, key=lambda name: -shares[name])),
         after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
         probability=min(sum(each.probability for each in weighed if {*named} <= {*each.effects}), 1.0),
-        undivided=_undivided(named, known, closed),
+        undivided=_undivided(known, closed),
     )
 
 
@@ -226,20 +226,14 @@ def _shares(
     return shares
 
 
-def _undivided(
-    named: tuple[str, ...], known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]
-) -> tuple[str, ...]:
-    """Effects that can stand in for each other, where one of them closes nearly all that the explanation does."""
-    most = EVIDENCE.nearly_all * closed[known]
+def _undivided(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
+    """Effects each of which alone closes nearly all that the explanation does, if there are several."""
+    whole = closed[known]
     alone = {name: closed[(name,)] for name in known}
-    replaceable = [
-        name
-        for name in known
-        if (name in named or alone[name] >= most)
-        and alone[name] - (closed[known] - closed[_without(known, name)]) > (1.0 - EVIDENCE.nearly_all) * closed[known]
-    ]
-    replaceable.sort(key=lambda name: -alone[name])
-    return tuple(replaceable) if len(replaceable) > 1 and alone[replaceable[0]] >= most > 0.0 else ()
+    stand_ins = sorted(
+        (name for name in known if alone[name] >= EVIDENCE.nearly_all * whole), key=lambda name: -alone[name]
+    )
+    return tuple(stand_ins) if len(stand_ins) > 1 and whole > 0.0 else ()
 
 
 def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:

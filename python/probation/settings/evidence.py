@@ -161,8 +161,8 @@ class EvidenceSettings:
     nearly_all: float = chosen(
         0.9,
         "-",
-        "Part of what an explanation closes from which on one of its effects alone closes nearly all of it: what it "
-        "closes alone and no longer beside the others is then not divided between them.",
+        "Part of what an explanation closes from which on one of its effects alone closes nearly all of it: several "
+        "such effects can stand in for each other, and have no shares of their own.",
     )
     probability_worth_naming: float = chosen(
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
