@@ -85,6 +85,11 @@ def percent(part: float) -> str:
     return f"{100.0 * part:.0f} %"
 
 
+def signed_percent(part: float) -> str:
+    """A share, which is negative where an effect makes the misfit larger: "91 %", "−3 %"."""
+    return percent(part) if part > -0.005 else f"−{percent(-part)}"
+
+
 def chance(probability: float) -> str:
     """A probability that came out: "91 %", "< 1 %"; rounded to 1 it is still no certainty: "> 99 %"."""
     return "> 99 %" if probability > 0.99 else percent(probability)

@@ -66,7 +66,12 @@ def records(heating: float, copies: int = 1) -> tuple[RecordCurves, ...]:
             role = "held-out" if name in HELD_OUT else "identify"
             noise = np.full(COUNT, NOISE)
             rate = np.gradient(strain, time)
-            found.append(RecordCurves(label, role, time, strain, rate, data, truth, truth if heating else None, noise))
+            mended = truth if heating else None
+            found.append(
+                RecordCurves(
+                    label, role, time, strain, rate, data, truth, mended, noise, NOISE, False, 1e-5, role == "held-out"
+                )
+            )
     return tuple(_refitted(found))
 
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 import probation
+from campaigns.few_records import few_records
 from probation.diagnosis import calibration_check
 from probation.diagnosis.calibration_check import CalibrationCheck, Extent
 from probation.settings.calibrated import CALIBRATED
@@ -44,8 +45,17 @@ def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
     assert [why.split(",")[0] for why in answer["calibration"]["why"]] == ["specimens that differ"]
     left_out = [each for each in found.explanations if each.effects not in found.answer_set]
     assert all(each.probability < 0.02 or len(each.effects) > 1 for each in left_out)
-    if found.verdict != "no_gap":
-        assert any("calibrated on other campaigns" in warning for warning in found.warnings)
+    assert any("calibrated on other campaigns" in warning for warning in found.warnings)
+
+
+def test_a_campaign_outside_says_so_though_there_is_no_gap():
+    """Records of 150 samples."""
+    found = _diagnosed(few_records(names=("slow", "middle", "fast")), effects=["damage"])
+    assert found.verdict == "no_gap"
+    answer = json.loads(found.to_json())
+    [sentence] = [warning for warning in answer["warnings"] if "calibrated on other campaigns" in warning]
+    assert all(why in sentence for why in answer["calibration"]["why"])
+    assert "warning: the probabilities were calibrated on other campaigns" in found.summary()
 
 
 def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):

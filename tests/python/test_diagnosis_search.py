@@ -7,13 +7,19 @@ import pytest
 from bench import waiting
 
 import probation
-from probation.diagnosis.search import Search
+from campaigns.few_records import damage, few_records, offset
+from probation.diagnosis import diagnose
+from probation.diagnosis.causes import causes_of
+from probation.diagnosis.search import Search, _first_of_each
 from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.candidate import cause_key
 from probation.inference.refit import MOST_STEPS, refit
+from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.span import span_of
+from probation.records.record import Noise
 from probation.settings.search import SEARCH
 
 NOISE, SAMPLES = 0.04, 120
@@ -49,6 +55,80 @@ def searched(seed):
 
 def keys(found):
     return frozenset(cause_key(each) for each in found.causes)
+
+
+def two_effects():
+    """Damage in all records, an offset of the force in one."""
+
+    def both(name, time, strain, stress):
+        return offset(0.8, "middle")(name, time, strain, damage(0.05)(name, time, strain, stress))
+
+    return few_records(both)
+
+
+def specimens_that_differ():
+    """The same two, in six specimens that differ by 2 % in E_u and by 3 % in tau_max and G, two at each rate."""
+    random, records = np.random.default_rng(0), []
+    for rate, copy in itertools.product((1e-3, 5e-3, 2e-2), "ab"):
+        e_u, tau, g = 1.0 + np.array([0.02, 0.03, 0.03]) * random.standard_normal(3)
+        law = probation.Law(unrelaxed_modulus=1500.0 * e_u, tau_max=30.0 * tau, hardening_modulus=2.0 * g)
+        time = np.linspace(0.0, 0.4 / rate, SAMPLES)
+        strain, name = rate * time, f"{rate:g}{copy}"
+        stress = offset(2.0, "0.005b")(name, time, strain, law.stress(time, strain, "exact") * (1.0 - 0.3 * strain**2))
+        stress = stress + NOISE * random.standard_normal(SAMPLES)
+        records.append(
+            probation.Record(id=name, time=time, true_strain=strain, true_stress=stress, noise=Noise(strain=0.0))
+        )
+    return probation.Campaign(name="differ", records=tuple(records))
+
+
+@pytest.mark.parametrize("made", [two_effects, specimens_that_differ])
+def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
+    """Of a whole diagnosis with the full catalogue, as `causes_of` hands it on.
+
+    Refitted on the same base fit: every part of the leader from its own values, and every single cause from the start
+    that the search has for it.
+    """
+    handed_on = []
+
+    def kept(*given, **options):
+        handed_on.append(causes_of(*given, **options))
+        return handed_on[-1]
+
+    monkeypatch.setattr(diagnose, "causes_of", kept)
+    answer = diagnose.diagnose(made(), design=False)
+    assert answer.best.effects == ("damage", "force_offset")
+    [causes] = handed_on
+    assert causes.base.scatter.any == (made is specimens_that_differ)
+
+    least = {}
+    for each in causes.found:
+        least[keys(each)] = min(least.get(keys(each), np.inf), each.refit.chi_square)
+    for part, whole in itertools.permutations(least, 2):
+        if part < whole:
+            assert least[whole] <= least[part] + 2.0 * SEARCH.settled
+
+    search = Search(causes.base, causes.considered)
+    leader, model = causes.best, causes.best.refit.model
+    base, values = model.split(leader.refit.parameters)
+    jobs = []
+    for size in range(1, len(values)):
+        for part in itertools.combinations(values, size):
+            smaller = model.with_causes(cause for cause, _ in part)
+            jobs.append((smaller, smaller.parameters(base, *(own for _, own in part))))
+    alone = causes.base.columns_with_starts(causes.considered)
+    before = causes.base.refit
+    for each in _first_of_each(alone.candidates(before.residual, span_of(before.jacobian))):
+        jobs.append((causes.base.model.with_causes([each.cause]), np.concatenate([before.parameters, each.values])))
+    judged = []
+    for smaller, start in jobs:
+        try:
+            found = search._weighed(search._refit(smaller, start, MOST_STEPS))
+        except UNSOLVABLE:
+            continue
+        judged.append(found.as_reached(search.found[0]).evidence.log_evidence)
+    assert len(judged) > 100
+    assert max(judged) < leader.evidence.log_evidence
 
 
 @pytest.mark.parametrize("seed", [0, 1, 4])

@@ -42,7 +42,8 @@ class EffectShare:
         Of the effect being in the right explanation, alone or with others.
     share : float
         Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
-        in which its effects can be added (Shapley 1953). 0 for an effect that is not in it.
+        in which its effects can be added (Shapley 1953), those that the headline names before the others. 0 for an
+        effect that is not in it.
     alone, in_addition : float or None
         What it closes alone, and in addition to all others of the best explanation; None if it is not in it.
     records : tuple of str
@@ -86,12 +87,16 @@ class Attribution:
         Root mean square of what the named effects leave.
     probability : float
         That all the named effects are in the right explanation.
+    undivided : tuple of str
+        Effects of the best explanation that can stand in for each other, the one that closes most alone first: their
+        shares mean nothing one by one. Empty where shares can be told.
     """
 
     effects: tuple[EffectShare, ...]
     named: tuple[str, ...]
     after_MPa: float  # noqa: N815 - as it leaves the program
     probability: float
+    undivided: tuple[str, ...] = ()
 
 
 def attribution(
@@ -118,7 +123,7 @@ def attribution(
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
     named = _named(known, closed)
-    shares = _shapley(known, closed)
+    shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
         probability = min(sum(each.probability for each in weighed if name in each.effects), 1.0)
@@ -145,6 +150,7 @@ def attribution(
         named=tuple(sorted(named, key=lambda name: -shares[name])),
         after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
         probability=min(sum(each.probability for each in weighed if {*named} <= {*each.effects}), 1.0),
+        undivided=_undivided(known, closed),
     )
 
 
@@ -201,10 +207,16 @@ def _errors(base: BaseFit, found: Refit) -> list[FloatArray]:
     return [without_outliers(raw[found.model.rows(noise.name)], noise.outliers) for noise in base.whitened.noises]
 
 
-def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> dict[str, float]:
-    """Mean over all orders of what each effect closes when it is added."""
+def _shares(
+    named: tuple[str, ...], known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]
+) -> dict[str, float]:
+    """Mean, over the orders in which the named effects come first, of what each effect closes when it is added.
+
+    So the shares of the named ones sum to what these close, and those of the others to what is added to that.
+    """
     shares = dict.fromkeys(known, 0.0)
-    orders = list(permutations(known))
+    others = tuple(name for name in known if name not in named)
+    orders = [first + then for first in permutations(named) for then in permutations(others)]
     for order in orders:
         before: tuple[str, ...] = ()
         for name in order:
@@ -212,6 +224,16 @@ def _shapley(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) ->
             shares[name] += (closed[after] - closed[before]) / len(orders)
             before = after
     return shares
+
+
+def _undivided(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
+    """Effects each of which alone closes nearly all that the explanation does, if there are several."""
+    whole = closed[known]
+    alone = {name: closed[(name,)] for name in known}
+    stand_ins = sorted(
+        (name for name in known if alone[name] >= EVIDENCE.nearly_all * whole), key=lambda name: -alone[name]
+    )
+    return tuple(stand_ins) if len(stand_ins) > 1 and whole > 0.0 else ()
 
 
 def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:

@@ -115,8 +115,8 @@ def check_calibration(campaign: Campaign, base: BaseFit, *, own_law: bool) -> Ca
     compared = (
         ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}".format),
         ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}".format),
-        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.1g}".format),
-        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.1g}".format),
+        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.2g}".format),
+        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.2g}".format),
         ("a misfit over the noise", (found.gap, found.gap), CALIBRATED.gap, _two_digits),
     )
     for name, (low, high), (least, most), form in compared:

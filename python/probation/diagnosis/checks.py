@@ -14,7 +14,7 @@ import numpy as np
 
 from probation.detection.tail import chi_square_tail
 from probation.diagnosis.result import Checks
-from probation.effects.visible_temperature import measured_beside_work
+from probation.effects.visible_temperature import measured_against_work
 from probation.effects.visible_volume import measured_volume
 from probation.settings.evidence import EVIDENCE
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 MEASURED_BESIDE: Mapping[str, Callable[[RecordView], str]] = {
-    "self_heating": measured_beside_work,
+    "self_heating": measured_against_work,
     "volume_change": measured_volume,
 }
 """What a record was measured to do, in one sentence, of the effects that a measurement judges."""

@@ -225,14 +225,14 @@ def diagnose(
         next_test=following[0] if following else None,
         next_tests=following,
         curves=curves,
-        warnings=(*thinned, *_warnings(base, gap.test.robust), *(calibration.warnings if gap.exists else ())),
+        warnings=(*thinned, *_warnings(base, gap.test.robust), *calibration.warnings),
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
         remainder=left,
         skipped=skipping.entries(found),
         scatter=base.scatter,
-        hangs_on_scatter=gap.hangs_on_scatter,
+        gap_if_alike=gap.if_alike,
         calibration=calibration,
     )
 

@@ -9,7 +9,7 @@ from probation.effects.registry import effect
 from probation.inference.unknown import UNKNOWN
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
-from probation.wording import chance, listed, percent, percentage
+from probation.wording import chance, listed, percent, percentage, signed_percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -141,14 +141,15 @@ def _cause(
         if known:
             verb = "is" if len(known) == 1 else "are"
             return (
-                f"{_with_shares(parts)}{place} {verb} part of it ({fall}), but something outside the catalogue is left"
+                f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but something outside "
+                "the catalogue is left"
             )
         return "nothing in the catalogue explains it"
     verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
-    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}"
-    if len(known) < len(best.effects):
+    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
+    if not {*best.effects} <= {*known, *parts.undivided}:
         sentence += (
-            f"; what else is in the explanation closes less than {percent(EVIDENCE.share_worth_naming)} of the gap"
+            f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
         )
     rivals = [each for each in answer_set if not {*known} <= {*each}]
     if rivals:
@@ -174,13 +175,30 @@ def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> st
 
 
 def _with_shares(parts: Attribution) -> str:
-    """What is named, and where it is more than one effect, which closes how much: "damage (81 % of the gap) and …"."""
-    if len(parts.named) < 2:
-        return titles(parts.named)
-    shares = {each.name: percent(each.share) for each in parts.effects}
-    first, *others = parts.named
-    words = [f"{title(first)} ({shares[first]} of the gap)", *(f"{title(name)} ({shares[name]})" for name in others)]
+    """What is named, and where it is more than one effect, which closes how much: "damage (81 % of the gap) and …".
+
+    An effect that others can stand in for has no share of its own.
+    """
+    shares = {each.name: signed_percent(each.share) for each in parts.effects if each.name not in parts.undivided}
+    words, of_the_gap = [], " of the gap"
+    for name in parts.named:
+        share = ""
+        if len(parts.named) > 1 and name in shares:
+            share, of_the_gap = f" ({shares[name]}{of_the_gap})", ""
+        words.append(title(name) + share)
     return listed(words, "and")
+
+
+def _not_divided(parts: Attribution) -> str:
+    """That effects can stand in for each other, as a further clause; empty where shares can be told."""
+    if not parts.undivided:
+        return ""
+    first = parts.undivided[0]
+    alone = next(each.alone for each in parts.effects if each.name == first) or 0.0
+    return (
+        f"; {title(first)} alone closes {percent(alone)} of the gap, and the data cannot divide it between "
+        f"{titles(parts.undivided)}"
+    )
 
 
 def with_remainder(headline: str, left: Remainder | None) -> str:

@@ -144,7 +144,15 @@ class RecordCurves(WithCurves):
     explained : ndarray, shape (n,) [MPa], or None
         None where no effect is needed or known.
     noise : ndarray, shape (n,) [MPa]
-        Standard deviation of a sample.
+        Standard deviation of a sample, by noise of the stress and of the strain.
+    noise_MPa : float
+        Standard deviation of the stress noise alone, over the record.
+    noise_given : bool
+        Whether it is what the campaign states; else it was estimated, or seen to be larger than stated.
+    strain_noise : float
+        Standard deviation of the strain noise.
+    strain_noise_given : bool
+        Whether the campaign states it; else it was estimated.
     """
 
     id: str
@@ -156,6 +164,20 @@ class RecordCurves(WithCurves):
     base: FloatArray = field(metadata=CURVE)
     explained: FloatArray | None = field(metadata=CURVE)
     noise: FloatArray = field(metadata=CURVE)
+    noise_MPa: float  # noqa: N815 - as it leaves the program
+    noise_given: bool
+    strain_noise: float
+    strain_noise_given: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in `records` of docs/formats.md."""
+        return {
+            "role": self.role,
+            "noise_MPa": self.noise_MPa,
+            "noise_given": self.noise_given,
+            "strain_noise": self.strain_noise,
+            "strain_noise_given": self.strain_noise_given,
+        }
 
 
 @dataclass(frozen=True)
@@ -249,8 +271,8 @@ class Diagnosis(Result, Stored):
         Of the gap where it is largest relative to the stress.
     scatter : Scatter or None
         How far specimens differ: estimated, assumed or stated.
-    hangs_on_scatter : bool
-        Whether there would be a gap if specimens were alike, and is none as they differ.
+    gap_if_alike : bool
+        Whether there would be a gap if specimens were alike, by the test for a gap alone.
     tolerance : float
         Part of the largest stress below which a gap does not matter.
     matters : bool
@@ -324,7 +346,7 @@ class Diagnosis(Result, Stored):
     size: GapSize | None = None
     judged_on: str | None = None
     scatter: Scatter | None = None
-    hangs_on_scatter: bool = False
+    gap_if_alike: bool = False
     tolerance: float = DETECTION.tolerance
     matters: bool = True
     calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
@@ -421,10 +443,11 @@ class Diagnosis(Result, Stored):
                     "of_certificate_tolerance": self.size.relative / CERTIFICATE.tolerance,
                 },
             },
+            "records": {name: each.to_dict() for name, each in self.curves.items()},
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
             "judged_on": self.judged_on,
             "scatter": {} if self.scatter is None else self.scatter.to_dict(),
-            "gap_if_alike": self.verdict != "no_gap" or self.hangs_on_scatter,
+            "gap_if_alike": self.gap_if_alike,
             "where": [_located(each) for each in self.located],
             "acts": [_located(each) for each in self.acts],
             "signatures": [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isclose
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,6 +100,10 @@ def shrink_of(
             base=before[view.id],
             explained=after[view.id] if causes else None,
             noise=noises[view.id].deviation,
+            noise_MPa=noises[view.id].sigma,
+            noise_given=isclose(noises[view.id].sigma, view.record.noise.stress_MPa or 0.0),
+            strain_noise=view.excitation.strain_noise,
+            strain_noise_given=view.record.noise.strain is not None,
         )
         for view in base.views
     }

@@ -53,7 +53,7 @@ def work_so_far(view: RecordView) -> FloatArray:
     return np.asarray(np.maximum.accumulate(np.maximum(work, 0.0)))
 
 
-def measured_beside_work(view: RecordView) -> str:
+def measured_against_work(view: RecordView) -> str:
     """One sentence that compares a measured rise with what the work could do; empty where nothing was measured."""
     rise = view.measured_rise
     if rise is None:

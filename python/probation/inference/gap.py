@@ -114,7 +114,7 @@ class Gap:
     scatter : Scatter
         How far specimens may differ without a gap.
     alike : GapTest or None
-        Of the fitted records if specimens were alike, where they may differ and there is no gap.
+        Of the fitted records if specimens were alike, where they may differ.
     """
 
     test: GapTest
@@ -126,7 +126,12 @@ class Gap:
     @property
     def hangs_on_scatter(self) -> bool:
         """Whether there would be a gap in the fitted records if specimens were alike."""
-        return self.alike is not None and self.alike.rejected
+        return self.alike is not None and self.alike.rejected and not self.in_fitted
+
+    @property
+    def if_alike(self) -> bool:
+        """Whether there would be a gap anywhere if specimens were alike."""
+        return self.in_held_out or (self.test if self.alike is None else self.alike).rejected
 
     @property
     def in_fitted(self) -> bool:
@@ -182,7 +187,7 @@ class Gap:
             "p_value": self.test.p_value,
             "size": self.size.to_dict(),
             "scatter": self.scatter.to_dict(),
-            "if_alike": self.in_fitted or self.hangs_on_scatter,
+            "if_alike": self.if_alike,
             "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
         }
 
@@ -221,9 +226,7 @@ def find_gap(
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter)
-    alike = None
-    if base.scatter.any and not test.rejected:
-        alike = _tested(base.alike, base.signals, seed)
+    alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
         whitened = Whitened.of([record], [noise])
@@ -257,6 +260,15 @@ def _survivor(
         return test
     other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
+
+
+def _if_alike(base: BaseFit, test: GapTest, seed: int) -> GapTest:
+    """The test if specimens were alike; of records that hold a gap it mostly needs no more than smooth curves."""
+    if test.rejected:
+        along_curves = GapTester(base.alike, seed=seed)()
+        if along_curves.rejected:
+            return along_curves
+    return _tested(base.alike, base.signals, seed)
 
 
 def _tested(

@@ -16,6 +16,7 @@ from probation.report.diagnosis_tables import (
     leading,
     mended_by,
     next_tests_table,
+    noise_table,
     shrink_table,
     where_table,
     which_table,
@@ -153,7 +154,7 @@ def _records(diagnosis: Diagnosis) -> Section:
         f"sample in twenty.{tinted}"
     )
     pictures = tuple(picture(record_figure(diagnosis, name), _caption(diagnosis, name)) for name in diagnosis.curves)
-    return Section("Record by record, before and after", (text, Gallery(pictures)))
+    return Section("Record by record, before and after", (text, Gallery(pictures), noise_table(diagnosis)[0]))
 
 
 def _caption(diagnosis: Diagnosis, record: str) -> str:
@@ -184,8 +185,10 @@ def _which(diagnosis: Diagnosis) -> Section:
         parts.append(
             "Effect by effect: the probability that it acts, alone or with others, and the part of the squared "
             "gap that it closes. What one effect closes depends on which others were added before it; its share is the "
-            "mean over all orders. Where an effect closes nearly all of the gap alone and the others add next to "
-            "nothing in addition, the headline names it alone."
+            "mean over all orders in which those that the headline names come first. Where an effect closes nearly all "
+            "of the gap alone and the others add next to nothing in addition, the headline names it alone. An effect "
+            "that closes much alone and little in addition to the others is one that they can stand in for: its share says "
+            "little."
         )
         parts.append(effects_table(diagnosis)[0])
     return Section("Which effect explains it", tuple(parts))

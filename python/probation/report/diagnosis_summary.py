@@ -8,6 +8,7 @@ from probation.report.diagnosis_tables import (
     MOST,
     effects_table,
     held_out_table,
+    noise_table,
     shrink_table,
     where_table,
     which_table,
@@ -44,6 +45,7 @@ def summary(diagnosis: Diagnosis) -> str:
     parts.append(
         _shown(*shrink_table(diagnosis, MOST)) + "\n" + _sentence(f"Intervals: {diagnosis.shrink.identify.how}.")
     )
+    parts.append(_shown(*noise_table(diagnosis, MOST)))
     if diagnosis.remainder is not None:
         parts.append(diagnosis.remainder.description)
     if diagnosis.next_test is not None:
@@ -76,8 +78,11 @@ def specimens_text(diagnosis: Diagnosis) -> str:
     if diagnosis.scatter is None:
         return ""
     text = diagnosis.scatter.text
-    if diagnosis.scatter.any and diagnosis.verdict == "no_gap":
-        text += "; if they were alike there would " + ("be a gap" if diagnosis.hangs_on_scatter else "still be no gap")
+    if diagnosis.scatter.any:
+        none = diagnosis.verdict == "no_gap"
+        also = "be a gap" if none else "be a gap as well (causes were not tried again)"
+        text += "; if they were alike there would "
+        text += also if diagnosis.gap_if_alike else "still be no gap" if none else "be no gap"
     return f"{text[:1].upper()}{text[1:]}."
 
 

@@ -18,7 +18,7 @@ from probation.report.diagnosis_words import (
     span_text,
 )
 from probation.report.table import Table
-from probation.wording import chance, percent, plus_minus
+from probation.wording import chance, percent, plus_minus, signed_percent
 
 if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
@@ -107,9 +107,9 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
         (
             title(effect.name),
             chance(effect.probability),
-            _signed(effect.share) if effect.name in diagnosis.best.effects else "–",
-            "" if effect.alone is None else _signed(effect.alone),
-            "" if effect.in_addition is None else _signed(effect.in_addition),
+            signed_percent(effect.share) if effect.name in diagnosis.best.effects else "–",
+            "" if effect.alone is None else signed_percent(effect.alone),
+            "" if effect.in_addition is None else signed_percent(effect.in_addition),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
         )
         for effect in diagnosis.effects
@@ -151,9 +151,23 @@ def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, 
     mended = mended_by(diagnosis)
     by = f"with {mended}" if mended else "– no effect was added"
     caption = f"How far the gap shrinks {by} (rms errors in MPa)"
-    left_out = len(rows) - kept
-    rest = "" if not left_out else f"… and {left_out} more record{'s' if left_out > 1 else ''}"
-    return Table(headings, tuple(rows[:kept]), caption), rest
+    return Table(headings, tuple(rows[:kept]), caption), _more(len(rows) - kept, "record")
+
+
+def noise_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
+    """The noise of every record, as it was estimated or as the campaign states it."""
+    names = short_ids(diagnosis.curves)
+    rows = [
+        (
+            names[each.id],
+            f"{each.noise_MPa:.2g} ({_source(each.noise_given)})",
+            f"{each.strain_noise:.2g} ({_source(each.strain_noise_given)})",
+        )
+        for each in diagnosis.curves.values()
+    ]
+    kept = len(rows) if most is None else min(most, len(rows))
+    headings = ("record", "noise of the stress [MPa]", "of the strain [–]")
+    return Table(headings, tuple(rows[:kept]), "The noise of the records"), _more(len(rows) - kept, "record")
 
 
 def floor_name(diagnosis: Diagnosis) -> str:
@@ -215,9 +229,13 @@ def _rest(parts: list[float], what: str) -> str:
         return ""
     few = max(parts)
     size = "below 1 %" if few < WORTH_A_ROW else f"of {percent(few)} at most"
-    return f"… and {len(parts)} more {what}{'s' if len(parts) > 1 else ''} {size}"
+    return f"{_more(len(parts), what)} {size}"
 
 
-def _signed(part: float) -> str:
-    """A share, which is negative where an effect makes the misfit larger."""
-    return percent(part) if part > -0.005 else f"−{percent(-part)}"
+def _more(count: int, what: str) -> str:
+    """How many rows are left out, as a line; empty if none are."""
+    return f"… and {count} more {what}{'s' if count > 1 else ''}" if count else ""
+
+
+def _source(given: bool) -> str:
+    return "given" if given else "estimated"

@@ -158,6 +158,12 @@ class EvidenceSettings:
     share_worth_naming: float = chosen(
         0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
     )
+    nearly_all: float = chosen(
+        0.9,
+        "-",
+        "Part of what an explanation closes from which on one of its effects alone closes nearly all of it: several "
+        "such effects can stand in for each other, and have no shares of their own.",
+    )
     probability_worth_naming: float = chosen(
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
     )
