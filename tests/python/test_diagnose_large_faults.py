@@ -122,6 +122,7 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert found.verdict == "explained"
     assert best.effects == ("machine_compliance", "strain_offset")
     assert best.probability > 0.8
+    assert found.headline.startswith("Compliance of the machine and offset of the strain explain the gap")
     compliance, offset = best.parameters
     assert compliance.value == pytest.approx(size, rel=0.01)
     assert offset.value == pytest.approx(slack, rel=0.01)

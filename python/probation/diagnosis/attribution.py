@@ -21,6 +21,7 @@ from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from collections.abc import Set as AbstractSet
 
     from probation._arrays import FloatArray
     from probation.diagnosis.closure import Closure
@@ -122,7 +123,10 @@ def attribution(
     floor = 1.0 if differ else closure.noise_MPa**2
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
+    undivided = _undivided(known, closed)
     named = _named(known, closed)
+    if _probability({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
+        named = tuple(name for name in known if name in {*named, *undivided})
     shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
@@ -149,9 +153,14 @@ def attribution(
         effects=tuple(entries),
         named=tuple(sorted(named, key=lambda name: -shares[name])),
         after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
-        probability=min(sum(each.probability for each in weighed if {*named} <= {*each.effects}), 1.0),
-        undivided=_undivided(known, closed),
+        probability=_probability({*named}, weighed),
+        undivided=undivided,
     )
+
+
+def _probability(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
+    """That all of them are in the right explanation."""
+    return min(sum(each.probability for each in weighed if effects <= {*each.effects}), 1.0)
 
 
 def _squares(
@@ -237,7 +246,7 @@ def _undivided(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) 
 
 
 def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
-    """The fewest that close nearly all."""
+    """The fewest that close nearly all; what can stand in for them is named, too, where it is certainly there."""
     for size in range(1, len(known)):
         parts = [
             part for part in combinations(known, size) if closed[part] > closed[known] - EVIDENCE.share_worth_naming
