@@ -100,11 +100,11 @@ class Instruments:
         return np.asarray(np.round(shown / self.strain_step) * self.strain_step) if self.strain_step else shown
 
 
-def draw_instruments(random: Generator, flow_stress: float) -> Instruments:
-    """A clip-on extensometer (5e-6 to 1e-4, in steps) or image correlation (3e-5 to 1e-3)."""
+def draw_instruments(random: Generator, flow_stress: float, most: float) -> Instruments:
+    """A clip-on extensometer (5e-6 to 1e-4, in steps) or image correlation (3e-5 to 1e-3); `most` at most."""
     clip_on = random.uniform() < 0.5
     low, high = (5e-6, 1e-4) if clip_on else (3e-5, 1e-3)
-    strain = float(np.exp(random.uniform(np.log(low), np.log(high))))
+    strain = min(float(np.exp(random.uniform(np.log(low), np.log(high)))), most)
     stress = flow_stress * float(10.0 ** random.uniform(-3.2, -2.4))
     return Instruments(
         stress=stress,

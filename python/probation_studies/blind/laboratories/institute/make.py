@@ -15,7 +15,7 @@ from probation_studies.blind.laboratories.institute.modal import FloatArray, sol
 from probation_studies.blind.laboratories.institute.names import UNKNOWN, name_of
 from probation_studies.blind.laboratories.institute.oracle import Placed, consult, discriminability
 from probation_studies.blind.laboratories.institute.series import Series, Test, draw_series
-from probation_studies.blind.laboratories.institute.sight import Sight, added, course_of, sampling_error, shown
+from probation_studies.blind.laboratories.institute.sight import Sight, added, course_of, lost, shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,7 +30,7 @@ _PARTS = (0.2, 0.2, 0.3, 0.15, 0.15)
 _TRIES, _PATIENCE = 300, 25
 _LEAST, _MOST = 4.0, 100.0
 _ROUNDS, _NEAR = 6, 0.1
-_LOST = 1.0
+_LOST, _ROUGH = 1.0, 8.0
 _UNSEEN = 0.05
 """Norm of a usual amplitude's signal below which no record shows a cause."""
 _LOCALISED = 0.3
@@ -92,14 +92,27 @@ def make(seed: int, index: int, split: str = "develop", stratum: str | None = No
             causes = _draw_causes(random, stratum)
         needs = frozenset(each.needs for each in causes)
         series = draw_series(random, needs, replicated={"none": False, "replicates": True}.get(stratum))
-        if sampling_error(series) > _LOST:
+        sight = _look(series)
+        if sight is None:
             continue
-        sight = Sight(series)
         planted = _plant_all(random, sight, causes)
         if planted is not None:
             seeds = {"split": split, "seed": seed, "index": index, "laboratory": "institute", "stratum": stratum}
             return _finish(random, series, sight, planted, seeds)
     raise RuntimeError(f"{split}-{index:04d}: no campaign of stratum {stratum} in {_TRIES} series")
+
+
+def _look(series: Series) -> Sight | None:
+    """None where sampling alone would be seen: roughly by the force's noise first, then by all errors."""
+    rough = [float(np.linalg.norm(lost(test))) / series.instruments.stress for test in series.tests]
+    if max(rough) > _ROUGH:
+        return None
+    sight = Sight(series)
+    return sight if _sampling(sight) <= _LOST else None
+
+
+def _sampling(sight: Sight) -> float:
+    return float(np.linalg.norm(sight.left(sight.whitened([lost(test) for test in sight.tests]))))
 
 
 def _draw_causes(random: Generator, stratum: str) -> list[Cause]:
@@ -180,7 +193,7 @@ def _finish(random: Generator, series: Series, sight: Sight, planted: list[Plant
         },
         "noise_MPa": dict.fromkeys((test.id for test in series.tests), series.instruments.stress),
         "noise": asdict(series.instruments),
-        "sampling_detectability": sampling_error(series),
+        "sampling_detectability": _sampling(sight),
         "replicates": series.replicates,
         "scatter": None if series.scatter is None else asdict(series.scatter),
         "specimens": {test.id: asdict(test.specimen) for test in series.tests},

@@ -42,6 +42,11 @@ class Programme:
     strain: FloatArray
 
     @property
+    def sharp(self) -> bool:
+        """Whether it turns or stops, which takes more samples."""
+        return self.kind in ("cycles", "hold")
+
+    @property
     def control(self) -> str:
         """As campaign.toml calls it."""
         named = {"crosshead": "displacement-rate", "hold": "hold", "cycles": "cyclic", "creeping": "other"}
@@ -140,7 +145,7 @@ def carry_out(
     interval = float(np.min(np.diff(time)))
     nodes = np.interp(np.arange((samples - 1) * FINER + 1) / FINER, np.arange(samples), time)
     slopes = np.diff(programme.strain) / np.diff(programme.time)
-    decay = 1.0 / (interval * random.uniform(2.0, 6.0))
+    decay = 1.0 / (interval * random.uniform(3.0, 8.0))
     turn = decay * random.uniform(0.5, 1.5) if servo else 0.0
     lead = -random.uniform(0.3, 0.8) * decay / turn if servo else 0.0
     strain = np.zeros_like(nodes)

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 CHAMBER = 10.0, 23.0, 35.0
 """Temperatures of the climate chamber [°C]."""
+_NOISE_IN_STEPS = 0.15
+"""Strain noise over a sample's step, at most, where relaxation times go with the rate: rates are read off steps."""
+_MORE = 1.6
+"""Samples of programmes with corners, over those of others."""
 USUAL_TEMPERATURE = 23.0
 
 
@@ -188,7 +192,7 @@ def draw_series(random: Generator, needs: frozenset[str], *, replicated: bool | 
     setting = Setting(rate, random.uniform(0.25, 1.0), modulus, flow, longest)
     differ = (random.uniform() < 0.5) if replicated is None else replicated
     alike_copies = random.uniform() < 0.5
-    copies = int(random.integers(2, 4)) if replicated or (replicated is None and (differ or alike_copies)) else 1
+    copies = int(random.integers(2, 4)) if differ or alike_copies else 1
     planned = _draw_programmes(random, setting, needs, companion=companion, most=3 if copies > 1 else 5)
     cold = len(planned) > 1 and ("temperatures" in needs or random.uniform() < 0.08)
     usual = USUAL_TEMPERATURE if cold else float(random.choice(CHAMBER, p=[0.2, 0.6, 0.2]))
@@ -196,22 +200,24 @@ def draw_series(random: Generator, needs: frozenset[str], *, replicated: bool | 
     if cold and len(set(degrees)) == 1:
         degrees[0] = float(random.choice([each for each in CHAMBER if each != degrees[0]]))
     held = int(random.integers(len(planned))) if len(planned) >= 3 and random.uniform() < 0.4 else -1
-    scatter = Specimen(*(float(each) for each in random.uniform(0.01, 0.04, 4))) if differ and copies > 1 else None
+    scatter = Specimen(*(float(each) for each in random.uniform(0.01, 0.04, 4))) if differ else None
     samples = int(np.exp(random.uniform(np.log(220.0), np.log(380.0 if copies > 1 else 650.0))))
     servo, logged = random.uniform() < 0.35, random.uniform() < 0.4
     preload = float(random.uniform(2e-4, 1e-3)) if not companion and random.uniform() < 0.25 else 0.0
     order = random.permutation(np.repeat(np.arange(len(planned)), copies))
     tests = []
     for n, k in enumerate(order):
+        count = int(samples * _MORE) if planned[k].sharp else samples
         path = programmes.carry_out(
-            random, planned[k], samples, servo=servo, logged=logged, preload=preload, longest=longest
+            random, planned[k], count, servo=servo, logged=logged, preload=preload, longest=longest
         )
         drawn = Specimen() if scatter is None else Specimen(*(random.standard_normal(4) * scatter.values).tolist())
         place = n / max(len(order) - 1, 1)
         name = f"{n + 1:02d}-{planned[k].kind}"
         test = Test(name, planned[k], path, polymer, drawn, degrees[k], place, bool(k == held), setting)
         tests.append(test)
-    instruments = draw_instruments(random, flow)
+    usual_step = min(float(np.quantile(np.diff(test.strain[::2][test.path.samples]), 0.1)) for test in tests)
+    instruments = draw_instruments(random, flow, _NOISE_IN_STEPS * usual_step if companion else np.inf)
     stated, seen = scatter is not None and random.uniform() < 0.3, cold or random.uniform() < 0.3
     return Series(polymer, tuple(tests), instruments, scatter, stated, copies, seen, setting)
 
@@ -224,9 +230,9 @@ def _draw_programmes(
     drop = setting.flow_stress / setting.modulus * (random.uniform(1.6, 2.2) if "deep" in needs else 0.8)
     kinds = ["cycles"] if needs & {"cycles", "deep"} else []
     others = ["constant", "crosshead", "multirate", "hold", "cycles", "creeping"]
-    weights = np.array([4.0, 2.0, 2.0, 2.0, 1.5, 1.5])
+    weights = np.array([3.0, 2.0, 2.0, 2.0, 2.0, 1.5])
     if companion:
-        weights[3:5] = 0.0
+        weights[3:] = 0.0
     count = max(int(random.integers(2, most + 1)), 2)
     kinds += ["constant"] * (1 if len(kinds) == 0 else 0)
     while len(kinds) < count:

@@ -14,7 +14,6 @@ from probation_studies.blind.laboratories.institute.modal import (
     FloatArray,
     on_grid,
     plain,
-    rate_on_grid,
     solve,
 )
 
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
     from probation_studies.blind.laboratories.institute.instruments import Instruments
     from probation_studies.blind.laboratories.institute.series import Series, Test
 
-_NUDGE = 1e-3
+_NUDGE, _LITTLE = 1e-3, 1e-7
 
 
 def shown(
@@ -74,19 +73,16 @@ def added(test: Test, variants: Sequence[Change]) -> FloatArray:
 
 
 def strain_response(test: Test) -> FloatArray:
-    """d(recorded stress - law)/d(strain sample) [MPa], shape (n, n), at the relaxation times of the true path.
+    """d(recorded stress - law)/d(strain sample) [MPa], shape (n, n): one solution for every sample's hat.
 
-    The law is linear at given relaxation times: one solution for every sample's hat.
+    A companion relation takes its rate from the samples, too: noise that is small beside their steps is in here whole.
     """
-    samples = test.path.samples
-    time, strain = on_grid(test.time[::2][samples]), on_grid(test.strain[::2][samples])
-    polymer, n = test.polymer, len(test.time[::2][samples])
-    stiffness = polymer.hardening * (2.0 * np.exp(2.0 * strain) + np.exp(-strain))
-    log_time, modulus = polymer.log_time(rate_on_grid(time, strain)), np.full(len(time), polymer.modulus)
-    hats = [on_grid(each) for each in np.eye(n)]
-    courses = [Course(hat, log_time, stiffness * hat, modulus) for hat in hats]
-    response = solve(time, courses, graded=False).T
-    return np.asarray(np.diag(test.stress[samples]) - response)
+    nodes = test.path.samples
+    time, strain = (on_grid(values[::2][nodes]) for values in (test.time, test.strain))
+    hats = np.eye(len(time[::2]))
+    courses = [plain(test.polymer, time, strain + _LITTLE * on_grid(hat)) for hat in (0.0 * hats[0], *hats)]
+    base, *moved = solve(time, courses, graded=False)
+    return np.asarray(np.diag(test.stress[nodes]) - (np.array(moved) - base).T / _LITTLE)
 
 
 def _tangents(test: Test) -> FloatArray:
@@ -97,18 +93,13 @@ def _tangents(test: Test) -> FloatArray:
     return np.stack([elastic, (slow - base) / _NUDGE, base - elastic, base], axis=1)[test.path.samples]
 
 
-def sampling_error(series: Series) -> float:
-    """Norm of what is lost between samples and before the first one, in units of the force's noise alone."""
-    square = 0.0
-    for test in series.tests:
-        samples = test.path.samples
-        time = test.time[2 * test.path.first :]
-        nodes = test.time[::2][samples]
-        straight = np.interp(time[::2], nodes, test.strain[::2][samples])
-        found = solve(time, [plain(test.polymer, time, on_grid(straight))])[0][:: samples.step]
-        lost = (test.stress[samples] - found) * np.exp(-test.strain[::2][samples])
-        square += float(lost @ lost) / series.instruments.stress**2
-    return float(np.sqrt(square))
+def lost(test: Test) -> FloatArray:
+    """Stress that is lost between samples and before the first one [MPa]."""
+    samples = test.path.samples
+    time = test.time[2 * test.path.first :]
+    straight = np.interp(time[::2], test.time[::2][samples], test.strain[::2][samples])
+    found = solve(time, [plain(test.polymer, time, on_grid(straight))])[0]
+    return np.asarray(test.stress[samples] - found[:: samples.step])
 
 
 class Sight:
