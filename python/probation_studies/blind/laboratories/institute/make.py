@@ -29,6 +29,8 @@ STRATA = ("none", "replicates", "single", "pair", "outside")
 _PARTS = (0.2, 0.2, 0.3, 0.15, 0.15)
 _TRIES, _PATIENCE = 300, 25
 _LEAST, _MOST = 4.0, 100.0
+_STRONGER = 2.5
+"""Of the least sqrt(lambda): for pairs, and for what lies outside, of which the nearest cause takes a part."""
 _ROUNDS, _NEAR = 6, 0.1
 _LOST, _ROUGH = 1.0, 8.0
 _UNSEEN = 0.05
@@ -125,7 +127,7 @@ def _draw_causes(random: Generator, stratum: str) -> list[Cause]:
 def _plant_all(random: Generator, sight: Sight, causes: Sequence[Cause]) -> list[Planted] | None:
     planted = []
     for cause in causes:
-        least = _LEAST if len(causes) == 1 else 2.0 * _LEAST
+        least = _LEAST * (_STRONGER if len(causes) > 1 or cause in BEYOND else 1.0)
         found = _plant(random, sight, cause, float(np.exp(random.uniform(np.log(least), np.log(_MOST)))))
         if found is None:
             return None

@@ -1,7 +1,8 @@
 """What could be found out by one who is told the forms, the errors and the priors.
 
-Every explanation is linear in its amplitudes: none, one placed cause, two of different names. An amplitude's prior is a
-mixture of normals whose detectabilities are 5, 20 and 80, for the sizes that are planted reach from 4 to 100.
+Every explanation is linear in its amplitudes: none, one placed cause, two of different names. The logarithm of a
+cause's sqrt(lambda) is even over the sizes that are planted, its sign is free; evidence is that of the best amplitudes
+in this range, with the width of the likelihood (Laplace).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.random import Generator
+    from numpy.typing import NDArray
 
     from probation_studies.blind.laboratories.institute.modal import FloatArray
 
@@ -23,8 +25,8 @@ Names: TypeAlias = "tuple[str, ...]"
 
 REPEATS = 200
 RESOLVABLE = 0.95
-_NONE, _SINGLE, _PAIR, _OUTSIDE = 0.35, 0.3, 0.2, 0.15
-_SIZES = 5.0, 20.0, 80.0
+_NONE, _SINGLE, _PAIR, _OUTSIDE = 0.4, 0.3, 0.15, 0.15
+_LEAST, _MOST = 3.6, 120.0
 _SET = 0.95
 
 
@@ -121,23 +123,32 @@ def consult(
     )
 
 
+def _possible(amplitude: FloatArray) -> FloatArray:
+    """The nearest amplitude that may be planted."""
+    return np.asarray(np.copysign(np.clip(np.abs(amplitude), _LEAST, _MOST), amplitude))
+
+
+def _log_prior(amplitude: FloatArray) -> FloatArray:
+    return np.asarray(-np.log(2.0 * np.log(_MOST / _LEAST) * np.abs(amplitude)))
+
+
 def _single(scores: FloatArray) -> FloatArray:
-    squares = np.square(_SIZES)[:, None, None]
-    each = 0.5 * scores**2 * squares / (1.0 + squares) - 0.5 * np.log1p(squares)
-    return np.asarray(np.logaddexp.reduce(each, axis=0) - np.log(len(_SIZES)))
+    a = _possible(scores)
+    return np.asarray(a * scores - 0.5 * a**2 + 0.5 * np.log(2.0 * np.pi) + _log_prior(a))
 
 
-def _pair(scores: FloatArray, i: np.ndarray, j: np.ndarray, cosine: FloatArray) -> FloatArray:
-    """Of two normal amplitudes: the data's products a, b; 1/s^2, 1/t^2 added to a Gram matrix with ones."""
-    a, b = scores[:, i], scores[:, j]
-    total = np.full(a.shape, -np.inf)
-    for s in _SIZES:
-        for t in _SIZES:
-            first, second = 1.0 + s**-2, 1.0 + t**-2
-            determinant = first * second - cosine**2
-            gain = 0.5 * (second * a**2 + first * b**2 - 2.0 * cosine * a * b) / determinant
-            np.logaddexp(total, gain - 0.5 * np.log(determinant) - np.log(s * t), out=total)
-    return np.asarray(total - 2.0 * np.log(len(_SIZES)))
+def _pair(scores: FloatArray, i: NDArray[np.intp], j: NDArray[np.intp], cosine: FloatArray) -> FloatArray:
+    """One amplitude at its best, then the other beside it, both ways round."""
+    x, y, square = scores[:, i], scores[:, j], np.maximum(1.0 - cosine**2, 1e-9)
+    found = []
+    for first, second in ((x, y), (y, x)):
+        a = _possible((first - cosine * second) / square)
+        b = _possible(second - cosine * a)
+        gain = a * first + b * second - 0.5 * (a**2 + b**2) - cosine * a * b
+        found.append(gain + _log_prior(a) + _log_prior(b))
+    # the likelihood of two signals that are nearly one is wide, but amplitudes end
+    width = np.minimum(-0.5 * np.log(square), np.log(_MOST))
+    return np.asarray(np.maximum(*found) + np.log(2.0 * np.pi) + width)
 
 
 def _summed(labels: Sequence[Names], evidence: FloatArray) -> tuple[list[Names], FloatArray]:

@@ -266,7 +266,7 @@ FLOW = (
         ),
     ),
     Cause(
-        "temperature of the chamber", 0.4, 2.0,
+        "temperature of the chamber", 0.4, 1.2,
         (
             Form("Arrhenius 1889", _arrhenius),
             Form("Williams, Landel, Ferry 1955", _williams_landel_ferry, {"c2": (60.0, 150.0)}),

@@ -154,7 +154,7 @@ FORCE = (
         (Form("linear", _linear_drift), Form("first order", _cell_creep, {"part": (0.2, 1.0)})),
         rig=True, signed=True,
     ),
-    Cause("gain of the cell", 0.03, 0.6, (Form("constant", _gain), Form("bent", _bent_gain)), rig=True, signed=True),
+    Cause("gain of the cell", 0.03, 0.4, (Form("constant", _gain), Form("bent", _bent_gain)), rig=True, signed=True),
     Cause(
         "channels apart in time", 0.5, 20.0, (Form("old samples", _strain_late), Form("low-pass", _filtered)),
         rig=True, signed=True,
