@@ -43,7 +43,7 @@ def _ramp(count):
 
 
 def test_a_ramp_has_its_closed_form_and_the_scheme_its_third_order():
-    """E p tau rate (1 - exp(-t/tau)), and the network's convolution of exp(2 eps) and exp(-eps) with exp(-t/tau)/tau."""
+    """E p tau rate (1 - exp(-t/tau)), and the network's memory exp(-t/tau)/tau of exp(2 eps) and exp(-eps)."""
     elastic = Polymer(2000.0, 5.0, 0.0)
     tau = 5.0 * RATIO[:, None]
     error = []

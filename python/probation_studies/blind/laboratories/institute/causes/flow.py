@@ -118,7 +118,7 @@ def _arrhenius_heat(test: Test, a: float, shape: Shape) -> Change:
 
 
 def _wlf(rise: float, c1: float, c2: float) -> float:
-    return -np.log(10.0) * c1 * rise / (c2 + max(rise, -0.7 * c2))
+    return float(-np.log(10.0) * c1 * rise / (c2 + max(rise, -0.7 * c2)))
 
 
 def _rittel_heat(test: Test, a: float, shape: Shape) -> Change:

@@ -122,7 +122,7 @@ def _duhem_cell(test: Test, a: float, shape: Shape) -> Change:
         for n, step in enumerate(np.diff(force)):
             kept = np.exp(-abs(step) / width)
             lag[n + 1] = kept * lag[n] + np.sign(step) * (1.0 - kept)
-        return force - a * force.max() * lag
+        return np.asarray(force - a * force.max() * lag)
 
     return _of_force(change)
 
