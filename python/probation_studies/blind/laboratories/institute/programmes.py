@@ -147,7 +147,7 @@ def carry_out(
     slopes = np.diff(programme.strain) / np.diff(programme.time)
     decay = 1.0 / (interval * random.uniform(3.0, 8.0))
     turn = decay * random.uniform(0.5, 1.5) if servo else 0.0
-    lead = -random.uniform(0.3, 0.8) * decay / turn if servo else 0.0
+    lead = -random.uniform(0.1, 0.5) * decay / turn if servo else 0.0
     strain = np.zeros_like(nodes)
     for at, jump in zip(programme.time, np.diff(slopes, prepend=0.0), strict=False):
         strain += jump * _followed(np.maximum(nodes - at, 0.0), decay, turn, lead)
