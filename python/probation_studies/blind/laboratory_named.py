@@ -16,6 +16,7 @@ LABORATORIES = {
     "wider": "probation_studies.blind.laboratory.wider",
     "university": "probation_studies.blind.laboratories.university",
     "industry": "probation_studies.blind.laboratories.industry",
+    "institute": "probation_studies.blind.laboratories.institute",
 }
 """The package of every laboratory; see `probation_studies.blind.laboratories`."""
 
