@@ -26,7 +26,7 @@ class CalibratedRanges:
         0.2,
         "-",
         "Power of the evidence of a campaign outside these ranges.",
-        source="docs/diagnosis-method.md, section 4: university, seed 8801; industry, seed 8802",
+        source="docs/tried.md: university, seed 8801; industry, seed 8802",
     )
     credible_set_outside: float = chosen(
         0.98, "probability", "Probability that an answer set holds of a campaign outside these ranges."
