@@ -82,7 +82,7 @@ class Attribution:
         By share, then by probability.
     named : tuple of str
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
-        by share.
+        and leave no more than `EVIDENCE.most_left` times what it leaves; by share.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -122,7 +122,7 @@ def attribution(
     floor = 1.0 if differ else closure.noise_MPa**2
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
-    named = _named(known, closed)
+    named = _named(known, closed, squares, floor)
     shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
@@ -236,11 +236,22 @@ def _undivided(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) 
     return tuple(stand_ins) if len(stand_ins) > 1 and whole > 0.0 else ()
 
 
-def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
-    """The fewest that close nearly all."""
+def _named(
+    known: tuple[str, ...],
+    closed: Mapping[tuple[str, ...], float],
+    squares: Mapping[tuple[str, ...], float],
+    floor: float,
+) -> tuple[str, ...]:
+    """The fewest that close nearly all and leave about as little as all do, or as the noise.
+
+    One percent of the mean square of a gap of 100 times the noise is still ten times the noise.
+    """
+    most = EVIDENCE.most_left**2 * max(floor, squares[known])
     for size in range(1, len(known)):
         parts = [
-            part for part in combinations(known, size) if closed[part] > closed[known] - EVIDENCE.share_worth_naming
+            part
+            for part in combinations(known, size)
+            if closed[part] > closed[known] - EVIDENCE.share_worth_naming and squares[part] <= most
         ]
         if parts:
             return max(parts, key=lambda part: closed[part])
