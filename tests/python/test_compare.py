@@ -45,6 +45,16 @@ def test_nothing_has_changed_where_only_the_noise_is_another(march):
     assert verdicts == ["nothing_changed"] * 8
 
 
+def test_changes_that_were_not_fitted_have_no_sizes():
+    """A stress 7 % larger, of specimens that may differ: a change of the material is in the answer set."""
+    then, now = made_up(1, lacks=False), made_up(2, lacks=False)
+    now = replace(now, records=tuple(replace(r, true_stress=1.07 * r.true_stress) for r in now.records))
+    found = compare(replace(now, specimens=Specimens()), replace(then, specimens=Specimens()), threads=1)
+    assert found.verdict == "nothing_changed"
+    assert ("material_change",) in [each.effects for each in found.answer_set]
+    assert [each.parameters for each in found.explanations] == [()] * len(found.explanations)
+
+
 def _waving(seed):
     """The same with a wave of twice the noise, forty of it in every record, of a phase of its own."""
     campaign, phase = made_up(seed), np.random.default_rng(100 + seed).uniform(0.0, 2.0 * np.pi)

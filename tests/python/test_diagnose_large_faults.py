@@ -127,6 +127,8 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert compliance.value == pytest.approx(size, rel=0.01)
     assert offset.value == pytest.approx(slack, rel=0.01)
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
+    assert found.headline.startswith("Compliance of the machine and offset of the strain explain the gap")
+    assert "cannot" not in found.headline
 
 
 @pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])

@@ -236,3 +236,13 @@ def test_an_explanation_that_leaves_something_is_not_said_to_leave_only_noise():
 
 def test_ranges_have_no_negative_zero():
     assert span_text((-1e-5, 0.22)) == "0.00 to 0.22"
+
+
+def test_without_a_gap_no_parameters_are_shown_since_no_cause_was_fitted():
+    """Each is weighed from an amplitude of zero: "0.00 ± 0.12 MPa" and "at its lower bound" would say otherwise."""
+    fitted = made_up.self_heating()
+    starred = tuple(each.effects for each in fitted.explanations)
+    table, _ = which_table(replace(fitted, answer_set=starred))
+    assert "its parameters" in table.headings
+    table, _ = which_table(replace(made_up.no_gap(), answer_set=starred))
+    assert "its parameters" not in table.headings

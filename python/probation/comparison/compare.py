@@ -120,7 +120,7 @@ def compare(
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
-    explanations = tuple(_explanation(each, test) for each in causes.weighed)
+    explanations = tuple(_explanation(each, test, fitted=causes.verdict != "no_gap") for each in causes.weighed)
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"
     if explanations[0].effects == (UNKNOWN,):
         verdict = "unknown_change"
@@ -151,8 +151,9 @@ def compare(
     )
 
 
-def _explanation(weighed: Weighed, test: GapTest) -> ChangeExplanation:
-    sizes = _sizes(weighed.hypothesis) if weighed.probability > COMPARISON.reported else ()
+def _explanation(weighed: Weighed, test: GapTest, *, fitted: bool) -> ChangeExplanation:
+    """With sizes where changes were fitted: without a gap they are only weighed, each from a size of zero."""
+    sizes = _sizes(weighed.hypothesis) if fitted and weighed.probability > COMPARISON.reported else ()
     records = weighed.hypothesis.records
     if not records and weighed.effects:
         records = _changed(weighed.hypothesis, test)

@@ -83,7 +83,7 @@ class Attribution:
         By share, then by probability.
     named : tuple of str
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
-        by share.
+        and leave no more than `EVIDENCE.most_left` times what it leaves; by share.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -123,10 +123,7 @@ def attribution(
     floor = 1.0 if differ else closure.noise_MPa**2
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
-    undivided = _undivided(known, closed)
-    named = _named(known, closed)
-    if _probability({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
-        named = tuple(name for name in known if name in {*named, *undivided})
+    named = _named(known, closed, squares, floor)
     shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
@@ -154,7 +151,7 @@ def attribution(
         named=tuple(sorted(named, key=lambda name: -shares[name])),
         after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
         probability=_probability({*named}, weighed),
-        undivided=undivided,
+        undivided=_undivided(known, closed),
     )
 
 
@@ -245,11 +242,22 @@ def _undivided(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) 
     return tuple(stand_ins) if len(stand_ins) > 1 and whole > 0.0 else ()
 
 
-def _named(known: tuple[str, ...], closed: Mapping[tuple[str, ...], float]) -> tuple[str, ...]:
-    """The fewest that close nearly all; what can stand in for them is named, too, where it is certainly there."""
+def _named(
+    known: tuple[str, ...],
+    closed: Mapping[tuple[str, ...], float],
+    squares: Mapping[tuple[str, ...], float],
+    floor: float,
+) -> tuple[str, ...]:
+    """The fewest that close nearly all and leave about as little as all do, or as the noise.
+
+    One percent of the mean square of a gap of 100 times the noise is still ten times the noise.
+    """
+    most = EVIDENCE.most_left**2 * max(floor, squares[known])
     for size in range(1, len(known)):
         parts = [
-            part for part in combinations(known, size) if closed[part] > closed[known] - EVIDENCE.share_worth_naming
+            part
+            for part in combinations(known, size)
+            if closed[part] > closed[known] - EVIDENCE.share_worth_naming and squares[part] <= most
         ]
         if parts:
             return max(parts, key=lambda part: closed[part])

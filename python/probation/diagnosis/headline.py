@@ -195,10 +195,11 @@ def _not_divided(parts: Attribution) -> str:
         return ""
     first = parts.undivided[0]
     alone = next(each.alone for each in parts.effects if each.name == first) or 0.0
-    return (
-        f"; {title(first)} alone closes {percent(alone)} of the gap, and the data cannot divide it between "
-        f"{titles(parts.undivided)}"
-    )
+    closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap", titles(parts.undivided)
+    if {*parts.undivided} <= {*parts.named}:  # none of them is enough
+        others = titles([name for name in parts.named if name != first])
+        return f"{closes}, the rest only jointly with {others}, so that {stand_ins} have no shares of their own"
+    return f"{closes}, and the data cannot divide it between {stand_ins}"
 
 
 def with_remainder(headline: str, left: Remainder | None) -> str:

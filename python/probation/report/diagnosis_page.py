@@ -186,9 +186,9 @@ def _which(diagnosis: Diagnosis) -> Section:
             "Effect by effect: the probability that it acts, alone or with others, and the part of the squared "
             "gap that it closes. What one effect closes depends on which others were added before it; its share is the "
             "mean over all orders in which those that the headline names come first. Where an effect closes nearly all "
-            "of the gap alone and the others add next to nothing in addition, the headline names it alone, unless they "
-            "are certainly there. An effect that closes much alone and little in addition to the others is one that "
-            "they can stand in for: its share says little."
+            "of the gap alone and the others add next to nothing in addition, the headline names it alone. An effect "
+            "that closes much alone and little in addition to the others is one that they can stand in for: its share "
+            "says little."
         )
         parts.append(effects_table(diagnosis)[0])
     return Section("Which effect explains it", tuple(parts))

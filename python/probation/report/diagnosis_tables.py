@@ -79,7 +79,8 @@ def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     rows = []
     for each in shown:
         star = "★" if each.effects in diagnosis.answer_set else ""
-        detail = bool(star) or each.checks is not None
+        # Without a gap no cause is fitted: each is weighed from an amplitude of zero, which is no estimate.
+        detail = diagnosis.verdict != "no_gap" and (bool(star) or each.checks is not None)
         rows.append(
             (
                 star,
