@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 
 import probation
+from probation.effects.cause import Cause
+from probation.effects.large_faults import with_large_faults
+from probation.effects.record_view import views_of
+from probation.effects.registry import effects
 from probation.inference.elastic_frame import ElasticFrame
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.model import CampaignModel
 from probation.inference.own_force import OwnForce
+from probation.inference.screen import screen
 
 LAW = probation.Law(unrelaxed_modulus=1500.0, tau_max=4.0, hardening_modulus=1.5)
 COMPLIANCE = 0.01
@@ -70,3 +77,22 @@ def test_the_answer_to_a_change_is_its_derivative():
     less, below = with_modulus(1485.0)
     slope = here.answer((more(here.stress) - less(here.stress)) / 30.0)
     assert slope == pytest.approx((above.stress - below.stress) / 30.0, rel=2e-3, abs=1e-6)
+
+
+def test_behind_a_soft_frame_a_screen_sees_other_effects_as_the_model_does():
+    """Derivatives along amplitudes that change the force by less than it is sought to."""
+    own = LAW.stress(TIME, 0.5 * TRAVEL, "sa2")
+    record = probation.Record(id="soft", time=TIME, true_strain=TRAVEL, true_stress=own)
+    views = views_of(probation.Campaign(name="one", records=(record,)), scheme="sa2")
+    (compliance,) = with_large_faults(effects(["machine_compliance"]), views)
+    soft = CampaignModel(DnlrLaw(LAW), views, [Cause(compliance, compliance.form("large_crosshead"))])
+    at = soft.parameters(LAW.parameters, [COMPLIANCE])
+    known = effects(["damage", "rate_dependent_relaxation", "prestress", "delayed_hardening"])
+    columns = [each for each in screen(soft, at, known) if not each.cause.form.threshold]
+    assert {each.cause.effect.name for each in columns} == {each.name for each in known}
+    for column in columns:
+        size = 20.0 * column.cause.form.amplitude.step(0.0)
+        both = soft.with_causes([*soft.causes, column.cause])
+        moved = both.residual(np.concatenate([at, [size, *column.values[1:]]]))
+        expected = (moved - soft.residual(at)) / size
+        assert column.slope == pytest.approx(expected, abs=0.02 * np.max(np.abs(expected)))

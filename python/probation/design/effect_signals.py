@@ -9,7 +9,6 @@ import numpy as np
 
 from probation.effects.cause import Cause
 from probation.errors import InputError
-from probation.inference.own_force import ROUGHLY
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 from probation.settings.design import DESIGN
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, EffectParameter, Form
     from probation.effects.record_view import RecordView
-    from probation.inference.model import CampaignModel
+    from probation.inference.model import CampaignModel, Specimen
 
 
 _SMALLER = 4.0
@@ -108,7 +107,8 @@ def effect_signals(
             ]
         except UNSOLVABLE as error:
             unsolvable[effect.name] = str(error)
-    still = {view.id: at_rest(model, view, parameters) for view in model.views}
+    base, active = model.split(parameters)
+    still = {view.id: model.at_rest(view, base, active) for view in model.views}
 
     def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal | str:
         cause, values, usual = item
@@ -134,20 +134,12 @@ def effect_signals(
     return [signal for signal in signals if signal.cause.effect.name in shown], left_out
 
 
-def at_rest(model: CampaignModel, view: RecordView, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Stress of the specimen and as recorded by the model as it is, each of shape (n,) [MPa]."""
-    base, active = model.split(parameters)
-    here = tuple(action for action in active if action[0].touches(view.id))
-    specimen = model.specimen(view, base, here).stress
-    return specimen, model.recorded(view, base, active, specimen)
-
-
 def signal(
     model: CampaignModel,
     parameters: FloatArray,
     cause: Cause,
     values: tuple[float, ...],
-    still: dict[str, tuple[FloatArray, FloatArray]] | None = None,
+    still: dict[str, tuple[Specimen, FloatArray]] | None = None,
 ) -> FloatArray:
     """What a cause adds to the recorded stress of all records, shape (n_samples,) [MPa].
 
@@ -160,7 +152,7 @@ def signal(
     values : tuple of float
         Amplitude first.
     still : dict, optional
-        `at_rest` of every record by id, if that is known.
+        `CampaignModel.at_rest` of every record by id, if that is known.
 
     Raises
     ------
@@ -171,14 +163,13 @@ def signal(
     added = np.zeros(len(model.data))
     for attempt in range(_ATTEMPTS + 1):
         part = _SMALLER**-attempt
-        moved = (*active, (cause, (part * values[0], *values[1:])))
+        moved = part * values[0], *values[1:]
         try:
             for view in model.views:
                 if not cause.touches(view.id):
                     continue
-                specimen, recorded = still[view.id] if still else at_rest(model, view, parameters)
-                specimen_stress = None if cause.form.needs_solve else specimen
-                stress = model.recorded(view, base, moved, specimen_stress, settled=ROUGHLY)
+                specimen, recorded = still[view.id] if still else model.at_rest(view, base, active)
+                stress = model.with_one_more(view, base, active, cause, moved, specimen)
                 added[model.rows(view.id)] = view.sampled(stress - recorded) / part
         except UNSOLVABLE:
             continue

@@ -12,7 +12,7 @@ from probation._complaint import suggestion
 from probation.effects.cause import Cause
 from probation.errors import InputError
 from probation.inference.elastic_frame import ElasticFrame
-from probation.inference.own_force import SETTLED, SLOPE, OwnForce
+from probation.inference.own_force import ROUGHLY, SETTLED, SLOPE, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 from probation.settings.noise import NOISE
@@ -292,12 +292,12 @@ class CampaignModel:
         *,
         sensitivity: bool = False,
         settled: float = SETTLED,
-        near: FloatArray | None = None,
+        near: OwnForce | None = None,
     ) -> Specimen:
         """What the specimen did: strains as it saw them, the law as it was; before faults of the force channel.
 
-        Where the force is the model's own, to `settled` of the largest (`own_force.ROUGHLY`), found from a stress that
-        is `near`, shape (n,) [MPa], or from the recorded one.
+        Where the force is the model's own, to `settled` of the largest (`own_force.ROUGHLY`): sought from what that of
+        a model `near` to this one would become, or else from the recorded one.
         """
         if not any(each.form.own_force for each, _ in causes):
             return self._driven(view, base, causes, sensitivity)
@@ -305,7 +305,9 @@ class CampaignModel:
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
             return self._driven(view.quietened(stress), base, causes, sensitivity)
 
-        start = view.smooth_nominal_data * view.stretch if near is None else near
+        start = view.smooth_nominal_data * view.stretch
+        if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
+            start = near.moved(under(near.stress).stress)
         frame = self._frame(view.quietened(start), base, causes)
         found = OwnForce(lambda stress: under(stress).stress, start, frame.answer, settled)
         if not sensitivity:
@@ -347,19 +349,36 @@ class CampaignModel:
         base: FloatArray,
         causes: CauseValues,
         specimen_stress: FloatArray | None = None,
-        *,
-        settled: float = SETTLED,
-        near: FloatArray | None = None,
     ) -> FloatArray:
         """Recorded true stress as the model has it, at the view's instants; shape (n,) [MPa].
 
-        With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved. `settled`
-        and `near` as in `specimen`.
+        With `specimen_stress`, of the same base and causes but for their force channel, nothing is solved.
         """
         here = _touching(causes, view)
         if specimen_stress is None:
-            specimen_stress = self.specimen(view, base, here, settled=settled, near=near).stress
+            specimen_stress = self.specimen(view, base, here).stress
         return _as_recorded(view, here, specimen_stress)
+
+    def at_rest(self, view: RecordView, base: FloatArray, causes: CauseValues) -> tuple[Specimen, FloatArray]:
+        """The specimen by the model as it is, and the recorded stress, (n,) [MPa]: where `with_one_more` begins."""
+        specimen = self.specimen(view, base, _touching(causes, view))
+        return specimen, self.recorded(view, base, causes, specimen.stress)
+
+    def with_one_more(
+        self,
+        view: RecordView,
+        base: FloatArray,
+        causes: CauseValues,
+        cause: Cause,
+        values: tuple[float, ...],
+        specimen: Specimen,
+    ) -> FloatArray:
+        """Recorded stress (n,) [MPa] with one more cause, before it is refitted; `specimen` is that without it."""
+        here = _touching((*causes, (cause, values)), view)
+        stress = specimen.stress
+        if cause.form.needs_solve:
+            stress = self.specimen(view, base, here, settled=ROUGHLY, near=specimen.own_force).stress
+        return _as_recorded(view, here, stress)
 
     def _solved(
         self, seen: RecordView, base: FloatArray, modification: Modification | None, sensitivity: bool

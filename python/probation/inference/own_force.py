@@ -112,6 +112,10 @@ class OwnForce:
         if not np.max(np.abs(left)) <= max(GOOD_ENOUGH, settled) * self._size:
             raise ConvergenceError("the force that the frame and the specimen share was not found")
 
+    def moved(self, stress: FloatArray) -> FloatArray:
+        """What y becomes, to first order, where G gives this stress of the present y instead; (n,) [MPa]."""
+        return self.stress + self.answer(stress - self._next, SLOPE)
+
     def answer(self, change: FloatArray, left: float = SETTLED) -> FloatArray:
         """How y changes where G changes by so much: (I - dG/dy)^-1 times it, but for a part `left`; (n,) [MPa]."""
         size = float(np.linalg.norm(change))

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation.effects.cause import Cause
-from probation.inference.own_force import ROUGHLY
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
@@ -104,18 +103,15 @@ def screen(
 
     def answers(view: RecordView) -> dict[_Key, FloatArray | Exception]:
         """The slopes of one record; a form at one start is worked out once, wherever it is placed."""
-        specimen = model.specimen(view, base, tuple(each for each in active if each[0].touches(view.id))).stress
-        still = model.recorded(view, base, active, specimen)
+        specimen, still = model.at_rest(view, base, active)
         found: dict[_Key, FloatArray | Exception] = {}
         for cause, values, views in wanted:
             if view not in views or _key(cause, values) in found:
                 continue
             form = cause.form
             size = values[0] if form.threshold else form.amplitude.step(0.0)
-            moved = (*active, (cause, (size, *values[1:])))
             try:
-                known = None if form.needs_solve else specimen
-                stress = model.recorded(view, base, moved, known, settled=ROUGHLY, near=specimen)
+                stress = model.with_one_more(view, base, active, cause, (size, *values[1:]), specimen)
                 found[_key(cause, values)] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
                 found[_key(cause, values)] = error
