@@ -131,6 +131,24 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert "cannot" not in found.headline
 
 
+def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(monkeypatch):
+    """A screen that sees nothing behind the frame leaves the damage to something outside the catalogue."""
+    monkeypatch.setitem(globals(), "SAMPLES", 200)
+    size = compliance_taking(0.5, set(TESTS))
+
+    def fault(time, elongation, nominal):
+        weaker = nominal * (1.0 - 0.25 * -np.expm1(-elongation / 0.15))
+        return time, elongation + size * weaker, weaker
+
+    found = probation.diagnose(campaign(set(TESTS), fault), design=False)
+    best = found.explanations[0]
+    assert found.verdict == "explained"
+    assert best.effects == ("damage", "machine_compliance")
+    assert best.probability > 0.8
+    assert found.headline.startswith("Compliance of the machine and damage explain the gap")
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
 @pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])
 def test_a_compliance_does_not_turn_noise_of_the_force_into_strain(slack):
     size = compliance_taking(0.4, {"grip1"})

@@ -90,7 +90,7 @@ class Attribution:
         That all the named effects are in the right explanation.
     undivided : tuple of str
         Effects of the best explanation that can stand in for each other, the one that closes most alone first: their
-        shares mean nothing one by one. Empty where shares can be told.
+        shares mean nothing one by one. Empty where each has a share of its own.
     """
 
     effects: tuple[EffectShare, ...]
@@ -123,7 +123,9 @@ def attribution(
     floor = 1.0 if differ else closure.noise_MPa**2
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
-    named = _named(known, closed, squares, floor)
+    named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
+    if _probability({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
+        named = tuple(name for name in known if name in {*named, *undivided})
     shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
@@ -151,7 +153,7 @@ def attribution(
         named=tuple(sorted(named, key=lambda name: -shares[name])),
         after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
         probability=_probability({*named}, weighed),
-        undivided=_undivided(known, closed),
+        undivided=undivided,
     )
 
 

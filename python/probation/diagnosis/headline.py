@@ -190,7 +190,7 @@ def _with_shares(parts: Attribution) -> str:
 
 
 def _not_divided(parts: Attribution) -> str:
-    """That effects can stand in for each other, as a further clause; empty where shares can be told."""
+    """That effects can stand in for each other, as a further clause; empty where each has a share of its own."""
     if not parts.undivided:
         return ""
     first = parts.undivided[0]
