@@ -7,7 +7,7 @@
 - form: told the true effects alone, the fit does not reach the noise: the test for a gap on what it leaves rejects
   (with the error of a form let pass that every explanation is allowed), or an unknown takes so much of the probability
   that the true effects are not in the answer set;
-- evidence: told them alone the fit reaches the noise, but beside the leader's effects another explanation is more
+- evidence: with them alone the fit reaches the noise, but jointly with the leader's effects another explanation is more
   probable, priors being those of the whole catalogue: one with an unknown, the true one with a further effect or
   without one of its own, or another cause;
 - search: told both, the true explanation leads; the full search did not find it;
@@ -116,7 +116,7 @@ def known(names: Iterable[str]) -> set[str]:
 
 
 def before(leader: Names, truth: Names) -> str:
-    """What an explanation that comes before the true one is beside it: one of `BEFORE`."""
+    """What an explanation that comes before the true one is, compared with it: one of `BEFORE`."""
     if UNKNOWN in leader:
         return BEFORE[0]
     if set(leader) > set(truth):
@@ -171,7 +171,7 @@ class _Told:
         return text
 
     def _left(self, truth: Names) -> list[float]:
-        """P-values of the test for a gap after fits of true effects, with or without an unknown beside them."""
+        """P-values of the test for a gap after fits of true effects, with or without an unknown jointly with them."""
         return [
             each["checks"]["remaining_p_value"]
             for each in self.diagnosis["causes"]

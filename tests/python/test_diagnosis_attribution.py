@@ -184,7 +184,7 @@ def test_effects_that_are_all_needed_are_not_said_to_stand_in_for_each_other():
 
 
 def test_one_stand_in_is_told_beside_the_share_of_an_effect_that_has_one():
-    """Damage closes 5 % whatever stands beside it; relaxation and softening the same 94 %."""
+    """Damage closes 5 % whatever it stands with; relaxation and softening the same 94 %."""
     parts = attributed(closing((0.94, 0.05, 0.935), (0.985, 0.945, 0.995), 0.996))
     assert parts.named == (RELAXATION, DAMAGE)
     text = told(parts)

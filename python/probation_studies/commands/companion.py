@@ -16,7 +16,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--table-2",
         action="store_true",
-        help="the paper's own Table 2 instead of a source: Figure S2, (11) and (12) beside it",
+        help="the paper's own Table 2 instead of a source: Figure S2, with (11) and (12)",
     )
     return parser
 

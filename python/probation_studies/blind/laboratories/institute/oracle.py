@@ -43,7 +43,7 @@ class Placed:
     share : float
         Of its cause's prior.
     signal : ndarray, shape (n_all,)
-        Whitened, beside the base law, of norm 1.
+        Whitened, orthogonal to the base law, of norm 1.
     """
 
     cause: str
@@ -87,7 +87,7 @@ def consult(
     random : Generator
     candidates : sequence of Placed
     acting, errors : ndarray, shape (n_all,)
-        Whitened, beside the base law.
+        Whitened, orthogonal to the base law.
     truth : tuple of str
     outside : str
         Name of what is in no catalogue; it takes part in no pair.
@@ -138,7 +138,7 @@ def _single(scores: FloatArray) -> FloatArray:
 
 
 def _pair(scores: FloatArray, i: NDArray[np.intp], j: NDArray[np.intp], cosine: FloatArray) -> FloatArray:
-    """One amplitude at its best, then the other beside it, both ways round."""
+    """One amplitude at its best, then the other jointly with it, both ways round."""
     x, y, square = scores[:, i], scores[:, j], np.maximum(1.0 - cosine**2, 1e-9)
     found = []
     for first, second in ((x, y), (y, x)):

@@ -32,7 +32,7 @@ _UNSEEN = 0.05
 class Planted:
     """A cause at work; `record` is its place among the identified ones, None for all.
 
-    `columns` are what it adds to the identified records [MPa], `signal` the same, whitened, beside the base law.
+    `columns` are what it adds to the identified records [MPa], `signal` the same, whitened, orthogonal to the base law.
     """
 
     cause: Cause

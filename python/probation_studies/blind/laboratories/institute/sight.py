@@ -154,7 +154,7 @@ class Sight:
         return np.asarray(whitened - self._followed @ (self._followed.T @ whitened))
 
     def placed(self, whitened: FloatArray, record: int | None) -> FloatArray:
-        """Columns that act in one record alone (None: in all), beside the base law."""
+        """Columns that act in one record alone (None: in all), orthogonal to the base law."""
         if record is None:
             return self.left(whitened)
         alone = np.zeros_like(whitened)

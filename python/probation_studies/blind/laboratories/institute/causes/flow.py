@@ -185,7 +185,7 @@ def _alongside(test: Test, stress: FloatArray) -> Change:
 
 
 def _zener(test: Test, a: float, shape: Shape) -> Change:
-    """One Maxwell element beside the polymer."""
+    """One Maxwell element in parallel with the polymer."""
     slow = maxwell(test.time, test.strain, [shape["times"] * test.setting.time])[:, 0]
     return _alongside(test, a * test.setting.modulus * slow)
 
