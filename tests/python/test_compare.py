@@ -340,3 +340,14 @@ def test_a_comparison_comes_back_from_its_json_without_curves(march):
 def test_what_is_no_comparison_is_refused(text, message):
     with pytest.raises(InputError, match=f"^{message}"):
         Comparison.from_json(text)
+
+
+@pytest.mark.parametrize("dead", ["campaign", "reference"])
+def test_a_record_whose_strain_never_moves_is_refused_by_its_name(dead):
+    """It said that nothing changed."""
+    sound = made_up(1)
+    still = replace(sound.records[0], true_strain=np.zeros(len(sound.records[0])))
+    faulty = replace(sound, records=(still, *sound.records[1:]))
+    campaign, reference = (faulty, sound) if dead == "campaign" else (sound, faulty)
+    with pytest.raises(InputError, match=f"record '{still.id}': found a true strain of 0 at every sample"):
+        compare(campaign, reference)

@@ -69,6 +69,7 @@ def test_the_probability_of_an_effect_is_summed_over_all_explanations_that_hold_
 def test_json_summary_and_page_say_it_effect_by_effect(two_effects, tmp_path):
     first = json.loads(two_effects.to_json())["effects"][0]
     assert {"name", "probability", "share", "records"} <= set(first)
+    assert (first["named"], first["interchangeable"]) == (True, False)
     assert "Effect by effect" in two_effects.summary()
     two_effects.report(tmp_path / "page.html")
     assert "Effect by effect" in (tmp_path / "page.html").read_text(encoding="utf-8")
@@ -126,7 +127,7 @@ def closing(alone, pairs, whole):
 def attributed(closed, gap=3.0):
     """The attribution that a diagnosis makes of it, every effect being in all records; the gap is over the noise."""
     named = _named(ORDERED, closed, left_by(closed, gap), 1.0)
-    shares = _shares(named, ORDERED, closed)
+    shares, stand_ins = _shares(named, ORDERED, closed), _undivided(ORDERED, closed)
     effects = tuple(
         EffectShare(
             name,
@@ -136,11 +137,14 @@ def attributed(closed, gap=3.0):
             closed[ORDERED] - closed[tuple(sorted({*KNOWN} - {name}))],
             ("a",),
             named=name in named,
+            interchangeable=name in stand_ins,
         )
         for name in sorted(KNOWN, key=lambda name: -shares[name])
     )
     by_share = tuple(sorted(named, key=lambda name: -shares[name]))
-    return Attribution(effects, by_share, 0.2, 0.9, _undivided(ORDERED, closed))
+    parts = Attribution(effects, by_share, 0.2, 0.9)
+    assert parts.undivided == stand_ins
+    return parts
 
 
 def told(parts, verdict="explained"):

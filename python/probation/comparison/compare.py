@@ -25,6 +25,7 @@ from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
 from probation.progress import Part, shows_progress
+from probation.records.signal import require_signal
 from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
@@ -97,6 +98,8 @@ def compare(
     together = pair(campaign, reference.campaign, pairs)
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
+    for record in kept.records:
+        require_signal(record)
     known = considered(effects)
     advance(Part(0.1, "pairing the records"))
     base = measured_base(kept, reference, together)
@@ -116,7 +119,7 @@ def compare(
         skipping=skipping,
         budget=deadline,
         progress=lambda part: advance(Part(0.3 + 0.55 * part, "trying causes")),
-        power=calibration.power,
+        calibration=calibration,
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)

@@ -16,6 +16,7 @@ from probation.inference.refit import refit
 from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
+from probation.noise.own_deviations import own_deviations
 from probation.parallel import in_parallel
 from probation.settings.evidence import EVIDENCE
 
@@ -51,6 +52,8 @@ class EffectShare:
         Ids of those that it touches.
     named : bool
         Whether the headline names it.
+    interchangeable : bool
+        Whether another effect of the best explanation can stand in for it, so that its share alone means nothing.
     """
 
     name: str
@@ -60,6 +63,7 @@ class EffectShare:
     in_addition: float | None
     records: tuple[str, ...]
     named: bool
+    interchangeable: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         """As in `effects` of docs/formats.md."""
@@ -70,6 +74,8 @@ class EffectShare:
             "alone": self.alone,
             "in_addition": self.in_addition,
             "records": list(self.records),
+            "named": self.named,
+            "interchangeable": self.interchangeable,
         }
 
 
@@ -88,16 +94,18 @@ class Attribution:
         Root mean square of what the named effects leave.
     probability : float
         That all the named effects are in the right explanation.
-    undivided : tuple of str
-        Effects of the best explanation that can stand in for each other, the one that closes most alone first: their
-        shares mean nothing one by one. Empty where each has a share of its own.
     """
 
     effects: tuple[EffectShare, ...]
     named: tuple[str, ...]
     after_MPa: float  # noqa: N815 - as it leaves the program
     probability: float
-    undivided: tuple[str, ...] = ()
+
+    @property
+    def undivided(self) -> tuple[str, ...]:
+        """Effects of the best explanation that can stand in for each other, the one that closes most alone first."""
+        among = [each for each in self.effects if each.interchangeable]
+        return tuple(each.name for each in sorted(among, key=lambda each: -(each.alone or 0.0)))
 
 
 def attribution(
@@ -118,9 +126,9 @@ def attribution(
     """
     best = weighed[0]
     known = best.hypothesis.effects if best.effects else ()
-    squares = _squares(base, best.hypothesis, known, found, threads)
-    differ = _differ(base)
-    floor = 1.0 if differ else closure.noise_MPa**2
+    parts = _parts(base, best.hypothesis, known, found, threads)
+    squares = _squares(base, parts)
+    floor = 1.0 if _differ(base) else closure.noise_MPa**2
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
     named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
@@ -145,15 +153,15 @@ def attribution(
                 in_addition=closed[known] - closed[_without(known, name)] if inside else None,
                 records=_records(name, weighed),
                 named=name in named,
+                interchangeable=name in undivided,
             )
         )
     entries.sort(key=lambda each: (-each.share, -each.probability))
     return Attribution(
         effects=tuple(entries),
         named=tuple(sorted(named, key=lambda name: -shares[name])),
-        after_MPa=closure.after_MPa if differ or len(named) == len(known) else float(np.sqrt(squares[named])),
+        after_MPa=closure.after_MPa if len(named) == len(known) else _misfit(base, parts[named]),
         probability=_probability({*named}, weighed),
-        undivided=undivided,
     )
 
 
@@ -162,14 +170,10 @@ def _probability(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float
     return min(sum(each.probability for each in weighed if effects <= {*each.effects}), 1.0)
 
 
-def _squares(
+def _parts(
     base: BaseFit, best: Hypothesis, known: tuple[str, ...], found: Sequence[Hypothesis], threads: int
-) -> dict[tuple[str, ...], float]:
-    """Mean square of what every part of the best explanation leaves, law and effects refitted [MPa^2].
-
-    Where specimens differ, in units of the noise: their deviations are refitted with every part, and only there does a
-    part never close more than the whole.
-    """
+) -> dict[tuple[str, ...], Refit | None]:
+    """Refits of law and effects for every part of the best explanation, smaller ones first; None if unsolvable."""
     solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
@@ -188,9 +192,17 @@ def _squares(
             return there
 
     refits = dict(zip(parts, in_parallel(fitted, parts, threads), strict=True))
-    best_refit = best.refit if known else base.refit
-    squares = {(): _mean_square(base, base.refit), known: _mean_square(base, best_refit)}
-    for part, each in refits.items():
+    return {(): base.refit, **refits, known: best.refit if known else base.refit}
+
+
+def _squares(base: BaseFit, parts: Mapping[tuple[str, ...], Refit | None]) -> dict[tuple[str, ...], float]:
+    """Mean square of what every part leaves [MPa^2].
+
+    Where specimens differ, in units of the noise: their deviations are refitted with every part, and only there does a
+    part never close more than the whole.
+    """
+    squares: dict[tuple[str, ...], float] = {}
+    for part, each in parts.items():
         # What cannot be solved closes no more than its own parts do.
         below = [squares[smaller] for smaller in squares if {*smaller} < {*part}]
         squares[part] = _mean_square(base, each) if each is not None else min(below)
@@ -202,6 +214,13 @@ def _mean_square(base: BaseFit, found: Refit) -> float:
     if _differ(base):
         return found.chi_square / len(found.residual)
     return float(np.mean(np.concatenate(_errors(base, found)) ** 2))
+
+
+def _misfit(base: BaseFit, found: Refit | None) -> float:
+    """Root mean square of the errors, each specimen having its own deviations [MPa]."""
+    errors = _errors(base, base.refit if found is None else found)
+    own = own_deviations(errors, base.whitened.noises)
+    return float(np.sqrt(np.mean(np.concatenate([each - part for each, part in zip(errors, own, strict=True)]) ** 2)))
 
 
 def _differ(base: BaseFit) -> bool:

@@ -13,10 +13,10 @@ from probation.diagnosis.checks import checks
 from probation.diagnosis.held_out import HeldToAccount
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.probabilities import (
-    answer_set,
     effect_count,
     given_a_gap,
     given_no_gap,
+    leading,
     probabilities_of,
     with_unknown,
     with_unknown_leading,
@@ -27,13 +27,13 @@ from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
-from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from probation.detection.where import Located
     from probation.diagnosis.budget import Budget
+    from probation.diagnosis.calibration_check import CalibrationCheck
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
@@ -107,7 +107,7 @@ def causes_of(
     skipping: Skipping,
     budget: Budget,
     progress: Callable[[float], None],
-    power: float = EVIDENCE.evidence_power,
+    calibration: CalibrationCheck,
 ) -> Causes:
     """Explanations of what a base law leaves, weighed and checked.
 
@@ -125,21 +125,22 @@ def causes_of(
     budget : Budget
     progress : callable
         Called with the fraction done.
-    power : float
-        Of the evidence: `CalibrationCheck.power`.
+    calibration : CalibrationCheck
+        How far the evidence counts, and how much of the probability an answer set holds.
     """
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(probabilities_of(found, effect_count(considered), power), p_value)
+        weighed = given_no_gap(probabilities_of(found, effect_count(considered), calibration.power), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
     found = [each.as_reached(found[0]) for each in found]
-    weighed = given_a_gap(probabilities_of(found, effect_count(considered), power), p_value)
+    weighed = given_a_gap(probabilities_of(found, effect_count(considered), calibration.power), p_value)
     account = HeldToAccount(base, seed=seed)
-    weighed = account.ranked(weighed)
-    left, judged = _judged(weighed, answer_set(weighed), base, account, seed)
+    weighed = account.ranked(weighed, calibration.covered)
+    chosen = leading(weighed, calibration.covered)
+    left, judged = _judged(chosen, base, account, seed)
     verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
     causes = Causes(base, considered, found, weighed, judged, verdict)
     worse = account.worse(causes.best)
@@ -167,11 +168,11 @@ def _searched(
 
 
 def _judged(
-    weighed: Sequence[Weighed], chosen: Sequence[tuple[str, ...]], base: BaseFit, account: HeldToAccount, seed: int
+    chosen: Sequence[Weighed], base: BaseFit, account: HeldToAccount, seed: int
 ) -> tuple[bool, dict[tuple[str, ...], Checks]]:
     """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
     left, found = False, {}
-    for index, each in enumerate(weighed[: len(chosen)]):
+    for index, each in enumerate(chosen):
         if index and not each.hypothesis.causes:
             continue
         after = remaining_gap(each.hypothesis.refit, base, seed=seed)

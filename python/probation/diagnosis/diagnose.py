@@ -159,7 +159,7 @@ def diagnose(
         skipping=skipping,
         budget=deadline,
         progress=lambda part: done(0.15 + 0.55 * part, "trying causes"),
-        power=calibration.power,
+        calibration=calibration,
     )
     base, considered, found = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:

@@ -127,12 +127,18 @@ class HeldToAccount:
             self._known[key] = made_worse(hypothesis, self._base, seed=self._seed)
         return self._known[key]
 
-    def ranked(self, weighed: Sequence[Weighed]) -> list[Weighed]:
+    def ranked(self, weighed: Sequence[Weighed], covered: float) -> list[Weighed]:
         """The explanations with those of the answer set put back that make a held-out record worse.
 
         They fall only if another known explanation of the answer set does not: what is far less probable is no rival.
+
+        Parameters
+        ----------
+        weighed : sequence of Weighed
+        covered : float
+            Probability that the answer set holds.
         """
-        known = [each for each in leading(weighed) if each.effects and UNKNOWN not in each.effects]
+        known = [each for each in leading(weighed, covered) if each.effects and UNKNOWN not in each.effects]
         refuted = [id(each) for each in known if self.worse(each.hypothesis)]
         if len(refuted) == len(known):
             return list(weighed)
