@@ -11,7 +11,7 @@ from probation.comparison.faults import considered
 from probation.effects.catalogue.slack_strip import slack_intervals
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
-from probation.effects.visible import visible
+from probation.effects.visible import unloads, visible
 from probation.law.modification import Modification
 from probation.records.record import Noise, Record
 
@@ -128,6 +128,78 @@ def test_hysteresis_of_the_load_cell():
 
     found = named(loops(read), "cell_hysteresis")
     assert value(found, "reversibility_error") == pytest.approx(0.02, rel=0.4)
+
+
+def test_friction_of_a_guide_in_both_directions():
+    """Bouc and Wen: dz = (1 - |z| (0.7 sgn(z dF) + 0.3)) dF / r, 3 % of the largest force from way to way."""
+
+    def read(law, time, strain):
+        force = law.stress(time, strain) * np.exp(-strain)
+        largest, slid = float(np.max(force)), [0.0]
+        for step in np.diff(force) / (0.15 * largest):
+            slid.append(slid[-1] + (1.0 - abs(slid[-1]) * (0.7 * np.sign(slid[-1] * step) + 0.3)) * step)
+        return (force - 0.015 * largest * np.array(slid)) * np.exp(strain)
+
+    found = named(loops(read), "cell_hysteresis")
+    assert value(found, "reversibility_error") == pytest.approx(0.03, rel=0.4)
+
+
+def test_a_stiff_specimen_unloads_within_a_hundredth_of_its_strain():
+    """From a strain of 0.9 to no force and up again: Mullins softening is considered, and named."""
+
+    def softened(law, time, strain):
+        lost = -0.3 * np.expm1((strain - largest(strain)) / 0.01)
+        return law.stress(time, strain, modification=Modification(load_bearing_area=1.0 - lost))
+
+    made = []
+    for seed, rate in enumerate((SLOW, FAST)):
+        time, strain = path(rate, [0.6, 0.585, 0.9, 0.885, 1.0])
+        made.append(record(f"at-{rate:g}", time, strain, softened(LAW, time, strain), seed))
+    named(campaign(made), "mullins_softening")
+
+
+def test_a_force_that_relaxes_while_a_noisy_strain_stands_is_no_unloading():
+    """The noise takes the strain back by 0.4 %, of 10 % held, while two thirds of the force go."""
+    time = np.linspace(0.0, 400.0, 801)
+    strain = np.minimum(1e-2 * time, 0.1)
+    stress = LAW.stress(time, strain)
+    seen = strain + 1e-3 * np.random.default_rng(5).standard_normal(801)
+    held = Record(id="hold", time=time, true_strain=seen, true_stress=noisy(stress, 1))
+    assert stress[-1] < 0.5 * np.max(stress)
+    assert not unloads(views_of(campaign([held])))
+
+
+def test_a_process_that_relaxes_as_a_power_of_the_time():
+    """The Riemann-Liouville integral of the strain rate, exact on straight pieces; ramps and a hold."""
+
+    def stressed(time, strain):
+        rate, added = np.diff(strain) / np.diff(time), np.zeros(len(time))
+        for k in range(len(rate)):
+            since = [np.maximum(time - corner, 0.0) ** 0.6 for corner in (time[k], time[k + 1])]
+            added += rate[k] * (since[0] - since[1]) / 0.6
+        return LAW.stress(time, strain) + 6.0 * 100.0**0.4 * added
+
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.8])
+        made.append(record(f"at-{rate:g}", time, strain, stressed(time, strain), seed))
+    time = np.linspace(0.0, 800.0, 8 * 250 + 1)
+    strain = np.minimum(5e-3 * time, 0.4)
+    made.append(record("hold", time, strain, stressed(time, strain), 9))
+    found = named(campaign(made), "slow_process")
+    assert value(found, "power") == pytest.approx(0.4, abs=0.1)
+
+
+def test_a_joint_that_seats_itself_far_in_one_record():
+    """4 % of travel go into a joint as 1 - e^(-n / 3 MPa), n the nominal stress, of one of three ramps."""
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.8])
+        stress = LAW.stress(time, strain)
+        seen = strain - (0.04 * np.expm1(-stress * np.exp(-strain) / 3.0) if seed == 1 else 0.0)
+        made.append(record(f"at-{rate:g}", time, seen, stress * np.exp(seen - strain), seed))
+    found = named(campaign(made), "strain_offset")
+    assert found.best.records == ("at-0.005",)
 
 
 def test_moisture_between_tests():

@@ -344,6 +344,16 @@ def test_a_slow_process_adds_a_maxwell_element():
     np.testing.assert_allclose(added, -20.0 * RATE * 400.0 * np.expm1(-record.time / 400.0), atol=1e-9)
 
 
+@pytest.mark.parametrize("power", [0.15, 0.4, 0.8])
+def test_a_springpot_answers_a_ramp_with_a_power_of_the_time(power):
+    """The integral of M (t / 100 s)^-b over a ramp is M r 100^b t^(1 - b) / (1 - b), from some samples on."""
+    record = ramp()
+    found, _ = predicted(LAW, record, "slow_process", "springpot", (20.0, power), scheme="sa3")
+    added = found - LAW.stress(record.time, record.true_strain, scheme="sa3")
+    whole = 20.0 * RATE * 100.0**power * record.time ** (1.0 - power) / (1.0 - power)
+    np.testing.assert_allclose(added[20:], whole[20:], rtol=0.01)
+
+
 @pytest.mark.parametrize(("form", "values", "part"), [("whole", (30.0,), 1.0), ("part", (0.4, 30.0), 0.4)])
 def test_delayed_hardening_follows_with_a_first_order_lag(form, values, part):
     """Relaxed, on a ramp: y' = (e^(2rt) - e^(-rt) - y) / T has the solution below, y(0) = 0."""
@@ -498,6 +508,14 @@ def test_a_bent_strip_is_pulled_straight():
     np.testing.assert_allclose(own, seen, atol=2e-4)
 
 
+def test_joints_seat_themselves_as_the_force_grows():
+    """a (1 - e^(-n / n_c)) is recorded besides the bar's strain."""
+    seen, record = strip(lambda nominal: -0.01 * np.expm1(-nominal / 5.0))
+    found, _ = predicted(bar(), record, "strain_offset", "seating", (0.01, 5.0))
+    own = found * np.exp(-(record.true_strain - seen)) / 1000.0
+    np.testing.assert_allclose(own, seen, atol=2e-4)
+
+
 def test_a_specimen_creeps_out_of_its_grips_ever_slower():
     """The bar has lost a (1 - e^(-t / c)) since the instant; the stress was made with the recorded strain."""
     record = ramp(end=1.0)
@@ -563,6 +581,20 @@ def test_a_compliant_machine_around_an_elastic_bar():
     found, _ = predicted(bar(modulus), record, "machine_compliance", "crosshead", (compliance,))
     np.testing.assert_allclose(found, record.true_stress, rtol=1e-10, atol=1e-10)
     assert np.max(np.abs(modulus * record.true_strain - record.true_stress)) > 5.0
+
+
+@pytest.mark.parametrize("power", [2.0 / 3.0, 1.0, 1.5])
+def test_a_machine_whose_joints_close_or_whose_grips_yield(power):
+    """Stretch recorded = stretch + C n (n / 10 MPa)^(b - 1), n the nominal stress: Hertz's contacts have 2/3."""
+    seen = np.linspace(0.0, 0.1, 2000)
+    nominal = 1000.0 * seen * np.exp(-seen)
+    stretch = np.exp(seen) + 2e-4 * nominal * np.maximum(nominal / 10.0, 1e-12) ** (power - 1.0)
+    record = Record(
+        id="frame", time=np.arange(2000.0), true_strain=np.log(stretch), true_stress=nominal * stretch,
+        noise=Noise(0.04, 0.0),
+    )  # fmt: skip
+    found, _ = predicted(bar(), record, "machine_compliance", "contact", (2e-4, power))
+    np.testing.assert_allclose(found[20:], record.true_stress[20:], rtol=2e-3)
 
 
 def test_compliance_taken_off_the_true_strain():
@@ -718,3 +750,37 @@ def test_an_amplifier_bends_into_its_limit():
     at_limit = int(np.argmin(np.abs(force[: len(force) // 2] - limit)))
     assert limit - read[at_limit] == pytest.approx(0.5 * rounding * limit, rel=0.2)
     assert found[0] == 0.0
+
+
+def cycles(samples=1501):
+    """A force up to 100 MPa, down to 20 and up again, as a record of an elastic bar."""
+    strain = np.interp(np.linspace(0.0, 1.0, samples), [0.0, 0.5, 0.8, 1.0], [0.0, 0.1, 0.02, 0.1])
+    record = Record(
+        id="cycles", time=np.arange(float(samples)), true_strain=strain, true_stress=1000.0 * strain,
+        noise=Noise(0.04, 0.0),
+    )  # fmt: skip
+    return record, 1000.0 * strain * np.exp(-strain)
+
+
+def test_friction_that_builds_up_is_that_of_its_differential_equation():
+    """dz/dF = 1/r - z |dF|/(r dF), in time by the trapezoidal rule; the reading is F - a M z / 2."""
+    record, force = cycles()
+    found, _ = predicted(bar(), record, "cell_hysteresis", "presliding", (0.03, 0.2))
+    largest, slid = float(np.max(force)), [0.0]
+    for step in np.diff(force) / (0.2 * largest):
+        slid.append((slid[-1] * (1.0 - 0.5 * abs(step)) + step) / (1.0 + 0.5 * abs(step)))
+    expected = force - 0.5 * 0.03 * largest * np.array(slid)
+    np.testing.assert_allclose(found * np.exp(-record.true_strain), expected, atol=1e-4)
+
+
+def test_contacts_that_stick_and_slide_open_a_loop_of_the_given_width():
+    """Once all slide, the ways up and down differ by a of the largest force; before any does, the force reads less."""
+    record, force = cycles()
+    found, _ = predicted(bar(), record, "cell_hysteresis", "stops", (0.03, 0.2))
+    reading, largest = found * np.exp(-record.true_strain), float(np.max(force))
+    up, down = slice(0, 751), slice(751, 1201)
+    level = 0.5 * largest
+    read_up = np.interp(level, force[up], reading[up])
+    read_down = np.interp(-level, -force[down], reading[down])
+    assert read_down - read_up == pytest.approx(0.03 * largest, rel=1e-3)
+    assert np.interp(0.4, force[up], reading[up]) == pytest.approx(0.4 * (1.0 - 0.5 * 0.03 / 0.1), rel=1e-6)

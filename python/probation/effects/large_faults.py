@@ -111,7 +111,22 @@ def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
         begun = float(np.clip(np.median([_force_begins(view) for view in views]), 0.0, large.amplitude.upper))
         return [(begun,), *fixed] if begun > 0.0 else fixed
 
-    return (replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),)
+    return (
+        replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),
+        *(_taken_up(effect.form(name), size) for name in ("straightening", "seating")),
+    )
+
+
+def _taken_up(form: Form, size: _Size) -> Form:
+    """Slack that the force takes up."""
+    pull = form.parameters[1]
+    large = _of_travel(replace(form, starts=None), size.elongation)
+    grid: list[tuple[float, ...]] = [
+        (travel * size.elongation, float(np.clip(part * size.force, pull.lower, pull.upper)))
+        for travel in EFFECTS.travel_starts
+        for part in EFFECTS.take_up_starts
+    ]
+    return replace(large, starts=lambda _views, _residuals: grid, hidden_by=None)
 
 
 def _force_begins(view: RecordView) -> float:
@@ -139,6 +154,12 @@ def _of_travel(form: Form, whole: float) -> Form:
     )
 
 
+def _hysteresis(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    del size
+    bounds = 0.0, effect.form("loop").amplitude.upper
+    return tuple(_widened(effect.form(name), EFFECTS.large_hysteresis, *bounds) for name in ("presliding", "stops"))
+
+
 def _lag(effect: Effect, size: _Size) -> tuple[Form, ...]:
     del size
     both_ways = (*(-start for start in EFFECTS.lag_starts), *EFFECTS.lag_starts)
@@ -159,6 +180,7 @@ def _locking(effect: Effect, size: _Size) -> tuple[Form, ...]:
 
 
 _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
+    "cell_hysteresis": _hysteresis,
     "force_gain": _gain,
     "force_offset": _offset,
     "force_drift": _drift,

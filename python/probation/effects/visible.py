@@ -33,8 +33,23 @@ def visible(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Eff
 
 
 def unloads(views: Sequence[RecordView]) -> bool:
-    """Whether the strain is taken back anywhere, by more than its noise."""
+    """Whether the strain is taken back anywhere: by a part of the largest, or by less with a good part of the force.
+
+    A stiff specimen unloads to nothing within a hundredth of the strain that it has come to.
+    """
     largest = max(float(np.max(view.largest_strain)) for view in views)
     return largest > 0.0 and any(
-        float(np.max(view.largest_strain - view.true_strain)) > EFFECTS.least_return * largest for view in views
+        float(np.max(view.largest_strain - view.true_strain)) > EFFECTS.least_return * largest or _sheds_force(view)
+        for view in views
     )
+
+
+def _sheds_force(view: RecordView) -> bool:
+    """Whether the force falls by a good part while the strain is taken back by more than its noise."""
+    turned = np.maximum.accumulate(np.where(view.true_strain == view.largest_strain, np.arange(len(view.time)), 0))
+    noise = max(
+        EFFECTS.backlash * float(np.ptp(view.true_strain)), EFFECTS.return_over_noise * view.excitation.strain_noise
+    )
+    force = view.smooth_nominal_data
+    fall = np.where(view.largest_strain - view.true_strain > noise, force[turned] - force, 0.0)
+    return float(np.max(fall)) > EFFECTS.least_fall * float(np.max(np.abs(force)))

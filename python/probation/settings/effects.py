@@ -28,6 +28,12 @@ class EffectsSettings:
     travel_starts: tuple[float, ...] = chosen(
         (0.05, 0.2, 0.5), "largest elongation", "Such parts from which searches begin."
     )
+    take_up_starts: tuple[float, ...] = chosen(
+        (0.02, 0.2), "largest force", "Parts of the force that takes up slack, or pulls a bent strip straight."
+    )
+    large_hysteresis: float = chosen(
+        0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."
+    )
     large_lag: float = chosen(3.0, "s", "Standard deviation of a gross lag between force and strain.")
     lag_starts: tuple[float, ...] = chosen((0.5, 4.0), "s", "Such lags from which searches begin.")
     short_chains: float = chosen(
@@ -51,6 +57,10 @@ class EffectsSettings:
     least_return: float = chosen(
         0.02, "largest strain", "Return of the strain that is more than its noise: an unloading."
     )
+    return_over_noise: float = chosen(
+        6.0, "strain noise", "Return of the strain that is an unloading, too, where the force falls by `least_fall`."
+    )
+    least_fall: float = chosen(0.1, "largest force", "Fall of the force that makes a short return an unloading.")
     different_temperature: float = derived(
         1.0,
         "°C",

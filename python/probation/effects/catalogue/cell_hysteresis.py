@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,21 @@ _SIZE = EffectParameter(
     upper=0.3,
     scale=0.01,
     reason="of the largest force; ISO 7500-1 allows 0.75 % in class 0.5, 1.5 % in class 1",
+)
+
+CONTACTS = 8
+"""That slide one after the other."""
+
+_REACH = EffectParameter(
+    name="reach_of_friction",
+    unit="",
+    lower=0.005,
+    upper=2.0,
+    centre=0.2,
+    scale=1.0,
+    log=True,
+    starts=(0.08, 0.3),
+    reason="contacts of a load train slide once the force has changed by some tenths of the largest one",
 )
 
 
@@ -44,6 +60,39 @@ def _friction(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     return np.array(read) * view.stretch
 
 
+def _presliding(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Friction that builds up over a way of the force, on the way up, too: the reading is F - a M z / 2, with
+    dz = (sgn dF - z) |dF| / r, exact between turns; M is the record's largest force, r a part of it.
+    """
+    largest = float(np.max(np.abs(view.nominal_data)))
+    force = stress / view.stretch
+    slid = np.zeros(len(force))
+    for begin, end in itertools.pairwise(_turns(force)):
+        gone = force[begin + 1 : end + 1] - force[begin]
+        way = np.sign(gone[-1])
+        slid[begin + 1 : end + 1] = way + (slid[begin] - way) * np.exp(-np.abs(gone) / (values[1] * largest))
+    return np.asarray((force - 0.5 * values[0] * largest * slid) * view.stretch)
+
+
+def _stops(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The same with contacts that stick until each slides at a force of its own, evenly from 0 to r."""
+    largest = float(np.max(np.abs(view.nominal_data)))
+    force = stress / view.stretch
+    holds = (np.arange(CONTACTS) + 0.5) / CONTACTS * values[1] * largest
+    held = np.zeros((len(force), CONTACTS))
+    for begin, end in itertools.pairwise(_turns(force)):
+        gone = force[begin + 1 : end + 1, np.newaxis] - force[begin]
+        held[begin + 1 : end + 1] = np.clip(held[begin] + gone, -holds, holds)
+    slid = held.sum(axis=1) / holds.sum()
+    return np.asarray((force - 0.5 * values[0] * largest * slid) * view.stretch)
+
+
+def _turns(force: FloatArray) -> list[int]:
+    """Samples between which a force goes one way only, the first and the last among them."""
+    way = np.sign(np.diff(force))
+    return [0, *(np.flatnonzero(np.diff(way)) + 1).tolist(), len(way)]
+
+
 EFFECT = Effect(
     name="cell_hysteresis",
     title="hysteresis of the load cell",
@@ -51,13 +100,18 @@ EFFECT = Effect(
         "The load cell, or friction in the load train, reads a falling force as larger than it is.\n"
         "Amplitude: largest difference between the ways down and up, over the largest force."
     ),
-    source="ISO 376 and ISO 7500-1 (relative reversibility error); Krasnosel'skii & Pokrovskii 1989 (play)",
+    source=(
+        "ISO 376 and ISO 7500-1 (relative reversibility error); Krasnosel'skii & Pokrovskii 1989 (play); Dahl 1968, "
+        "Prandtl 1928 (friction that builds up)"
+    ),
     shows_in="unloading, where the force falls by a good part",
     kind="rig",
     coordinate="force",
     forms=(
         Form("loop", (_SIZE,), recorded_stress=_loop, needs=unloads),
         Form("friction", (_SIZE,), recorded_stress=_friction, needs=unloads),
+        Form("presliding", (_SIZE, _REACH), recorded_stress=_presliding, needs=unloads, variant=True),
+        Form("stops", (_SIZE, _REACH), recorded_stress=_stops, needs=unloads, variant=True),
     ),
     odds=0.3,
 )

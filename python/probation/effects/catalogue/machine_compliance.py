@@ -22,6 +22,22 @@ _COMPLIANCE = EffectParameter(
 )
 
 
+REFERENCE_STRESS = 10.0
+"""Nominal stress at which a frame that is not linear has the compliance of its amplitude [MPa]."""
+
+_POWER = EffectParameter(
+    name="power_of_the_force",
+    unit="",
+    lower=0.2,
+    upper=3.0,
+    centre=1.0,
+    scale=0.4,
+    log=True,
+    starts=(0.6, 1.6),
+    reason="Hertz's contacts have 2/3, a linear frame 1; grips that slide have more",
+)
+
+
 def _crosshead(view: RecordView, values: Values) -> FloatArray:
     """The frame gives way by a F / A_0 per gauge length, which is engineering strain.
 
@@ -29,6 +45,13 @@ def _crosshead(view: RecordView, values: Values) -> FloatArray:
     """
     own = values[0] * view.nominal_data / np.exp(view.true_strain)
     return view.true_strain + np.log1p(-np.minimum(own, 0.9))
+
+
+def _contact(view: RecordView, values: Values) -> FloatArray:
+    """The frame gives way by a n (n / 10 MPa)^(b - 1), n the nominal stress: joints close (b < 1), grips yield."""
+    stress = view.smooth_nominal_data
+    own = values[0] * stress * (np.maximum(np.abs(stress), 1e-12) / REFERENCE_STRESS) ** (values[1] - 1.0)
+    return np.asarray(view.true_strain + np.log1p(-np.clip(own / np.exp(view.true_strain), -0.9, 0.9)))
 
 
 def _true_strain(view: RecordView, values: Values) -> FloatArray:
@@ -46,12 +69,13 @@ EFFECT = Effect(
         "Frame, grips and load cell stretch too; where the crosshead gives the strain, theirs is counted in.\n"
         "Amplitude: strain per nominal stress F / A_0, which has the recorded force."
     ),
-    source="ASTM D5656 / ISO 527-1 (compliance correction)",
+    source="ASTM D5656 / ISO 527-1 (compliance correction); Hertz 1881; Kalidindi et al. 1997 (frames that stiffen)",
     shows_in="stiff materials: the onset, rate jumps, reversals; dwells show it as creep of the specimen",
     kind="rig",
     coordinate="force",
     forms=(
         Form("crosshead", (_COMPLIANCE,), driving_strain=_crosshead),
         Form("true_strain", (_COMPLIANCE,), driving_strain=_true_strain, converts=False),
+        Form("contact", (_COMPLIANCE, _POWER), driving_strain=_contact, variant=True),
     ),
 )

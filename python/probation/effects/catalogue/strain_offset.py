@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +26,8 @@ _PULL = EffectParameter(
     log=True,
     reason="the critical stress of the strip as a column, pi^2 E h^2 / 12 L^2: 2 MPa for 4 mm in 100 mm",
 )
+
+_SEAT = replace(_PULL, name="seating_stress_MPa", reason="joints are tight at some per cent of the largest force")
 
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
@@ -48,10 +52,16 @@ def _straightening(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(view.true_strain - values[0] * pull / (pull + values[1]))
 
 
+def _seating(view: RecordView, values: Values) -> FloatArray:
+    """Joints of the load train, or jaws, seat themselves: a (1 - e^(-n / n_c)) is recorded besides."""
+    pull = np.maximum(view.smooth_nominal_data, 0.0)
+    return np.asarray(view.true_strain + values[0] * np.expm1(-pull / values[1]))
+
+
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """A fiftieth and a fifth of the largest nominal stress [MPa]: a strip is straight long before it yields."""
+    """Parts of the largest nominal stress [MPa]: a strip is straight long before it yields."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
-    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.02, 0.2)]
+    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in EFFECTS.take_up_starts]
 
 
 EFFECT = Effect(
@@ -104,6 +114,13 @@ EFFECT = Effect(
                 _PULL,
             ),
             driving_strain=_straightening,
+            starts=_pulls,
+            variant=True,
+        ),
+        Form(
+            "seating",
+            (EffectParameter("seating_strain", "", 0.0, 0.2, 0.005, "some tenths of a per cent"), _SEAT),
+            driving_strain=_seating,
             starts=_pulls,
             variant=True,
         ),
