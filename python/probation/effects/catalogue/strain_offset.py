@@ -53,9 +53,11 @@ def _straightening(view: RecordView, values: Values) -> FloatArray:
 
 
 def _seating(view: RecordView, values: Values) -> FloatArray:
-    """Joints of the load train, or jaws, seat themselves: a (1 - e^(-n / n_c)) is recorded besides."""
-    pull = np.maximum(view.smooth_nominal_data, 0.0)
-    return np.asarray(view.true_strain + values[0] * np.expm1(-pull / values[1]))
+    """Joints of the load train, or jaws, seat themselves for good, and the crosshead travels besides, by
+    a (1 - e^(-n / n_c)) gauge lengths, n the largest nominal stress so far: elongations differ by that.
+    """
+    pull = np.maximum.accumulate(np.maximum(view.smooth_nominal_data, 0.0))
+    return np.asarray(np.log(np.exp(view.true_strain) + values[0] * np.expm1(-pull / values[1])))
 
 
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
