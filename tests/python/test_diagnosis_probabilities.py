@@ -165,6 +165,17 @@ def test_odds_grow_with_the_ratio_of_evidences():
     assert chance[(NAMES[0],)] / chance[(NAMES[1],)] == pytest.approx(np.exp(2.0))
 
 
+@pytest.mark.parametrize(("gain", "counts"), [(30.0, 0.0), (50.0, 0.0), (80.0, 30.0)])
+def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_firsts_form(gain, counts):
+    """The first gains 1000 over none: up to a twentieth of that its form may leave."""
+    first, second = (made(name) for name in NAMES[:2])
+    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1000.0 + gain)
+    found = [hypothesis(), alone(NAMES[0], log_evidence=1000.0), pair]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), 1.0, left_by_forms=0.05)}
+    beforehand = log_prior(tuple(NAMES[:2]), len(NAMES)) - log_prior((NAMES[0],), len(NAMES))
+    assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + counts)
+
+
 @pytest.mark.parametrize("forms", [(), ("second",), ("second", "third")])
 def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     """All equally good: as probable together as an effect of one form that sits in all records."""

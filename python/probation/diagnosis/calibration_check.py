@@ -43,6 +43,11 @@ class CalibrationCheck:
         return EVIDENCE.evidence_power if self.inside else CALIBRATED.evidence_power_outside
 
     @property
+    def left_by_forms(self) -> float:
+        """Part of what an effect gains that the error of its form may leave, in addition to its freedom."""
+        return 0.0 if self.inside else CALIBRATED.left_by_forms_outside
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:

@@ -136,7 +136,8 @@ def causes_of(
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
     found = [each.as_reached(found[0]) for each in found]
-    weighed = given_a_gap(probabilities_of(found, effect_count(considered), calibration.power), p_value)
+    count = effect_count(considered)
+    weighed = given_a_gap(probabilities_of(found, count, calibration.power, calibration.left_by_forms), p_value)
     account = HeldToAccount(base, seed=seed)
     weighed = account.ranked(weighed, calibration.covered)
     chosen = leading(weighed, calibration.covered)

@@ -14,7 +14,7 @@ from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.cause import Cause
@@ -50,7 +50,9 @@ class Weighed:
     hypothesis: Hypothesis
 
 
-def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0) -> list[Weighed]:
+def probabilities_of(
+    hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0, left_by_forms: float = 0.0
+) -> list[Weighed]:
     """Probabilities of all explanations, most probable first.
 
     Parameters
@@ -61,6 +63,9 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float 
         Of the catalogue.
     power : float
         Of the evidence: below 1 it is trusted less.
+    left_by_forms : float
+        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
+        beyond that.
     """
     together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
     for each in _best_starts(hypotheses):
@@ -71,10 +76,12 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float 
             (with_unknown(each.effects), each.evidence.log_evidence_unknown),
         ):
             together.setdefault(effects, []).append((score + inside, each))
+    evidence = _beyond_forms(
+        {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()},
+        left_by_forms,
+    )
     scores = {
-        effects: power * float(logsumexp([score for score, _ in entries]))
-        + log_prior(effects, count)
-        + _log_odds(entries[0][1])
+        effects: power * evidence[effects] + log_prior(effects, count) + _log_odds(entries[0][1])
         for effects, entries in together.items()
     }
     total = float(logsumexp(list(scores.values())))
@@ -83,6 +90,22 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, power: float 
         for effects, score in scores.items()
     ]
     return sorted(found, key=lambda each: -each.probability)
+
+
+def _beyond_forms(evidence: Mapping[tuple[str, ...], float], part: float) -> dict[tuple[str, ...], float]:
+    """Log evidence of all explanations, of several effects without what the error of one of their forms may leave.
+
+    An effect whose form is wrong by a fifth leaves a twenty-fifth of what it gains, and a further effect picks that up.
+    """
+    none = evidence[()]
+
+    def counted(effects: tuple[str, ...]) -> float:
+        own = evidence[effects]
+        alone = max((evidence[(name,)] for name in effects if (name,) in evidence), default=none)
+        excused = part * max(alone - none, 0.0)
+        return own if len(effects) < 2 else min(own, max(alone, own - excused))
+
+    return {effects: counted(effects) for effects in evidence}
 
 
 def effect_count(effects: Sequence[Effect]) -> int:

@@ -29,6 +29,9 @@ _PULL = EffectParameter(
 
 _SEAT = replace(_PULL, name="seating_stress_MPa", reason="joints are tight at some per cent of the largest force")
 
+LEAST_STRETCH = 0.1
+"""Of a specimen, where more travel than there was is taken off."""
+
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
     """Slack is taken up first: the specimen sees nothing until the recorded strain exceeds a."""
@@ -57,7 +60,8 @@ def _seating(view: RecordView, values: Values) -> FloatArray:
     a (1 - e^(-n / n_c)) gauge lengths, n the largest nominal stress so far: elongations differ by that.
     """
     pull = np.maximum.accumulate(np.maximum(view.smooth_nominal_data, 0.0))
-    return np.asarray(np.log(np.exp(view.true_strain) + values[0] * np.expm1(-pull / values[1])))
+    stretch = np.exp(view.true_strain) + values[0] * np.expm1(-pull / values[1])
+    return np.asarray(np.log(np.maximum(stretch, LEAST_STRETCH)))
 
 
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
