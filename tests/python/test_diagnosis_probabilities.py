@@ -176,6 +176,15 @@ def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_first
     assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + counts)
 
 
+def test_of_a_gross_gap_a_further_effect_is_not_taken_for_the_error_of_a_form():
+    """The first gains 100 000, of which a twentieth is far more than what was tried."""
+    first, second = (made(name) for name in NAMES[:2])
+    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1e5 + 1000.0)
+    found = [hypothesis(), alone(NAMES[0], log_evidence=1e5), pair]
+    weighed = probabilities_of(found, len(NAMES), 0.2, left_by_forms=0.05)
+    assert weighed[0].effects == tuple(sorted(NAMES[:2]))
+
+
 @pytest.mark.parametrize("forms", [(), ("second",), ("second", "third")])
 def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     """All equally good: as probable together as an effect of one form that sits in all records."""

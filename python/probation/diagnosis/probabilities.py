@@ -96,13 +96,14 @@ def _beyond_forms(evidence: Mapping[tuple[str, ...], float], part: float) -> dic
     """Log evidence of all explanations, of several effects without what the error of one of their forms may leave.
 
     An effect whose form is wrong by a fifth leaves a twenty-fifth of what it gains, and a further effect picks that up.
+    How much was tried ends at `EVIDENCE.most_left_by_forms`.
     """
     none = evidence[()]
 
     def counted(effects: tuple[str, ...]) -> float:
         own = evidence[effects]
         alone = max((evidence[(name,)] for name in effects if (name,) in evidence), default=none)
-        excused = part * max(alone - none, 0.0)
+        excused = min(part * max(alone - none, 0.0), EVIDENCE.most_left_by_forms)
         return own if len(effects) < 2 else min(own, max(alone, own - excused))
 
     return {effects: counted(effects) for effects in evidence}
