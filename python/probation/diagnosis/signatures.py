@@ -10,7 +10,7 @@ from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
 from probation.settings.detection import DETECTION
-from probation.wording import listed
+from probation.wording import listed, percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,7 +59,11 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
             if drift.heterogeneity_p_value >= DETECTION.signature_level:
                 continue
             reach = max(drift.change.values()) - min(drift.change.values())
-            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {reach:.3g}"
+            value = abs(base.parameters[names.index(drift.parameter)])
+            text = (
+                f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to "
+                f"{percentage(reach / max(value, 1e-300))} % of its value"
+            )
             found.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(found)
 

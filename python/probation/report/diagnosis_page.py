@@ -128,7 +128,9 @@ def _where(diagnosis: Diagnosis) -> Section:
     ]
     if diagnosis.held_out:
         parts.append(held_out_table(diagnosis))
-        parts.append("Expected is what the noise and the uncertainty of the parameters make of a prediction's error.")
+        parts.append(
+            "An error that is smaller than expected counts all the same where its course is not what they make."
+        )
     if diagnosis.located:
         parts.append(where_table(diagnosis)[0])
         parts.append(

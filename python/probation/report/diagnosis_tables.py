@@ -69,7 +69,10 @@ def held_out_table(diagnosis: Diagnosis) -> Table:
         (names[record], f"{held.rms_MPa:.3g}", f"{held.expected_MPa:.3g}", p_text(held.p_value))
         for record, held in diagnosis.held_out.items()
     )
-    caption = "What was only predicted (p: how often noise and the uncertainty of the parameters alone would do it)"
+    caption = (
+        "What was only predicted (expected: by noise, uncertain parameters, specimens that differ; p: how often these "
+        "alone would make an error of this course)"
+    )
     return Table(("record", "rms error [MPa]", "expected [MPa]", "p"), rows, caption)
 
 
