@@ -244,7 +244,8 @@ class Search:
         columns = [
             each
             for each in columns
-            if (each.cause.effect.name, each.cause.records) not in taken and each.cause.effect.name not in present
+            if (each.cause.effect.name, each.cause.records) not in taken
+            and (each.cause.effect.name not in present or each.cause.records is not None)
         ]
         if only is not None:
             columns = [each for each in columns if each.cause.records == only.records]
