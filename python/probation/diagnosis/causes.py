@@ -136,16 +136,22 @@ def causes_of(
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
     found = [each.as_reached(found[0]) for each in found]
-    count = effect_count(considered)
-    weighed = given_a_gap(probabilities_of(found, count, calibration.power, calibration.left_by_forms), p_value)
     account = HeldToAccount(base, seed=seed)
-    weighed = account.ranked(weighed, calibration.covered)
-    chosen = leading(weighed, calibration.covered)
-    left, judged = _judged(chosen, base, account, seed)
-    verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-    causes = Causes(base, considered, found, weighed, judged, verdict)
-    worse = account.worse(causes.best)
-    if UNKNOWN not in weighed[0].effects and (worse or _another_acts(causes.best, base, seed)):
+
+    def judged(left_by_forms: float) -> Causes:
+        weighed = probabilities_of(found, effect_count(considered), calibration.power, left_by_forms)
+        weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
+        left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
+        verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
+        return Causes(base, considered, found, weighed, checked, verdict)
+
+    def leaves_more(causes: Causes) -> bool:
+        return bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed)
+
+    causes = judged(calibration.left_by_forms)
+    if calibration.left_by_forms and (UNKNOWN in causes.weighed[0].effects or leaves_more(causes)):
+        causes = judged(0.0)  # what is left is no error of a form
+    if UNKNOWN not in causes.weighed[0].effects and leaves_more(causes):
         return causes.with_unknown_added()
     return causes
 
