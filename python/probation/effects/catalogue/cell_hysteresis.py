@@ -64,8 +64,8 @@ def _presliding(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
     """Friction that builds up over a way of the force, on the way up, too: the reading is F - a M z / 2, with
     dz = (sgn dF - z) |dF| / r, exact between turns; M is the record's largest force, r a part of it.
     """
-    largest = float(np.max(np.abs(view.nominal_data)))
     force = stress / view.stretch
+    largest = max(float(np.max(np.abs(force))), 1e-300)
     slid = np.zeros(len(force))
     for begin, end in itertools.pairwise(_turns(force)):
         gone = force[begin + 1 : end + 1] - force[begin]
@@ -76,8 +76,8 @@ def _presliding(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
 
 def _stops(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The same with contacts that stick until each slides at a force of its own, evenly from 0 to r."""
-    largest = float(np.max(np.abs(view.nominal_data)))
     force = stress / view.stretch
+    largest = max(float(np.max(np.abs(force))), 1e-300)
     holds = (np.arange(CONTACTS) + 0.5) / CONTACTS * values[1] * largest
     held = np.zeros((len(force), CONTACTS))
     for begin, end in itertools.pairwise(_turns(force)):
