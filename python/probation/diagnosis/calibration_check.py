@@ -10,6 +10,7 @@ import numpy as np
 from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
+from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,9 +53,12 @@ class CalibrationCheck:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:
             return ()
+        low, high = (percentage(each) for each in CALIBRATED.right_elsewhere)
         return (
-            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): they may be too sure, and "
-            f"the answer set holds {100.0 * self.covered:g} % instead of {100.0 * EVIDENCE.credible_set:g} %",
+            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): they are too sure where "
+            f"forms are others; in laboratories of others the leading explanation was right in {low} to {high} % of "
+            f"gaps for which {percentage(CALIBRATED.said_elsewhere)} % were said; the answer set holds "
+            f"{100.0 * self.covered:g} % instead of {100.0 * EVIDENCE.credible_set:g} %",
         )
 
     def to_dict(self) -> dict[str, Any]:
