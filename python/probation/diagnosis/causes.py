@@ -146,14 +146,15 @@ def causes_of(
         return Causes(base, considered, found, weighed, checked, verdict)
 
     def leaves_more(causes: Causes) -> bool:
-        return bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed)
+        known = UNKNOWN not in causes.weighed[0].effects
+        return known and (bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed))
 
     causes = judged(calibration.left_by_forms)
-    if calibration.left_by_forms and (UNKNOWN in causes.weighed[0].effects or leaves_more(causes)):
+    more = leaves_more(causes)
+    if calibration.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
         causes = judged(0.0)  # what is left is no error of a form
-    if UNKNOWN not in causes.weighed[0].effects and leaves_more(causes):
-        return causes.with_unknown_added()
-    return causes
+        more = leaves_more(causes)
+    return causes.with_unknown_added() if more else causes
 
 
 def _searched(

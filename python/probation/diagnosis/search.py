@@ -240,13 +240,7 @@ class Search:
         effects = self.effects if only is None else [each for each in self.effects if each.name == only.effect.name]
         columns = screen(model, at, effects, residual=raw, threads=self.threads, unsolved=unsolved)
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
-        present = {cause.effect.name for cause in leading.causes if cause.records is None}
-        columns = [
-            each
-            for each in columns
-            if (each.cause.effect.name, each.cause.records) not in taken
-            and (each.cause.effect.name not in present or each.cause.records is not None)
-        ]
+        columns = [each for each in columns if (each.cause.effect.name, each.cause.records) not in taken]
         if only is not None:
             columns = [each for each in columns if each.cause.records == only.records]
         elif len(leading.effects) >= SEARCH.most_effects:
