@@ -9,6 +9,7 @@ import pytest
 from campaigns import linear_problem as problem
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
+    Trust,
     Weighed,
     answer_set,
     effect_count,
@@ -171,7 +172,7 @@ def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_first
     first, second = (made(name) for name in NAMES[:2])
     pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1000.0 + gain)
     found = [hypothesis(), alone(NAMES[0], log_evidence=1000.0), pair]
-    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), 1.0, left_by_forms=0.05)}
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(left_by_forms=0.05))}
     beforehand = log_prior(tuple(NAMES[:2]), len(NAMES)) - log_prior((NAMES[0],), len(NAMES))
     assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + counts)
 
@@ -181,7 +182,7 @@ def test_of_a_gross_gap_a_further_effect_is_not_taken_for_the_error_of_a_form():
     first, second = (made(name) for name in NAMES[:2])
     pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1e5 + 1000.0)
     found = [hypothesis(), alone(NAMES[0], log_evidence=1e5), pair]
-    weighed = probabilities_of(found, len(NAMES), 0.2, left_by_forms=0.05)
+    weighed = probabilities_of(found, len(NAMES), Trust(0.2, left_by_forms=0.05))
     assert weighed[0].effects == tuple(sorted(NAMES[:2]))
 
 
@@ -194,18 +195,32 @@ def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     assert chance[("rig_fault",)] == pytest.approx(chance[(NAMES[0],)])
 
 
-def test_the_same_effect_in_another_record_again_must_earn_its_place():
-    """In one of three records, and in two with a size each: odds AGAIN/3 at equal evidence."""
+@pytest.mark.parametrize("records", [2, 3])
+def test_an_effect_in_several_records_each_time_in_its_own_size_must_earn_its_place(records):
+    """In some of three records instead of one: again once, two numbers of records, and which of the sets of so many."""
     effect = made("effect_a", kind="rig")
-    causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:2]]
+    causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:records]]
     other = alone("effect_b")
-    once = {
-        each.effects: each.probability for each in probabilities_of([hypothesis(), hypothesis(causes[0]), other], 6)
-    }
-    twice = {each.effects: each.probability for each in probabilities_of([hypothesis(), hypothesis(*causes), other], 6)}
-    odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, twice)]
-    places = len(effect.placements(effect.forms[0])) * len(VIEWS)
-    assert odds[1] / odds[0] == pytest.approx(EVIDENCE.again_in_another_record / places)
+    once, often = (
+        {each.effects: each.probability for each in probabilities_of([hypothesis(), made_of, other], 6)}
+        for made_of in (hypothesis(causes[0]), hypothesis(*causes))
+    )
+    odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, often)]
+    sets_of_so_many = {2: 3, 3: 1}[records]
+    assert odds[1] / odds[0] == pytest.approx(EVIDENCE.again_in_another_record / 2 * 3 / sets_of_so_many)
+
+
+def test_forms_in_doubt_leave_what_was_probable_beforehand():
+    """With a doubt of 0.4 in which evidence counts for next to nothing, 0.6 of the rest and 0.4 of the prior."""
+    found = [hypothesis(), alone(NAMES[0], log_evidence=300.0), *(alone(name) for name in NAMES[1:])]
+    sure = {each.effects: each.probability for each in probabilities_of(found, len(NAMES))}
+    trust = Trust(doubt=0.4, power_in_doubt=1e-12)
+    doubted = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), trust)}
+    prior = {name: np.exp(log_prior(name, len(NAMES))) for name in sure}
+    for name, chance in doubted.items():
+        expected = 0.6 * sure[name] + 0.4 * prior[name] / sum(prior[each] for each in prior if "unknown" not in each)
+        if "unknown" not in name:
+            assert chance == pytest.approx(expected)
 
 
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.diagnosis.probabilities import Trust
 from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
@@ -39,14 +40,16 @@ class CalibrationCheck:
         return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
 
     @property
-    def power(self) -> float:
-        """Power to which evidence counts: less where nobody has seen how far it is to be trusted."""
-        return EVIDENCE.evidence_power if self.inside else CALIBRATED.evidence_power_outside
-
-    @property
-    def left_by_forms(self) -> float:
-        """Part of what an effect gains that the error of its form may leave, in addition to its freedom."""
-        return 0.0 if self.inside else CALIBRATED.left_by_forms_outside
+    def trust(self) -> Trust:
+        """How far evidence counts: less where nobody has seen how far it is to be trusted."""
+        if self.inside:
+            return Trust(EVIDENCE.evidence_power, EVIDENCE.share_worth_naming)
+        return Trust(
+            CALIBRATED.evidence_power_outside,
+            CALIBRATED.left_by_forms_outside,
+            CALIBRATED.doubt_outside,
+            CALIBRATED.power_in_doubt,
+        )
 
     @property
     def warnings(self) -> tuple[str, ...]:

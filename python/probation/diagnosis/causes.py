@@ -27,6 +27,7 @@ from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.budget import Budget
     from probation.diagnosis.calibration_check import CalibrationCheck
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.probabilities import Trust, Weighed
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
     from probation.diagnosis.skipped import Skipping
     from probation.effects.effect import Effect
@@ -131,28 +132,33 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(probabilities_of(found, effect_count(considered), calibration.power), p_value)
+        weighed = given_no_gap(probabilities_of(found, effect_count(considered), calibration.trust), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
     found = [each.as_reached(found[0]) for each in found]
     account = HeldToAccount(base, seed=seed)
 
-    def judged(left_by_forms: float) -> Causes:
-        weighed = probabilities_of(found, effect_count(considered), calibration.power, left_by_forms)
+    def judged(trust: Trust) -> Causes:
+        weighed = probabilities_of(found, effect_count(considered), trust)
         weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
         left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
+        left = left and not _closes_all(weighed[0].hypothesis, base)
         verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
         return Causes(base, considered, found, weighed, checked, verdict)
 
     def leaves_more(causes: Causes) -> bool:
-        known = UNKNOWN not in causes.weighed[0].effects
-        return known and (bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed))
+        if UNKNOWN in causes.weighed[0].effects:
+            return False
+        beyond_forms = not _closes_all(causes.best, base) and _another_acts(causes.best, base, seed)
+        return beyond_forms or bool(account.worse(causes.best))
 
-    causes = judged(calibration.left_by_forms)
+    trust = calibration.trust
+    causes = judged(trust)
     more = leaves_more(causes)
-    if calibration.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
-        causes = judged(0.0)  # what is left is no error of a form
+    if trust.left_by_forms > EVIDENCE.share_worth_naming and (more or UNKNOWN in causes.weighed[0].effects):
+        # What is left is no error of a form.
+        causes = judged(replace(trust, left_by_forms=EVIDENCE.share_worth_naming))
         more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
 
@@ -191,6 +197,13 @@ def _judged(
             refused = tuple(one.text for one in account.worse(each.hypothesis))
             found[each.effects] = replace(made, notes=(*made.notes, *refused))
     return left, found
+
+
+def _closes_all(best: Hypothesis, base: BaseFit) -> bool:
+    """Whether the best explanation closes the gap but for a part that is not worth naming."""
+    noise = len(base.whitened)
+    gap = base.refit.chi_square - noise
+    return bool(best.causes) and best.refit.chi_square - noise < EVIDENCE.share_worth_naming * gap
 
 
 def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:

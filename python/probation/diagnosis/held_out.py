@@ -12,6 +12,7 @@ import numpy as np
 
 from probation.diagnosis.probabilities import leading, normalised
 from probation.inference.model import CampaignModel
+from probation.inference.on_all_records import on_all_records
 from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
@@ -80,15 +81,15 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     rng = np.random.default_rng(seed)
     found = hypothesis.refit
     everywhere = CampaignModel(base.law, base.views)
-    explained = everywhere.with_causes(found.model.causes)
+    explained = on_all_records(found, base.views)
     before = everywhere.residual(base.before)
     try:
-        after, jacobian = explained.residual_and_jacobian(found.parameters)
+        after, jacobian = explained.model.residual_and_jacobian(explained.parameters)
     except UNSOLVABLE:  # what cannot be predicted cannot judge; `shrink_of` takes note of it
         return ()
     spread, directions = np.linalg.eigh(hypothesis.evidence.covariance)
     slopes = found.coordinates.slopes(found.parameters)
-    columns = (jacobian * slopes) @ (directions * np.sqrt(np.maximum(spread, 0.0)))
+    columns = (jacobian @ explained.from_fitted * slopes) @ (directions * np.sqrt(np.maximum(spread, 0.0)))
     worse = []
     for record, noise in zip(base.held_out, base.held_out_noises, strict=True):
         rows = everywhere.rows(record.name)

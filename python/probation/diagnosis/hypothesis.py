@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import log
+from math import comb, log
 from typing import TYPE_CHECKING
 
 from probation.settings.evidence import EVIDENCE
@@ -60,9 +60,28 @@ class Hypothesis:
         return tuple(sorted({cause.effect.name for cause in self.causes}))
 
     @property
-    def log_again(self) -> float:
-        """Log prior of what acts once more in another record, with a size of its own."""
-        return (len(self.causes) - len(self.effects)) * log(EVIDENCE.again_in_another_record)
+    def log_share(self) -> float:
+        """Log prior share of its forms and places among those that its effects may have.
+
+        An effect that acts more than once, in several records or in one in addition to all, pays for that once; how
+        many records it acts in, and which, is as probable beforehand as any other.
+        """
+        return sum(self._log_share(name) for name in self.effects)
+
+    def _log_share(self, name: str) -> float:
+        causes = [cause for cause in self.causes if cause.effect.name == name]
+        effect, views = causes[0].effect, len(self.refit.model.views)
+        share = -len(causes) * log(len(effect.forms))
+        if len(causes) > 1:
+            share += log(EVIDENCE.again_in_another_record)
+        if any(cause.records is None for cause in causes):
+            share -= log(max(len(effect.placements(cause.form)) for cause in causes))
+        alone = {cause.records: len(effect.placements(cause.form)) for cause in causes if cause.records is not None}
+        if alone:
+            share -= log(max(alone.values()) * comb(views, len(alone)))
+            if len(alone) > 1:
+                share -= log(views - 1)
+        return share
 
     @property
     def records(self) -> tuple[str, ...]:

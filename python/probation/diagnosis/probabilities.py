@@ -7,7 +7,7 @@ from math import comb, e, exp, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
-from scipy.special import logsumexp
+from scipy.special import logsumexp, softmax
 
 from probation.inference.candidate import Key, cause_key
 from probation.inference.unknown import UNKNOWN
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.effects.cause import Cause
     from probation.effects.effect import Effect
 
 
@@ -50,9 +49,33 @@ class Weighed:
     hypothesis: Hypothesis
 
 
-def probabilities_of(
-    hypotheses: Sequence[Hypothesis], count: int, power: float = 1.0, left_by_forms: float = 0.0
-) -> list[Weighed]:
+@dataclass(frozen=True)
+class Trust:
+    """How far the evidence of forms counts.
+
+    Attributes
+    ----------
+    power : float
+        To which it counts: below 1 it is trusted less.
+    left_by_forms : float
+        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
+        beyond that.
+    doubt : float
+        Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
+    power_in_doubt : float
+    """
+
+    power: float = 1.0
+    left_by_forms: float = 0.0
+    doubt: float = 0.0
+    power_in_doubt: float = 1.0
+
+
+EXACT = Trust()
+"""Forms are taken at their word."""
+
+
+def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust = EXACT) -> list[Weighed]:
     """Probabilities of all explanations, most probable first.
 
     Parameters
@@ -61,16 +84,12 @@ def probabilities_of(
         The base law's first; several forms and places of the same effects are summed.
     count : int
         Of the catalogue.
-    power : float
-        Of the evidence: below 1 it is trusted less.
-    left_by_forms : float
-        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
-        beyond that.
+    trust : Trust
     """
     together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
     for each in _best_starts(hypotheses):
         value = each.evidence.log_evidence
-        inside = sum(_form_and_place(cause, each) for cause in each.causes) + each.log_again
+        inside = each.log_share
         for effects, score in (
             (each.effects, value),
             (with_unknown(each.effects), each.evidence.log_evidence_unknown),
@@ -78,16 +97,15 @@ def probabilities_of(
             together.setdefault(effects, []).append((score + inside, each))
     evidence = _beyond_forms(
         {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()},
-        left_by_forms,
+        trust.left_by_forms,
     )
-    scores = {
-        effects: power * evidence[effects] + log_prior(effects, count) + _log_odds(entries[0][1])
-        for effects, entries in together.items()
-    }
-    total = float(logsumexp(list(scores.values())))
+    gained = np.array([evidence[effects] for effects in together])
+    before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
+    chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
+    chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
     found = [
-        Weighed(effects, float(np.exp(score - total)), _standing_for(together[effects]))
-        for effects, score in scores.items()
+        Weighed(effects, chance, _standing_for(entries))
+        for (effects, entries), chance in zip(together.items(), chances.tolist(), strict=True)
     ]
     return sorted(found, key=lambda each: -each.probability)
 
@@ -270,14 +288,3 @@ def _log_odds(hypothesis: Hypothesis) -> float:
     """Log odds of its effects relative to those of usual ones, each effect once."""
     odds = {cause.effect.name: cause.effect.odds for cause in hypothesis.causes}
     return sum(log(each) for each in odds.values())
-
-
-def _form_and_place(cause: Cause, hypothesis: Hypothesis) -> float:
-    """Log share of a form among an effect's, and of its place among those where it may sit."""
-    effect, form = cause.effect, cause.form
-    places = effect.placements(form)
-    records = len(hypothesis.refit.model.views)
-    share = 1.0 / len(places)
-    if cause.records is not None:
-        share /= records
-    return log(share / len(effect.forms))

@@ -145,17 +145,19 @@ class Search:
             found += self._candidates_at(start)
         candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
-        begun = self._refitted(self.base.refit, first, self.base.other_starts, SEARCH.first_steps)
+        starts = [*_alone(first), *_promising_in_several(candidates)]
+        begun = self._refitted(self.base.refit, starts, self.base.other_starts, SEARCH.first_steps)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         polished = self._further(running, MOST_STEPS)
-        keys = {cause_key(each.model.causes[-1]) for each in running}
+        single = [each for each in running if len(each.model.causes) == 1]
+        keys = {cause_key(each.model.causes[0]) for each in single}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [each for each in others if cause_key(each.cause) in keys]
-        polished += self._refitted(self.base.refit, more, self.base.other_starts)
+        polished += self._refitted(self.base.refit, _alone(more), self.base.other_starts)
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
-            self.found += self._judged(self._begun_jointly(running))
+            self.found += self._judged(self._begun_jointly(single))
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both."""
@@ -250,8 +252,10 @@ class Search:
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
         chosen = _forms_of_the_best([each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions)
-        begun = self._refitted(leading.refit, chosen, steps=SEARCH.first_steps)
-        ahead = _least_of_each_effect(begun)
+        most = max((each.gain for each in ranked), default=0.0)
+        several = [each for each in _in_several(ranked) if only is None and _gain(each) > most]
+        begun = self._refitted(leading.refit, [*_alone(chosen), *several], steps=SEARCH.first_steps)
+        ahead = _least_of_each_effect(begun, len(leading.causes))
         kept = {id(each) for each in ahead}
         self.found += self._judged([each for each in begun if id(each) not in kept])
         self.found += self._judged(self._further(ahead, MOST_STEPS))
@@ -347,21 +351,25 @@ class Search:
     def _refitted(
         self,
         before: Refit,
-        candidates: Iterable[Candidate],
+        added: Iterable[Sequence[Candidate]],
         other_starts: Sequence[FloatArray] = (),
         steps: int = MOST_STEPS,
     ) -> list[Refit]:
-        """Refits of candidates jointly with the causes that are there, from where these are and from other starts."""
+        """Refits of candidates jointly with the causes that are there, from where these are and from other starts.
+
+        Every item of `added` is what is added at once: a candidate, or those of one effect in several records.
+        """
         jobs = []
-        for candidate in candidates:
-            causes = [*before.model.causes, candidate.cause]
+        for together in added:
+            causes = [*before.model.causes, *(each.cause for each in together)]
             try:
                 model = before.model.with_causes(causes)
             except UNSOLVABLE as error:
                 self.skipping.hypothesis(causes, error)
                 continue
-            begun = (before.parameters, *other_starts) if candidate.base is None else (candidate.base,)
-            jobs += [(model, np.concatenate([start, candidate.values])) for start in begun]
+            own = together[0].base
+            begun = (before.parameters, *other_starts) if own is None else (own,)
+            jobs += [(model, np.concatenate([start, *(each.values for each in together)])) for start in begun]
         return self._solved(jobs, steps)
 
     def _further(self, refits: Sequence[Refit], steps: int) -> list[Refit]:
@@ -491,8 +499,8 @@ class Search:
 
 
 def _standing(hypothesis: Hypothesis) -> float:
-    """Evidence, less what it costs that an effect acts in another record, too."""
-    return hypothesis.evidence.log_evidence + hypothesis.log_again
+    """Evidence, and how probable its forms and places are among those that its effects may have."""
+    return hypothesis.evidence.log_evidence + hypothesis.log_share
 
 
 def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
@@ -544,16 +552,55 @@ def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
     return found
 
 
+def _alone(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
+    """Each to be added by itself."""
+    return [(each,) for each in candidates]
+
+
+def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
+    """Of each effect its starts in all records where it gains: what acts in several is not quite alike in them.
+
+    Specimens have sections of their own, and a slip its own instant. So each record has its own best start; and once
+    more all have the same form from the same shapes, those that gain most together: a start that is best in one record
+    by itself may be far from what acts there.
+    """
+    best: dict[str, dict[tuple[str, ...], Candidate]] = {}
+    alike: dict[tuple[str, str, tuple[float, ...]], dict[tuple[str, ...], Candidate]] = {}
+    for each in candidates:
+        cause = each.cause
+        if each.base is None and cause.records is not None and each.gain > SEARCH.worth_refitting:
+            best.setdefault(cause.effect.name, {}).setdefault(cause.records, each)
+            start = cause.effect.name, cause.form.name, each.values[1:]
+            alike.setdefault(start, {}).setdefault(cause.records, each)
+    found = []
+    for name, own in best.items():
+        starts = [tuple(places.values()) for (effect, *_), places in alike.items() if effect == name]
+        for together in (tuple(own.values()), max(starts, key=_gain)):
+            if len(together) > 1 and together not in found:
+                found.append(together)
+    return found
+
+
+def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
+    """Those in several records that together are no further behind than a promising single one."""
+    least = _least_promising(candidates)
+    return [each for each in _in_several(candidates) if _gain(each) >= least]
+
+
+def _gain(together: Sequence[Candidate]) -> float:
+    """What candidates in different records gain together, were the law's parameters held."""
+    return sum(each.gain for each in together)
+
+
 def _hidden(single: Refit) -> tuple[str, tuple[str, ...] | None] | None:
     """By which faults a single cause may be hidden, and where it acts; None if by none."""
     cause = single.model.causes[-1]
     return None if cause.form.hidden_by is None else (cause.form.hidden_by, cause.records)
 
 
-def _placed(refit: Refit) -> tuple[str, tuple[str, ...] | None]:
-    """The effect of a single cause, and where it acts."""
-    cause = refit.model.causes[-1]
-    return cause.effect.name, cause.records
+def _placed(refit: Refit) -> frozenset[tuple[str, tuple[str, ...] | None]]:
+    """The effect of a refit, and where it acts."""
+    return frozenset((cause.effect.name, cause.records) for cause in refit.model.causes)
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
@@ -561,10 +608,14 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
 
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
+    least = _least_promising(candidates)
+    return [each for each in candidates if each.gain >= least and each.gain > 0.0]
+
+
+def _least_promising(candidates: Sequence[Candidate]) -> float:
     best = max((each.gain for each in candidates), default=0.0)
     strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
-    least = best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
-    return [each for each in candidates if each.gain >= least and each.gain > 0.0]
+    return best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
 
 
 def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: int) -> list[Candidate]:
@@ -593,12 +644,12 @@ def _forms_of_the_best(candidates: Sequence[Candidate], count: int) -> list[Cand
     return list(found.values())
 
 
-def _least_of_each_effect(refits: Sequence[Refit]) -> list[Refit]:
-    """Of the forms of each effect that was added last, the one that leaves least."""
-    least: dict[tuple[str, bool], Refit] = {}
+def _least_of_each_effect(refits: Sequence[Refit], before: int) -> list[Refit]:
+    """Of the forms of each effect that was added to so many causes, the one that leaves least; in several apart."""
+    least: dict[tuple[str, bool, bool], Refit] = {}
     for each in refits:
-        cause = each.model.causes[-1]
-        key = cause.effect.name, cause.records is None
+        added = each.model.causes[before:]
+        key = added[0].effect.name, added[0].records is None, len(added) > 1
         if key not in least or each.chi_square < least[key].chi_square:
             least[key] = each
     return list(least.values())

@@ -10,6 +10,7 @@ import numpy as np
 from probation.diagnosis.closure import Piece, closure_of
 from probation.diagnosis.result import RecordCurves, Shrink
 from probation.inference.model import CampaignModel
+from probation.inference.on_all_records import on_all_records
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.skipped import Skipping
     from probation.inference.base_fit import BaseFit
+    from probation.inference.on_all_records import OnAllRecords
 
 
 def shrink_of(
@@ -50,7 +52,7 @@ def shrink_of(
     everywhere = CampaignModel(base.law, base.views)
     before = everywhere.predict(base.before)
     causes = best.refit.model.causes
-    after = _predicted(everywhere.with_causes(causes), best.refit.parameters, before, skipping) if causes else before
+    after = _predicted(on_all_records(best.refit, base.views), before, skipping) if causes else before
     noises = {noise.name: noise for noise in base.whitened.noises} | {
         noise.name: noise for noise in base.held_out_noises
     }
@@ -110,11 +112,10 @@ def shrink_of(
     return shrink, curves
 
 
-def _predicted(
-    model: CampaignModel, parameters: FloatArray, before: dict[str, FloatArray], skipping: Skipping
-) -> dict[str, FloatArray]:
+def _predicted(explained: OnAllRecords, before: dict[str, FloatArray], skipping: Skipping) -> dict[str, FloatArray]:
     """Predictions of an explanation by record; a record that it cannot be solved for keeps what it had."""
-    base, causes = model.split(parameters)
+    model = explained.model
+    base, causes = model.split(explained.parameters)
     found = dict(before)
     for view in model.views:
         try:

@@ -35,6 +35,19 @@ class CalibratedRanges:
         "a form that is wrong by 22 %.",
         source="docs/laboratories.md: university, seed 51001; industry, seed 51002",
     )
+    doubt_outside: float = calibrated(
+        0.4,
+        "probability",
+        "That the forms of a campaign outside these ranges are so far from the catalogue's that evidence counts to "
+        "`power_in_doubt` only.",
+        source="docs/tried.md: university, seed 51001; industry, seed 51002",
+    )
+    power_in_doubt: float = calibrated(
+        0.05,
+        "-",
+        "Power of the evidence where its forms are in doubt.",
+        source="docs/tried.md: university, seed 51001; industry, seed 51002",
+    )
     said_elsewhere: float = calibrated(
         0.7,
         "probability",

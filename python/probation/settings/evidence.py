@@ -44,8 +44,8 @@ class EvidenceSettings:
     again_in_another_record: float = chosen(
         0.03,
         "-",
-        "Prior probability of an effect in another record, too, in another form or size, over that of its being in "
-        "one.",
+        "Prior probability of an effect in several records, or in one in addition to all, each time in a form and a "
+        "size of its own, over that of its acting once.",
     )
     left_to_an_unknown: float = chosen(
         0.9,
@@ -162,7 +162,10 @@ class EvidenceSettings:
         source="docs/blind-results.md: calibrate, seed 43",
     )
     share_worth_naming: float = chosen(
-        0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
+        0.01,
+        "-",
+        "Part of the gap below which an effect is not named jointly with those that close the rest; and of the log "
+        "evidence of one effect, for which no further one counts.",
     )
     nearly_all: float = chosen(
         0.9,

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 _LIMIT = EffectParameter("inverse_limit_per_MPa", "1/MPa", 0.0, 1.0, 0.03, "a limit of some ten MPa of nominal stress")
 _ROUNDING = 0.02
-"""Width of the bend over the limit [-] from which a search begins: some per cent of a cell's range."""
+"""Usual width of the bend over the limit [-]: some per cent of a cell's range."""
+_ROUNDINGS = (_ROUNDING, 0.2)
+"""Widths from which searches begin."""
 
 
 def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
@@ -47,8 +49,8 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
 
 
 def _bent_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """The same, usually rounded."""
-    return [(*start, _ROUNDING) for start in _starts(views, residuals)]
+    """The same, bent narrowly and widely."""
+    return [(*start, rounding) for start in _starts(views, residuals) for rounding in _ROUNDINGS]
 
 
 EFFECT = Effect(
@@ -78,12 +80,12 @@ EFFECT = Effect(
                     name="rounding",
                     unit="",
                     lower=1e-3,
-                    upper=0.08,
+                    upper=1.0,
                     centre=_ROUNDING,
-                    scale=0.8,
+                    scale=1.2,
                     log=True,
-                    starts=(_ROUNDING,),
-                    reason="an amplifier is linear up to some per cent of its range",
+                    starts=_ROUNDINGS,
+                    reason="an amplifier is linear up to some per cent of its range, a poor one up to half of it",
                 ),
             ),
             recorded_stress=_bend,

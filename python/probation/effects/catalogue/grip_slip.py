@@ -55,9 +55,12 @@ def _slip(view: RecordView, values: Values) -> FloatArray:
 
 
 def _creeping(view: RecordView, values: Values) -> FloatArray:
-    """From an instant on the specimen creeps out of its grips, ever slower, and has lost a in the end."""
+    """From an instant on the specimen creeps out of its grips, ever slower, and has lost a in the end.
+
+    Of what is still to be lost after a time t, exp(-(t / t_c)^b) is left (Kohlrausch 1854).
+    """
     since = np.maximum(view.elapsed - values[1] * view.duration, 0.0)
-    return view.true_strain + values[0] * np.expm1(-since / (values[2] * view.duration))
+    return view.true_strain + values[0] * np.expm1(-((since / (values[2] * view.duration)) ** values[3]))
 
 
 def _progressive(view: RecordView, values: Values) -> FloatArray:
@@ -118,6 +121,16 @@ EFFECT = Effect(
                     log=True,
                     starts=_FADING,
                     reason="dry contacts under load creep at a rate that falls, for seconds to minutes",
+                ),
+                EffectParameter(
+                    name="stretching_exponent",
+                    unit="",
+                    lower=0.3,
+                    upper=1.0,
+                    centre=0.8,
+                    scale=0.3,
+                    log=True,
+                    reason="contacts that age creep over more decades than one time constant has",
                 ),
             ),
             driving_strain=_creeping,

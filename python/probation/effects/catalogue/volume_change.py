@@ -28,6 +28,14 @@ def _from_onset(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
     return stress * np.exp(values[0] * np.maximum(view.true_strain - values[1], 0.0))
 
 
+def _opening(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Voids open over a range of strains about e_c, stay open, and no more come: a (1 - exp(-(e_m / e_c)^2)).
+
+    e_m is the largest strain so far.
+    """
+    return np.asarray(stress * np.exp(-values[0] * np.expm1(-((view.largest_strain / values[1]) ** 2))))
+
+
 def _as_measured(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The true stress overlooks the part a of the measured volume strain."""
     return stress if view.volume_strain is None else stress * np.exp(values[0] * view.volume_strain)
@@ -42,11 +50,17 @@ EFFECT = Effect(
     title="change of volume",
     physics=(
         "Voids make the section larger than constant volume says: the true stress is overstated.\n"
-        "Amplitude: volume strain per true strain; where every record has its measured transverse strain, the part of "
-        "the measured volume strain that the true stress overlooks."
+        "Amplitude: volume strain per true strain, or in the end; where every record has its measured transverse "
+        "strain, the part of the measured volume strain that the true stress overlooks."
     ),
-    source="Farge et al. 2015, J. Polym. Sci. B 53, 1470; Bucknall & Clayton 1972",
-    shows_in="records reaching large strains; it goes back on unloading; a measured transverse strain judges it",
+    source=(
+        "Farge et al. 2015, J. Polym. Sci. B 53, 1470; Bucknall & Clayton 1972; Weibull 1951, J. Appl. Mech. 18, 293 "
+        "(one void after the other)"
+    ),
+    shows_in=(
+        "records reaching large strains; it goes back on unloading, or voids stay; a measured transverse strain "
+        "judges it"
+    ),
     kind="rig",
     forms=(
         Form(
@@ -72,6 +86,26 @@ EFFECT = Effect(
             ),
             recorded_stress=_from_onset,
             needs=_not_all_measured,
+        ),
+        Form(
+            "opening",
+            (
+                EffectParameter("volume_strain", "", 0.0, 1.0, 0.1, _REASON),
+                EffectParameter(
+                    name="opening_strain",
+                    unit="",
+                    lower=0.01,
+                    upper=2.0,
+                    centre=0.2,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.1, 0.3, 0.8),
+                    reason="voids open around yield, one after the other",
+                ),
+            ),
+            recorded_stress=_opening,
+            needs=_not_all_measured,
+            variant=True,
         ),
         Form(
             "as_measured",

@@ -1,0 +1,82 @@
+"""An explanation on all records of a campaign: also on those that were held out, where it was not sought."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation.inference.model import CampaignModel
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.effects.cause import Cause
+    from probation.effects.record_view import RecordView
+    from probation.inference.refit import Refit
+
+
+@dataclass(frozen=True, eq=False)
+class OnAllRecords:
+    """A model of all records with an explanation, and its parameters.
+
+    What acts in every fitted record, each time with a size of its own, acts in the others, too: with the mean of its
+    parameters, in the form that it has in most of them. What acts in some of several fitted records is theirs alone.
+
+    Attributes
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+    from_fitted : ndarray, shape (n_parameters, n_fitted_parameters)
+        These parameters over those of the refit.
+    """
+
+    model: CampaignModel
+    parameters: FloatArray
+    from_fitted: FloatArray
+
+
+def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
+    """An explanation on all records.
+
+    Parameters
+    ----------
+    found : Refit
+    views : sequence of RecordView
+        Those that were fitted and those that were held out.
+    """
+    fitted = {view.id for view in found.model.views}
+    others = tuple(view.id for view in views if view.id not in fitted)
+    causes, rows = list(found.model.causes), [np.eye(len(found.parameters))]
+    for own in _in_each(causes, fitted) if others and len(fitted) > 1 else ():
+        usual = Counter(cause.form.name for cause in own).most_common(1)[0][0]
+        alike = [cause for cause in own if cause.form.name == usual]
+        causes.append(replace(alike[0], records=others))
+        rows.append(_mean_of(alike, found))
+    from_fitted = np.vstack(rows)
+    model = CampaignModel(found.model.law, views, causes)
+    return OnAllRecords(model, from_fitted @ found.parameters, from_fitted)
+
+
+def _in_each(causes: Iterable[Cause], fitted: set[str]) -> list[list[Cause]]:
+    """The causes of every effect that acts in each of the fitted records apart."""
+    apart: dict[str, list[Cause]] = {}
+    for cause in causes:
+        if cause.records is not None:
+            apart.setdefault(cause.effect.name, []).append(cause)
+    return [own for own in apart.values() if {record for cause in own for record in cause.records or ()} == fitted]
+
+
+def _mean_of(alike: Sequence[Cause], found: Refit) -> FloatArray:
+    """The mean of the parameters of causes of one form, over those of a refit; shape (n_of_the_form, n_parameters)."""
+    count = len(alike[0].form.parameters)
+    rows = np.zeros((count, len(found.parameters)))
+    first = found.model.base_count
+    for cause in found.model.causes:
+        if cause in alike:
+            rows[:, first : first + count] += np.eye(count) / len(alike)
+        first += len(cause.form.parameters)
+    return rows
