@@ -401,7 +401,8 @@ class Search:
 
         With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
         they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
-        of specimens that differ would leave more. Elsewhere a refit of specimens that differ comes first.
+        of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
+        record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
         """
         problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         if not self.base.scatter.any:
@@ -420,7 +421,10 @@ class Search:
             found = refit(problem, begun.parameters, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, alike, found.parameters):
                 return found
-        return refit(problem, alike, most_steps=0)
+        there = refit(problem, alike, most_steps=0)
+        if there.chi_square <= self.base.refit.chi_square:
+            return there
+        return refit(problem, begun.parameters, most_steps=steps)
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""
