@@ -119,7 +119,10 @@ class SmoothingSettings:
     sine_blocks: int = chosen(400, "means", "Means of neighbouring samples in which sines are looked for.")
     sine_spacing: float = chosen(0.25, "cycles per record", "Spacing of the frequencies at which a sine begins.")
     lag_times: tuple[float, ...] = chosen(
-        (0.5, 1.0, 2.0, 4.0), "sampling interval", "Time constants of the lags at a start."
+        (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "sampling interval", "Time constants of the lags at a start."
+    )
+    lag_reach: float = chosen(
+        3.0, "longest lag", "Samples from a start, over the longest lag's, within which a bend may be a lag."
     )
     trends: int = chosen(50, "sizes", "Sizes of an unknown trend of the strain that are averaged over.")
     wanders: int = chosen(20, "sizes", "Sizes of an unknown wander of its slope that are averaged over.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,7 +37,8 @@ def find_jumps(
     through a window on each side: their slopes must differ by `least_jump` of the steeper one and by
     `jump_significance` standard errors (of the samples around, where they scatter more), most so within a window, and
     the corner between them must describe the samples better than a cubic by `jump_evidence`. It is put where it
-    leaves least. Where the stress has a corner, the strain needs to confirm no more than that (`_with_stress`).
+    leaves least. Where the stress has a corner, the strain needs to confirm no more than that (`_with_stress`). What is
+    a machine's lag behind its command is none (`_without_lags`).
 
     Parameters
     ----------
@@ -55,9 +57,9 @@ def find_jumps(
         return _core.History.find_rate_jumps(time, true_strain)
     jumps = _jumps_in_noise(time, true_strain, noise)
     stress_noise = 0.0 if true_stress is None else noise_level(time, true_stress)
-    if true_stress is None or stress_noise == 0.0:
-        return jumps
-    return _with_stress(time, true_strain, noise, jumps, _jumps_in_noise(time, true_stress, stress_noise))
+    if true_stress is not None and stress_noise > 0.0:
+        jumps = _with_stress(time, true_strain, noise, jumps, _jumps_in_noise(time, true_stress, stress_noise))
+    return _without_lags(time, true_strain, noise, jumps)
 
 
 def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[int]:
@@ -103,6 +105,34 @@ def _with_stress(
         elif _is_jump(time, true_strain, noise, corner, found):
             found = sorted([*found, corner])
     return found
+
+
+def _without_lags(time: FloatArray, true_strain: FloatArray, noise: float, jumps: Sequence[int]) -> list[int]:
+    """Jumps without those at which a machine is only getting up to the speed of the start, or of the jump before.
+
+    A first-order lag behind a change of the command bends the strain within some time constants. Two lines describe
+    that better than a cubic does; a parabola with a fading exponential describes it as well as they do.
+    """
+    found: list[int] = []
+    borders = [*jumps, len(time) - 1]
+    for jump, after in pairwise(borders):
+        before = found[-1] if found else 0
+        if not _is_lag(time, true_strain, noise, before, jump, after):
+            found.append(jump)
+    return found
+
+
+def _is_lag(time: FloatArray, true_strain: FloatArray, noise: float, before: int, jump: int, after: int) -> bool:
+    if jump - before > SMOOTHING.lag_reach * max(SMOOTHING.lag_times):
+        return False
+    part = slice(before, min(after, 2 * jump - before + _smallest_window(time)) + 1)
+    t, y = time[part] - time[before], true_strain[part]
+    corner = min(_left(t, y, t[at], 1) for at in range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1)))
+    interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
+    fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
+    bent = [np.column_stack([np.ones_like(t), t, t**2, each]) for each in fading]
+    lagging = min(float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2)) for basis in bent)
+    return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
 
 
 def _around(time: FloatArray, first: int, last: int, others: Sequence[int]) -> slice:

@@ -57,7 +57,7 @@ def _slip(view: RecordView, values: Values) -> FloatArray:
 def _creeping(view: RecordView, values: Values) -> FloatArray:
     """From an instant on the specimen creeps out of its grips, ever slower, and has lost a in the end.
 
-    Of what is still to be lost after a time t, exp(-(t / t_c)^b) is left (Kohlrausch 1854).
+    Of what is still to be lost after a time t, exp(-(t / t_c)^b) is left (Williams and Watts 1970).
     """
     since = np.maximum(view.elapsed - values[1] * view.duration, 0.0)
     return view.true_strain + values[0] * np.expm1(-((since / (values[2] * view.duration)) ** values[3]))
@@ -91,7 +91,7 @@ EFFECT = Effect(
     ),
     source=(
         "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
-        "Rev. E 49, 4973 (dry contacts creep)"
+        "Rev. E 49, 4973 (dry contacts creep); Williams & Watts 1970 (over several decades)"
     ),
     shows_in="one record, from one instant on: the stress drops and recovers; or all records at high stress",
     kind="rig",
