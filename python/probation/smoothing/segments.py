@@ -57,9 +57,15 @@ def find_jumps(
         return _core.History.find_rate_jumps(time, true_strain)
     jumps = _jumps_in_noise(time, true_strain, noise)
     stress_noise = 0.0 if true_stress is None else noise_level(time, true_stress)
+    corners: list[int] = []
     if true_stress is not None and stress_noise > 0.0:
-        jumps = _with_stress(time, true_strain, noise, jumps, _jumps_in_noise(time, true_stress, stress_noise))
-    return _without_lags(time, true_strain, noise, jumps)
+        seen = _jumps_in_noise(time, true_stress, stress_noise)
+        jumps = _with_stress(time, true_strain, noise, jumps, seen)
+        corners = _without_lags(time, true_stress, stress_noise, seen, bends=True)
+    return [
+        jump if jump in corners else _begun(time, true_strain, noise, jump, (before, after))
+        for before, jump, after in _between(_without_lags(time, true_strain, noise, jumps, corners), len(time))
+    ]
 
 
 def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[int]:
@@ -69,10 +75,9 @@ def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[
     for window in (factor * smallest for factor in SMOOTHING.wider_jump_windows):
         if len(time) >= 4 * window:
             jumps += _jumps_in_windows(time, values, noise, window, jumps)
-    borders = [0, *sorted(jumps), len(time) - 1]
     return [
         _placed(time, values, jump, smallest, (before, after), noise)
-        for before, jump, after in zip(borders, borders[1:], borders[2:], strict=False)
+        for before, jump, after in _between(jumps, len(time))
     ]
 
 
@@ -107,30 +112,72 @@ def _with_stress(
     return found
 
 
-def _without_lags(time: FloatArray, true_strain: FloatArray, noise: float, jumps: Sequence[int]) -> list[int]:
+def _without_lags(
+    time: FloatArray,
+    values: FloatArray,
+    noise: float,
+    jumps: Sequence[int],
+    sharp: Sequence[int] = (),
+    *,
+    bends: bool = False,
+) -> list[int]:
     """Jumps without those at which a machine is only getting up to the speed of the start, or of the jump before.
 
     A first-order lag behind a change of the command bends the strain within some time constants. Two lines describe
-    that better than a cubic does; a parabola with a fading exponential describes it as well as they do.
+    that better than a cubic does; a parabola with a fading exponential describes it as well as they do. The stress may
+    show that a jump is sharp; then it is no lag. It bends behind its corners.
     """
     found: list[int] = []
     borders = [*jumps, len(time) - 1]
     for jump, after in pairwise(borders):
         before = found[-1] if found else 0
-        if not _is_lag(time, true_strain, noise, before, jump, after):
+        if jump in sharp or not _is_lag(time, values, noise, (before, jump, after), bends=bends):
             found.append(jump)
     return found
 
 
-def _is_lag(time: FloatArray, true_strain: FloatArray, noise: float, before: int, jump: int, after: int) -> bool:
+def _between(jumps: Sequence[int], count: int) -> list[tuple[int, int, int]]:
+    """Every jump between the one before it, or the start, and the one after it, or the end."""
+    borders = [0, *sorted(jumps), count - 1]
+    return list(zip(borders, borders[1:], borders[2:], strict=False))
+
+
+def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, between: tuple[int, int]) -> int:
+    """Where a jump begins behind which the machine lags: two lines meet a time constant after that.
+
+    The rate goes from one value to another as a first-order lag does; where this does not
+    describe the samples better by `jump_evidence` than a sharp corner does, the jump is sharp, and stays.
+    """
+    reach = round(max(SMOOTHING.lag_times))
+    first, last = max(between[0] + 2, jump - reach), jump
+    part = slice(max(between[0], first - 2 * reach), min(between[1], jump + round(SMOOTHING.lag_reach * reach)) + 1)
+    t, y = time[part], values[part]
+    interval = float(np.median(np.diff(time[jump : jump + SMOOTHING.border_samples + 1])))
+
+    def left(at: int, lag: float) -> float:
+        since = np.maximum(t - time[at], 0.0)
+        turned = since + lag * np.expm1(-since / lag) if lag > 0.0 else since
+        basis = np.column_stack([np.ones_like(t), t - time[at], (t - time[at]) ** 2, turned])
+        return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
+
+    sharp = min(left(at, 0.0) for at in range(max(jump - 2, first), min(jump + 3, between[1])))
+    lagging, begun = min((left(at, lag * interval), at) for at in range(first, last + 1) for lag in SMOOTHING.lag_times)
+    scale = max(noise, float(np.sqrt(lagging / len(t))))
+    return begun if lagging < sharp - SMOOTHING.jump_evidence * scale**2 else jump
+
+
+def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, int, int], *, bends: bool) -> bool:
+    before, jump, after = at
     if jump - before > SMOOTHING.lag_reach * max(SMOOTHING.lag_times):
         return False
     part = slice(before, min(after, 2 * jump - before + _smallest_window(time)) + 1)
-    t, y = time[part] - time[before], true_strain[part]
-    corner = min(_left(t, y, t[at], 1) for at in range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1)))
+    t, y = time[part] - time[before], values[part]
+    places = range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1))
+    corner = min(_left(t, y, t[at], degree) for at in places for degree in ((1, 2) if bends else (1,)))
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
-    bent = [np.column_stack([np.ones_like(t), t, t**2, each]) for each in fading]
+    powers = np.vander(t, 4 if bends else 3)
+    bent = [np.column_stack([powers, each]) for each in fading]
     lagging = min(float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2)) for basis in bent)
     return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
 
