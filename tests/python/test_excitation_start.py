@@ -127,39 +127,43 @@ def test_a_wait_before_the_ramp_is_found_in_a_noisy_strain(seed):
 
 
 def followed(time, command, lag):
-    """What a critically damped drive of two time constants `lag` makes of a command, on ten instants a sample."""
+    """What a drive that lags by a time constant makes of a command, on ten instants a sample."""
     fine = np.linspace(time[0], time[-1], (len(time) - 1) * FINER + 1)
-    b, a = bilinear([1.0], [lag**2, 2.0 * lag, 1.0], fs=1.0 / (fine[1] - fine[0]))
+    b, a = bilinear([1.0], [lag, 1.0], fs=1.0 / (fine[1] - fine[0]))
     return lfilter(b, a, np.interp(fine, time, command))[::FINER]
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_a_drive_that_takes_thirty_samples_to_get_going_makes_no_jump(seed):
-    """The rate rises over 5 + 5 samples; two straight lines describe that better than a cubic does."""
-    time = np.linspace(0.0, 300.0, 400)
-    strain = followed(time, 2e-3 * time, 5.0 * time[1])
-    assert excite(record(time, strain + 5e-5 * np.random.default_rng(seed).standard_normal(400))).jumps == ()
+def test_a_drive_that_takes_thirty_samples_to_get_going_makes_no_jump():
+    """The logger is three times as fast at the start; the force bends as the strain does."""
+    material = probation.Law(unrelaxed_modulus=600.0, tau_max=18.0, hardening_modulus=0.5)
+    time = 1.8 * np.append(0.0, np.cumsum(1.0 - 0.65 * np.exp(-np.arange(299) / 12.0)))
+    strain = 9e-4 * (time + 5.0 * np.expm1(-time / 5.0))
+    stress = material.stress(time, strain, "exact")
+    for seed in range(8):
+        random = np.random.default_rng(seed)
+        noisy = record(time, strain + 6e-5 * random.standard_normal(300), stress + 0.005 * random.standard_normal(300))
+        assert excite(noisy).jumps == ()
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_a_drive_that_lags_is_no_gap(seed):
-    random = np.random.default_rng(seed)
+def test_a_drive_that_lags_is_no_gap():
+    """By eight samples, which is more than a few: of four campaigns two had a gap."""
     material = probation.Law(unrelaxed_modulus=2000.0, tau_max=15.0, hardening_modulus=2.5)
-    records = []
-    for rate in (8e-4, 2e-3, 5e-3):
-        time = np.linspace(0.0, LENGTH / rate, SAMPLES)
-        strain = followed(time, rate * time, 5.0 * time[1])
-        stress = material.stress(time, strain, "sa3") + 0.02 * random.standard_normal(SAMPLES)
-        records.append(record(time, strain + 5e-5 * random.standard_normal(SAMPLES), stress, f"{rate:g}"))
     alike = probation.Specimens(scatter="none")
-    found = probation.fit(probation.Campaign(name="lag", records=tuple(records), specimens=alike), "sa3")
-    assert not found.gap.exists, found.gap.test
+    for seed in range(4):
+        random, records = np.random.default_rng(seed), []
+        for rate in (8e-4, 2e-3, 5e-3):
+            time = np.linspace(0.0, LENGTH / rate, SAMPLES)
+            strain = followed(time, rate * time, 8.0 * time[1])
+            stress = material.stress(time, strain, "sa3") + 0.02 * random.standard_normal(SAMPLES)
+            records.append(record(time, strain + 5e-5 * random.standard_normal(SAMPLES), stress, f"{rate:g}"))
+        found = probation.fit(probation.Campaign(name="lag", records=tuple(records), specimens=alike), "sa3")
+        assert not found.gap.exists, found.gap.test
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_jump_begins_where_the_command_changes_and_not_where_the_drive_has_followed(seed):
-    """By five at sample 200, behind a drive of 5 + 5 samples."""
+    """By five at sample 200, behind a drive of eight samples."""
     time = np.linspace(0.0, 300.0, 400)
     command = 5e-4 * time + 2e-3 * np.maximum(time - time[200], 0.0)
-    noisy = followed(time, command, 5.0 * time[1]) + 3e-5 * np.random.default_rng(seed).standard_normal(400)
+    noisy = followed(time, command, 8.0 * time[1]) + 3e-5 * np.random.default_rng(seed).standard_normal(400)
     assert excite(record(time, noisy)).jumps == pytest.approx((200,), abs=4)
