@@ -145,8 +145,8 @@ class Search:
             found += self._candidates_at(start)
         candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
-        starts = [*_alone(first), *_promising_in_several(candidates)]
-        begun = self._refitted(self.base.refit, starts, self.base.other_starts, SEARCH.first_steps)
+        begun = self._refitted(self.base.refit, _alone(first), self.base.other_starts, SEARCH.first_steps)
+        begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         polished = self._further(running, MOST_STEPS)
@@ -586,9 +586,15 @@ def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
 
 
 def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
-    """Those in several records that together are no further behind than a promising single one."""
+    """Those in several records that together gain more than their effect does in one size, or in one record.
+
+    They are no further behind than a promising single one.
+    """
     least = _least_promising(candidates)
-    return [each for each in _in_several(candidates) if _gain(each) >= least]
+    alone: dict[str, float] = {}
+    for each in candidates:
+        alone.setdefault(each.cause.effect.name, each.gain)
+    return [each for each in _in_several(candidates) if _gain(each) >= max(least, alone[each[0].cause.effect.name])]
 
 
 def _gain(together: Sequence[Candidate]) -> float:

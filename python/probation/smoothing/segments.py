@@ -145,11 +145,11 @@ def _between(jumps: Sequence[int], count: int) -> list[tuple[int, int, int]]:
 def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, between: tuple[int, int]) -> int:
     """Where a jump begins behind which the machine lags: two lines meet a time constant after that.
 
-    The rate goes from one value to another as a first-order lag does; where this does not
-    describe the samples better by `jump_evidence` than a sharp corner does, the jump is sharp, and stays.
+    The rate goes from one value to another as a first-order lag does; where this does not describe the samples better
+    by `jump_evidence` than a sharp corner does, the jump is sharp, and stays.
     """
     reach = round(max(SMOOTHING.lag_times))
-    first, last = max(between[0] + 2, jump - reach), jump
+    first = min(max(between[0] + 2, jump - reach), jump)
     part = slice(max(between[0], first - 2 * reach), min(between[1], jump + round(SMOOTHING.lag_reach * reach)) + 1)
     t, y = time[part], values[part]
     interval = float(np.median(np.diff(time[jump : jump + SMOOTHING.border_samples + 1])))
@@ -161,12 +161,13 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
         return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
 
     sharp = min(left(at, 0.0) for at in range(max(jump - 2, first), min(jump + 3, between[1])))
-    lagging, begun = min((left(at, lag * interval), at) for at in range(first, last + 1) for lag in SMOOTHING.lag_times)
+    lagging, begun = min((left(at, lag * interval), at) for at in range(first, jump + 1) for lag in SMOOTHING.lag_times)
     scale = max(noise, float(np.sqrt(lagging / len(t))))
     return begun if lagging < sharp - SMOOTHING.jump_evidence * scale**2 else jump
 
 
 def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, int, int], *, bends: bool) -> bool:
+    """Whether samples bend at a jump as behind the jump before, or the start: `at` are both, and the jump after."""
     before, jump, after = at
     if jump - before > SMOOTHING.lag_reach * max(SMOOTHING.lag_times):
         return False
@@ -176,7 +177,7 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     corner = min(_left(t, y, t[at], degree) for at in places for degree in ((1, 2) if bends else (1,)))
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
-    powers = np.vander(t, 4 if bends else 3)
+    powers = np.vander(t / t[-1], 4 if bends else 3)
     bent = [np.column_stack([powers, each]) for each in fading]
     lagging = min(float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2)) for basis in bent)
     return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
