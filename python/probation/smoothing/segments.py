@@ -146,7 +146,7 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     """Where a jump begins behind which the machine lags: two lines meet a time constant after that.
 
     The rate goes from one value to another as a first-order lag does; where this does not describe the samples better
-    by `jump_evidence` than a sharp corner does, the jump is sharp, and stays.
+    by `jump_evidence` than a sharp corner does, between samples as well, the jump is sharp, and stays.
     """
     reach = round(max(SMOOTHING.lag_times))
     first = min(max(between[0] + 2, jump - reach), jump)
@@ -154,14 +154,17 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     t, y = time[part], values[part]
     interval = float(np.median(np.diff(time[jump : jump + SMOOTHING.border_samples + 1])))
 
-    def left(at: int, lag: float) -> float:
-        since = np.maximum(t - time[at], 0.0)
+    def left(begin: float, lag: float) -> float:
+        since = np.maximum(t - begin, 0.0)
         turned = since + lag * np.expm1(-since / lag) if lag > 0.0 else since
-        basis = np.column_stack([np.ones_like(t), t - time[at], (t - time[at]) ** 2, turned])
+        basis = np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned])
         return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
 
-    sharp = min(left(at, 0.0) for at in range(max(jump - 2, first), min(jump + 3, between[1])))
-    lagging, begun = min((left(at, lag * interval), at) for at in range(first, jump + 1) for lag in SMOOTHING.lag_times)
+    near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
+    sharp = min(left(at, 0.0) for at in np.interp(np.arange(0.0, len(near) - 0.9, 0.25), np.arange(len(near)), near))
+    lagging, begun = min(
+        (left(time[at], lag * interval), at) for at in range(first, jump + 1) for lag in SMOOTHING.lag_times
+    )
     scale = max(noise, float(np.sqrt(lagging / len(t))))
     return begun if lagging < sharp - SMOOTHING.jump_evidence * scale**2 else jump
 
