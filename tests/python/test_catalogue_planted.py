@@ -256,14 +256,18 @@ def test_a_range_of_the_force_that_ends_in_every_test_at_another_stress():
 
 
 def test_slips_in_every_test_at_instants_of_their_own():
-    """Each specimen slips a little, within some samples."""
-    sizes, parts = (0.006, 0.007, 0.006, 0.005), (0.3, 0.36, 0.32, 0.28)
+    """Each specimen slips a little, within some samples; the one that was held out much later.
+
+    Of its instant the others say nothing, and so it does not refute them.
+    """
+    sizes, parts = (0.006, 0.007, 0.006, 0.005), (0.3, 0.36, 0.6, 0.28)
 
     def slipped(index, time, strain):
         gone = sizes[index] / (1.0 + np.exp((parts[index] - time / time[-1]) / 0.004))
         return np.exp(gone) * LAW.stress(time, strain - gone)
 
     found = named(ramps(slipped), "grip_slip")
+    assert found.verdict == "explained"
     assert found.best.records == ("at-0.006", "at-0.008", "at-0.014")
 
 

@@ -9,6 +9,7 @@ import probation
 from campaigns.few_records import few_records
 from probation.diagnosis import calibration_check
 from probation.diagnosis.calibration_check import CalibrationCheck, Extent
+from probation.diagnosis.probabilities import Trust
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind import laboratory
@@ -32,8 +33,16 @@ def test_a_campaign_of_the_calibration_lies_inside(folder):
 
 def test_an_answer_set_holds_more_where_nothing_was_calibrated():
     assert CalibrationCheck(inside=True).covered == EVIDENCE.credible_set == 0.95
-    assert CalibrationCheck(inside=True).left_by_forms == 0.0
+    assert CalibrationCheck(inside=True).trust == Trust(EVIDENCE.evidence_power, EVIDENCE.left_by_forms)
     assert CalibrationCheck(inside=False, why=("another law",)).covered == CALIBRATED.credible_set_outside > 0.95
+
+
+def test_forms_are_doubted_where_nothing_was_calibrated():
+    inside, outside = CalibrationCheck(inside=True).trust, CalibrationCheck(inside=False, why=("another law",)).trust
+    assert inside.doubt == 0.0
+    assert outside.doubt > 0.0
+    assert outside.power_in_doubt < outside.power < inside.power
+    assert outside.left_by_forms > inside.left_by_forms
 
 
 def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):

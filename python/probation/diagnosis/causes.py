@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.diagnosis.checks import checks
 from probation.diagnosis.held_out import HeldToAccount
 from probation.diagnosis.linear import linear_hypotheses
@@ -156,9 +158,9 @@ def causes_of(
     trust = calibration.trust
     causes = judged(trust)
     more = leaves_more(causes)
-    if trust.left_by_forms > EVIDENCE.share_worth_naming and (more or UNKNOWN in causes.weighed[0].effects):
+    if trust.left_by_forms > EVIDENCE.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
         # What is left is no error of a form.
-        causes = judged(replace(trust, left_by_forms=EVIDENCE.share_worth_naming))
+        causes = judged(replace(trust, left_by_forms=EVIDENCE.left_by_forms))
         more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
 
@@ -200,10 +202,11 @@ def _judged(
 
 
 def _closes_all(best: Hypothesis, base: BaseFit) -> bool:
-    """Whether the best explanation closes the gap but for a part that is not worth naming."""
+    """Whether the best explanation closes the gap, for certain, but for a part that is not worth naming."""
     noise = len(base.whitened)
     gap = base.refit.chi_square - noise
-    return bool(best.causes) and best.refit.chi_square - noise < EVIDENCE.share_worth_naming * gap
+    left = best.refit.chi_square - noise + 2.0 * np.sqrt(2.0 * noise)
+    return bool(best.causes and 0.0 <= left < EVIDENCE.share_worth_naming * gap)
 
 
 def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:

@@ -90,6 +90,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     spread, directions = np.linalg.eigh(hypothesis.evidence.covariance)
     slopes = found.coordinates.slopes(found.parameters)
     columns = (jacobian @ explained.from_fitted * slopes) @ (directions * np.sqrt(np.maximum(spread, 0.0)))
+    columns = np.hstack([columns, jacobian * explained.spread])
     worse = []
     for record, noise in zip(base.held_out, base.held_out_noises, strict=True):
         rows = everywhere.rows(record.name)

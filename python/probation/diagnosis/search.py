@@ -114,9 +114,8 @@ class Search:
     ) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
         again = Search(base, self.effects, self.threads, self._moved, self.skipping)
-        leading = sorted(self.found[1:], key=lambda each: -each.evidence.log_evidence)[:count]
-        least = leading[0].evidence.log_evidence - hopeless
-        leading = [each for each in leading if each.evidence.log_evidence > least]
+        leading = sorted(self.found[1:], key=_standing, reverse=True)[:count]
+        leading = [each for each in leading if _standing(each) > _standing(leading[0]) - hopeless]
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
@@ -424,7 +423,14 @@ class Search:
         there = refit(problem, alike, most_steps=0)
         if there.chi_square <= self.base.refit.chi_square:
             return there
-        return refit(problem, begun.parameters, most_steps=steps)
+        found = refit(problem, begun.parameters, most_steps=steps)
+        held = specimens_hold_the_gap(model, noises, self._without_effect(model), found.parameters)
+        return there if held else found
+
+    def _without_effect(self, model: CampaignModel) -> FloatArray:
+        """The base fit as parameters of a model whose causes are absent."""
+        law = self.base.model.split(self.base.refit.parameters)[0]
+        return np.append(law, model.start[model.base_count :])
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""
@@ -598,7 +604,7 @@ def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candida
 
 
 def _gain(together: Sequence[Candidate]) -> float:
-    """What candidates in different records gain together, were the law's parameters held."""
+    """What candidates in different records gain, each by itself: about what they gain together."""
     return sum(each.gain for each in together)
 
 
@@ -655,7 +661,7 @@ def _forms_of_the_best(candidates: Sequence[Candidate], count: int) -> list[Cand
 
 
 def _least_of_each_effect(refits: Sequence[Refit], before: int) -> list[Refit]:
-    """Of the forms of each effect that was added to so many causes, the one that leaves least; in several apart."""
+    """Of the forms of each effect that was added to `before` causes, the one that leaves least; in several apart."""
     least: dict[tuple[str, bool, bool], Refit] = {}
     for each in refits:
         added = each.model.causes[before:]

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
+    from probation.effects.effect import EffectParameter
     from probation.effects.record_view import RecordView
     from probation.inference.refit import Refit
 
@@ -24,7 +25,8 @@ class OnAllRecords:
     """A model of all records with an explanation, and its parameters.
 
     What acts in every fitted record, each time with a size of its own, acts in the others, too: with the mean of its
-    parameters, in the form that it has in most of them. What acts in some of several fitted records is theirs alone.
+    parameters, in the form that it has in most of them. What acts in some of several fitted records is theirs alone;
+    so is what has an instant or a phase of its own in each.
 
     Attributes
     ----------
@@ -32,11 +34,14 @@ class OnAllRecords:
     parameters : ndarray, shape (n_parameters,)
     from_fitted : ndarray, shape (n_parameters, n_fitted_parameters)
         These parameters over those of the refit.
+    spread : ndarray, shape (n_parameters,)
+        Standard deviation by which a record's own parameter differs from the mean of the fitted ones'.
     """
 
     model: CampaignModel
     parameters: FloatArray
     from_fitted: FloatArray
+    spread: FloatArray
 
 
 def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
@@ -51,14 +56,24 @@ def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
     fitted = {view.id for view in found.model.views}
     others = tuple(view.id for view in views if view.id not in fitted)
     causes, rows = list(found.model.causes), [np.eye(len(found.parameters))]
+    spread = [np.zeros(len(found.parameters))]
     for own in _in_each(causes, fitted) if others and len(fitted) > 1 else ():
         usual = Counter(cause.form.name for cause in own).most_common(1)[0][0]
         alike = [cause for cause in own if cause.form.name == usual]
+        if any(_of_its_record(each) for each in alike[0].form.parameters):
+            continue
         causes.append(replace(alike[0], records=others))
+        sizes = np.array([own for cause, own in found.model.split(found.parameters)[1] if cause in alike])
+        spread.append(np.std(sizes, axis=0) * np.sqrt((len(alike) + 1.0) / max(len(alike) - 1.0, 1.0)))
         rows.append(_mean_of(alike, found))
     from_fitted = np.vstack(rows)
     model = CampaignModel(found.model.law, views, causes)
-    return OnAllRecords(model, from_fitted @ found.parameters, from_fitted)
+    return OnAllRecords(model, from_fitted @ found.parameters, from_fitted, np.concatenate(spread))
+
+
+def _of_its_record(parameter: EffectParameter) -> bool:
+    """Whether a parameter may be anything in each record: a phase, an instant."""
+    return parameter.period > 0.0 or not np.isfinite(parameter.scale)
 
 
 def _in_each(causes: Iterable[Cause], fitted: set[str]) -> list[list[Cause]]:

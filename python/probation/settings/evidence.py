@@ -164,14 +164,19 @@ class EvidenceSettings:
     share_worth_naming: float = chosen(
         0.01,
         "-",
-        "Part of the gap below which an effect is not named jointly with those that close the rest; and of the log "
-        "evidence of one effect, for which no further one counts.",
+        "Part of the gap below which an effect is not named jointly with those that close the rest, and which may be "
+        "left of an explained gap.",
     )
     nearly_all: float = chosen(
         0.9,
         "-",
         "Part of what an explanation closes from which on one of its effects alone closes nearly all of it: several "
         "such effects can stand in for each other, and have no shares of their own.",
+    )
+    left_by_forms: float = chosen(
+        0.01,
+        "-",
+        "Part of what an effect gains that the error of its form may leave, for which no further effect counts.",
     )
     probability_worth_naming: float = chosen(
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."

@@ -75,10 +75,11 @@ def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[
     for window in (factor * smallest for factor in SMOOTHING.wider_jump_windows):
         if len(time) >= 4 * window:
             jumps += _jumps_in_windows(time, values, noise, window, jumps)
-    return [
+    placed = {
         _placed(time, values, jump, smallest, (before, after), noise)
         for before, jump, after in _between(jumps, len(time))
-    ]
+    }
+    return sorted(placed)
 
 
 def _smallest_window(time: FloatArray) -> int:
@@ -125,7 +126,8 @@ def _without_lags(
 
     A first-order lag behind a change of the command bends the strain within some time constants. Two lines describe
     that better than a cubic does; a parabola with a fading exponential describes it as well as they do. The stress may
-    show that a jump is sharp; then it is no lag. It bends behind its corners.
+    show that a jump is sharp; then it is no lag. The stress `bends` by itself: a cubic and parabolas stand for the
+    parabola and the lines.
     """
     found: list[int] = []
     borders = [*jumps, len(time) - 1]
@@ -175,12 +177,12 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     if jump - before > SMOOTHING.lag_reach * max(SMOOTHING.lag_times):
         return False
     part = slice(before, min(after, 2 * jump - before + _smallest_window(time)) + 1)
-    t, y = time[part] - time[before], values[part]
+    t, y = (time[part] - time[before]) / (time[part][-1] - time[before]), values[part]
     places = range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1))
     corner = min(_left(t, y, t[at], degree) for at in places for degree in ((1, 2) if bends else (1,)))
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
-    powers = np.vander(t / t[-1], 4 if bends else 3)
+    powers = np.vander(t, 4 if bends else 3)
     bent = [np.column_stack([powers, each]) for each in fading]
     lagging = min(float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2)) for basis in bent)
     return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
@@ -247,7 +249,7 @@ def _left(time: FloatArray, values: FloatArray, corner: float, degree: int) -> f
     behind = np.maximum(time - corner, 0.0)
     powers = [sign**power for power in range(1, degree + 1) for sign in (time, behind)]
     basis = np.column_stack([np.ones_like(time), *powers])
-    return float(np.linalg.lstsq(basis, values, rcond=None)[1].sum())
+    return float(np.sum((values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]) ** 2))
 
 
 def _jumps_in_windows(

@@ -1,4 +1,4 @@
-"""What a machine makes of a command that changes at once: the strain lags, and bends within a few samples.
+"""What a machine makes of a command that changes at once: the strain lags, and bends within some samples.
 
 A smoother's stiffness is that of the whole segment. It takes such a transient for noise, and the law is stiffest there.
 A first-order lag of time constant T after a change of the rate by v leaves the straight line by v T exp(-t / T). A few

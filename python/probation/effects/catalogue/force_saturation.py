@@ -31,15 +31,18 @@ def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
 
 
 def _bend(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """The reading bends into its limit along a hyperbola: (s + L - sqrt((s - L)^2 + (w L)^2)) / 2, less its zero."""
+    """The reading bends into its limit L along a hyperbola of the width w L; it is true for small forces.
+
+    With u the force over L, h(u) = (u + sqrt(1 + w^2) - sqrt((1 - u)^2 + w^2)) / 2 has the slope h'(0) at rest and the
+    end h_e = (1 + sqrt(1 + w^2)) / 2; the reading is L h(u h_e / h'(0)) / h_e.
+    """
     if values[0] <= 0.0:
         return stress
-    used = np.abs(stress) * values[0] / view.stretch
-
-    def bent(part: FloatArray | float) -> FloatArray:
-        return np.asarray(0.5 * (part + 1.0 - np.hypot(part - 1.0, values[1])))
-
-    return np.asarray(np.sign(stress) * (bent(used) - bent(0.0)) * view.stretch / values[0])
+    root = float(np.hypot(1.0, values[1]))
+    end, slope = 0.5 * (1.0 + root), 0.5 * (1.0 + 1.0 / root)
+    used = np.abs(stress) * values[0] / view.stretch * end / slope
+    bent = 0.5 * (used + root - np.hypot(1.0 - used, values[1])) / end
+    return np.asarray(np.sign(stress) * bent * view.stretch / values[0])
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -61,7 +64,7 @@ EFFECT = Effect(
         "Amplitude: one over that force per initial section; 0 means no limit."
     ),
     source="ASTM E1942 (data acquisition in mechanical testing)",
-    shows_in="records whose force reaches a plateau, the same in all of them",
+    shows_in="records whose force reaches a plateau, the same in all of them but for their sections",
     kind="rig",
     coordinate="force",
     forms=(

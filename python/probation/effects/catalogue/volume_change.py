@@ -29,7 +29,7 @@ def _from_onset(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
 
 
 def _opening(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """Voids open over a range of strains about e_c, stay open, and no more come: a (1 - exp(-(e_m / e_c)^2)).
+    """Voids open over a range of strains about e_c and stay: the volume strain is a (1 - exp(-(e_m / e_c)^2)).
 
     e_m is the largest strain so far.
     """
