@@ -121,6 +121,7 @@ class SmoothingSettings:
     lag_times: tuple[float, ...] = chosen(
         (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "sampling interval", "Time constants of the lags at a start."
     )
+    short_lags: int = chosen(4, "lags", "The shortest of them, which are tried by themselves, too.")
     lag_reach: float = chosen(
         3.0, "longest lag", "Samples from a start, over the longest lag's, within which a bend may be a lag."
     )

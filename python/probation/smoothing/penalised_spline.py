@@ -234,7 +234,7 @@ def _with_knots(
             joint = WithTransient.of(lags, partial(basis.smoothed, shrink), true_strain, float(noise))
             taken, spent = np.zeros_like(true_strain), 0.0
             if joint is not None:
-                taken, spent = lags.strain @ (joint.gain @ true_strain), joint.freedom
+                taken, spent = joint.lags.strain @ (joint.gain @ true_strain), joint.freedom
         if grown < 1.02 * before and (lags is None or turn >= LEAST_TURNS):
             break
     score = Score(basis, true_strain - taken, SMOOTHING.prudence * grown)

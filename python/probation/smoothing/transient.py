@@ -86,6 +86,8 @@ class WithTransient:
     ) -> WithTransient | None:
         """For a symmetric smoother at a fixed smoothness; None where the samples show that there are no lags.
 
+        Long lags, which take from the smoother's freedom what it may need elsewhere, only where they are more probable.
+
         Parameters
         ----------
         smooth : callable
@@ -95,6 +97,19 @@ class WithTransient:
         noise : float
             Standard deviation of their slow noise [-].
         """
+        found, most = None, -SMOOTHING.lag_caution
+        for count in (SMOOTHING.short_lags, lags.strain.shape[1]):
+            some = Transient(lags.strain[:, :count], lags.rate[:, :count])
+            made, evidence = cls._weighed(some, smooth, values, noise)
+            if evidence > most:
+                found, most = made, evidence
+        return found
+
+    @classmethod
+    def _weighed(
+        cls, lags: Transient, smooth: Callable[[FloatArray], FloatArray], values: FloatArray, noise: float
+    ) -> tuple[WithTransient, float]:
+        """With these lags, and twice the log odds for them."""
         left = lags.strain - smooth(lags.strain)
         variance = (
             max(noise, SMOOTHING.least_strain_noise * float(np.max(np.abs(lags.strain), initial=0.0)), 1e-150) ** 2
@@ -103,7 +118,7 @@ class WithTransient:
         covariance = np.asarray(np.linalg.inv(normal) / variance, dtype=np.float64)
         pull = left.T @ values
         evidence = float(pull @ covariance @ pull) / variance - float(np.linalg.slogdet(normal)[1])
-        return cls(lags, left, covariance @ left.T, covariance) if evidence > -SMOOTHING.lag_caution else None
+        return cls(lags, left, covariance @ left.T, covariance), evidence
 
     @property
     def freedom(self) -> float:
