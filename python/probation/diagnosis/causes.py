@@ -134,7 +134,8 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         found = linear_hypotheses(base, base.columns, skipping)
-        weighed = given_no_gap(probabilities_of(found, effect_count(considered), calibration.trust), p_value)
+        trust = replace(calibration.trust, doubt=0.0)  # of forms, which describe nothing here
+        weighed = given_no_gap(probabilities_of(found, effect_count(considered), trust), p_value)
         return Causes(base, considered, found, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
     base, found = _searched(base, considered, threads, skipping, budget, progress)
