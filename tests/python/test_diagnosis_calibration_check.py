@@ -33,7 +33,7 @@ def test_a_campaign_of_the_calibration_lies_inside(folder):
 
 def test_an_answer_set_holds_more_where_nothing_was_calibrated():
     assert CalibrationCheck(inside=True).covered == EVIDENCE.credible_set == 0.95
-    assert CalibrationCheck(inside=True).trust == Trust(EVIDENCE.evidence_power, EVIDENCE.left_by_forms)
+    assert CalibrationCheck(inside=True).trust == Trust(EVIDENCE.evidence_power)
     assert CalibrationCheck(inside=False, why=("another law",)).covered == CALIBRATED.credible_set_outside > 0.95
 
 

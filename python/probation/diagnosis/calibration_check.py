@@ -43,7 +43,7 @@ class CalibrationCheck:
     def trust(self) -> Trust:
         """How far evidence counts: less where nobody has seen how far it is to be trusted."""
         if self.inside:
-            return Trust(EVIDENCE.evidence_power, EVIDENCE.left_by_forms)
+            return Trust(EVIDENCE.evidence_power)
         return Trust(
             CALIBRATED.evidence_power_outside,
             CALIBRATED.left_by_forms_outside,

@@ -29,6 +29,7 @@ from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
+from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -159,9 +160,9 @@ def causes_of(
     trust = calibration.trust
     causes = judged(trust)
     more = leaves_more(causes)
-    if trust.left_by_forms > EVIDENCE.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
+    if trust.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
         # What is left is no error of a form.
-        causes = judged(replace(trust, left_by_forms=EVIDENCE.left_by_forms))
+        causes = judged(replace(trust, left_by_forms=CALIBRATED.left_in_any_case))
         more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
 

@@ -173,11 +173,6 @@ class EvidenceSettings:
         "Part of what an explanation closes from which on one of its effects alone closes nearly all of it: several "
         "such effects can stand in for each other, and have no shares of their own.",
     )
-    left_by_forms: float = chosen(
-        0.01,
-        "-",
-        "Part of what an effect gains that the error of its form may leave, for which no further effect counts.",
-    )
     probability_worth_naming: float = chosen(
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
     )
