@@ -197,7 +197,7 @@ def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
 
 @pytest.mark.parametrize("records", [2, 3])
 def test_an_effect_in_several_records_each_time_in_its_own_size_must_earn_its_place(records):
-    """In some of three records instead of one: again once, two numbers of records, and which of the sets of so many."""
+    """In some of three records instead of one: again each time, two numbers of records, and which of so many."""
     effect = made("effect_a", kind="rig")
     causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:records]]
     other = alone("effect_b")
@@ -207,7 +207,9 @@ def test_an_effect_in_several_records_each_time_in_its_own_size_must_earn_its_pl
     )
     odds = [found[("effect_a",)] / found[("effect_b",)] for found in (once, often)]
     sets_of_so_many = {2: 3, 3: 1}[records]
-    assert odds[1] / odds[0] == pytest.approx(EVIDENCE.again_in_another_record / 2 * 3 / sets_of_so_many)
+    assert odds[1] / odds[0] == pytest.approx(
+        EVIDENCE.again_in_another_record ** (records - 1) / 2 * 3 / sets_of_so_many
+    )
 
 
 def test_forms_in_doubt_leave_what_was_probable_beforehand():

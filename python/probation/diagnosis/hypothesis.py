@@ -63,17 +63,15 @@ class Hypothesis:
     def log_share(self) -> float:
         """Log prior share of its forms and places among those that its effects may have.
 
-        An effect that acts more than once, in several records or in one in addition to all, pays for that once; how
-        many records it acts in, and which, is as probable beforehand as any other.
+        An effect that acts more than once, in several records or in one in addition to all, pays for every further
+        time; how many records it acts in, and which, is as probable beforehand as any other.
         """
         return sum(self._log_share(name) for name in self.effects)
 
     def _log_share(self, name: str) -> float:
         causes = [cause for cause in self.causes if cause.effect.name == name]
         effect, views = causes[0].effect, len(self.refit.model.views)
-        share = -len(causes) * log(len(effect.forms))
-        if len(causes) > 1:
-            share += log(EVIDENCE.again_in_another_record)
+        share = -len(causes) * log(len(effect.forms)) + (len(causes) - 1) * log(EVIDENCE.again_in_another_record)
         if any(cause.records is None for cause in causes):
             share -= log(max(len(effect.placements(cause.form)) for cause in causes))
         alone = {cause.records: len(effect.placements(cause.form)) for cause in causes if cause.records is not None}

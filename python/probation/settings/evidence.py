@@ -44,8 +44,8 @@ class EvidenceSettings:
     again_in_another_record: float = chosen(
         0.03,
         "-",
-        "Prior probability of an effect in several records, or in one in addition to all, each time in a form and a "
-        "size of its own, over that of its acting once.",
+        "Prior probability of an effect in one more record, in a form and a size of its own, over that of its not "
+        "acting there.",
     )
     left_to_an_unknown: float = chosen(
         0.9,
