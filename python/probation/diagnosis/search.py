@@ -85,7 +85,8 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            for each in leading[: SEARCH.extended_explanations if left and size == 1 else 1]:
+            chosen = leading[: SEARCH.extended_explanations if left and size == 1 else 1]
+            for each in [*chosen, *self._once_each(size)]:
                 if _keys(each.refit) not in extended:
                     self._additions(each)
                 extended.add(_keys(each.refit))
@@ -134,6 +135,11 @@ class Search:
             if known is None or _standing(each) > _standing(known):
                 best[each.effects] = each
         return sorted(best.values(), key=_standing, reverse=True)
+
+    def _once_each(self, size: int) -> list[Hypothesis]:
+        """The best of so many effects that act once each: one that acts in several records may stand in for two."""
+        once = [each for each in self.found[1:] if len(each.causes) == len(each.effects) == size]
+        return [max(once, key=_standing)] if once else []
 
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
