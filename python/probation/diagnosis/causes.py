@@ -29,7 +29,6 @@ from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
-from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -162,7 +161,7 @@ def causes_of(
     more = leaves_more(causes)
     if trust.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
         # What is left is no error of a form.
-        causes = judged(replace(trust, left_by_forms=CALIBRATED.left_in_any_case))
+        causes = judged(replace(trust, left_by_forms=0.0))
         more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
 

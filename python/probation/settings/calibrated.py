@@ -35,9 +35,6 @@ class CalibratedRanges:
         "a form that is wrong by 22 %.",
         source="docs/laboratories.md: university, seed 51001; industry, seed 51002",
     )
-    left_in_any_case: float = chosen(
-        0.01, "-", "The same where what is left is no error of a form: what closes less than that is not named."
-    )
     doubt_outside: float = calibrated(
         0.3,
         "probability",

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
+_BETWEEN = 4
+"""Places from sample to sample at which a sharp corner is tried."""
+
+
 @dataclass(frozen=True)
 class _Slopes:
     """Straight lines through the `window` samples before and after every sample."""
@@ -163,7 +167,8 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
         return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
 
     near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
-    sharp = min(left(at, 0.0) for at in np.interp(np.arange(0.0, len(near) - 0.9, 0.25), np.arange(len(near)), near))
+    places = np.arange(_BETWEEN * (len(near) - 1) + 1) / _BETWEEN
+    sharp = min(left(at, 0.0) for at in np.interp(places, np.arange(len(near)), near))
     lagging, begun = min(
         (left(time[at], lag * interval), at) for at in range(first, jump + 1) for lag in SMOOTHING.lag_times
     )
