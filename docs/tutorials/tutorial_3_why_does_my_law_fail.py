@@ -187,9 +187,9 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   46%  self_heating
-# >   39%  damage
-# >    2%  unknown
+# >   43%  self_heating
+# >   38%  damage
+# >    7%  unknown
 
 # %%
 # What to do with a name

@@ -122,6 +122,9 @@ class SmoothingSettings:
         (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "sampling interval", "Time constants of the lags at a start."
     )
     short_lags: int = chosen(4, "lags", "The shortest of them, which are tried by themselves, too.")
+    corner_places: int = chosen(
+        4, "places", "From sample to sample, at which a sharp corner is tried before a lag is taken for it."
+    )
     lag_reach: float = chosen(
         3.0, "longest lag", "Samples from a start, over the longest lag's, within which a bend may be a lag."
     )

@@ -19,10 +19,6 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
-_BETWEEN = 4
-"""Places from sample to sample at which a sharp corner is tried."""
-
-
 @dataclass(frozen=True)
 class _Slopes:
     """Straight lines through the `window` samples before and after every sample."""
@@ -167,7 +163,7 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
         return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
 
     near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
-    places = np.arange(_BETWEEN * (len(near) - 1) + 1) / _BETWEEN
+    places = np.arange(SMOOTHING.corner_places * (len(near) - 1) + 1) / SMOOTHING.corner_places
     sharp = min(left(at, 0.0) for at in np.interp(places, np.arange(len(near)), near))
     lagging, begun = min(
         (left(time[at], lag * interval), at) for at in range(first, jump + 1) for lag in SMOOTHING.lag_times
