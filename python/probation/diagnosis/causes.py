@@ -9,8 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from probation.diagnosis.checks import checks
 from probation.diagnosis.held_out import HeldToAccount
 from probation.diagnosis.linear import linear_hypotheses
@@ -29,7 +27,6 @@ from probation.diagnosis.shrink import shrink_of
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
-from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -146,15 +143,13 @@ def causes_of(
         weighed = probabilities_of(found, effect_count(considered), trust)
         weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
         left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
-        left = left and not _closes_all(weighed[0].hypothesis, base)
         verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
         return Causes(base, considered, found, weighed, checked, verdict)
 
     def leaves_more(causes: Causes) -> bool:
         if UNKNOWN in causes.weighed[0].effects:
             return False
-        beyond_forms = not _closes_all(causes.best, base) and _another_acts(causes.best, base, seed)
-        return beyond_forms or bool(account.worse(causes.best))
+        return bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed)
 
     trust = calibration.trust
     causes = judged(trust)
@@ -200,14 +195,6 @@ def _judged(
             refused = tuple(one.text for one in account.worse(each.hypothesis))
             found[each.effects] = replace(made, notes=(*made.notes, *refused))
     return left, found
-
-
-def _closes_all(best: Hypothesis, base: BaseFit) -> bool:
-    """Whether the best explanation closes the gap, for certain, but for a part that is not worth naming."""
-    noise = len(base.whitened)
-    gap = base.refit.chi_square - noise
-    left = best.refit.chi_square - noise + 2.0 * np.sqrt(2.0 * noise)
-    return bool(best.causes and 0.0 <= left < EVIDENCE.share_worth_naming * gap)
 
 
 def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:

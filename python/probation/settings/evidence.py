@@ -164,8 +164,7 @@ class EvidenceSettings:
     share_worth_naming: float = chosen(
         0.01,
         "-",
-        "Part of the gap below which an effect is not named jointly with those that close the rest, and which may be "
-        "left of an explained gap.",
+        "Part of the gap below which an effect is not named jointly with those that close the rest.",
     )
     nearly_all: float = chosen(
         0.9,
