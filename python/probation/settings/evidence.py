@@ -162,9 +162,7 @@ class EvidenceSettings:
         source="docs/blind-results.md: calibrate, seed 43",
     )
     share_worth_naming: float = chosen(
-        0.01,
-        "-",
-        "Part of the gap below which an effect is not named jointly with those that close the rest.",
+        0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
     )
     nearly_all: float = chosen(
         0.9,

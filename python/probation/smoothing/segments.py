@@ -159,8 +159,7 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     def left(begin: float, lag: float) -> float:
         since = np.maximum(t - begin, 0.0)
         turned = since + lag * np.expm1(-since / lag) if lag > 0.0 else since
-        basis = np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned])
-        return float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2))
+        return _left_by(np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned]), y)
 
     near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
     places = np.arange(SMOOTHING.corner_places * (len(near) - 1) + 1) / SMOOTHING.corner_places
@@ -184,8 +183,7 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
     powers = np.vander(t, 4 if bends else 3)
-    bent = [np.column_stack([powers, each]) for each in fading]
-    lagging = min(float(np.sum((y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]) ** 2)) for basis in bent)
+    lagging = min(_left_by(np.column_stack([powers, each]), y) for each in fading)
     return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
 
 
@@ -249,7 +247,11 @@ def _left(time: FloatArray, values: FloatArray, corner: float, degree: int) -> f
     """Sum of squares around two polynomials that meet at a corner."""
     behind = np.maximum(time - corner, 0.0)
     powers = [sign**power for power in range(1, degree + 1) for sign in (time, behind)]
-    basis = np.column_stack([np.ones_like(time), *powers])
+    return _left_by(np.column_stack([np.ones_like(time), *powers]), values)
+
+
+def _left_by(basis: FloatArray, values: FloatArray) -> float:
+    """Sum of squares that a basis leaves."""
     return float(np.sum((values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]) ** 2))
 
 
