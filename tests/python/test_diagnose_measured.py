@@ -28,8 +28,7 @@ def thinned(record, every, samples=None, role="identify"):
     )
 
 
-@pytest.mark.xfail(reason="the search no longer comes to damage as the third effect: an unknown takes its place")
-def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_not_certain():
+def test_every_explanation_of_etfe_within_the_catalogue_has_rate_dependent_relaxation_in_it_and_none_is_certain():
     """One temperature, one speed: the true rate changes twofold along the test, and the law without relation minds."""
     whole = Campaign.from_files([DATA / "etfe" / "OUTRaw_MD_CSR_01_T40.csv"], control="displacement-rate")
     found = diagnose(whole, design=False)
@@ -38,7 +37,8 @@ def test_every_explanation_of_etfe_has_rate_dependent_relaxation_in_it_and_is_no
     assert found.verdict == "explained"
     assert found.shrink.identify.after_MPa < 1.2 * found.noise_MPa
     assert found.best.checks is not None
-    assert all(RATE in effects for effects in found.answer_set)
+    assert all(RATE in effects for effects in found.answer_set if effects != ("unknown",))
+    assert found.best.probability < 0.9
     assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
     assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
 

@@ -132,7 +132,7 @@ def attribution(
     gap = squares[()] - min(floor, squares[known])
     closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
     named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
-    if _probability({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
+    if _probability_within({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
         named = tuple(name for name in known if name in {*named, *undivided})
     shares = _shares(named, known, closed)
     entries = []
@@ -168,6 +168,12 @@ def attribution(
 def _probability(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
     """That all of them are in the right explanation."""
     return min(sum(each.probability for each in weighed if effects <= {*each.effects}), 1.0)
+
+
+def _probability_within(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
+    """That all of them act if nothing outside the catalogue does: an unknown says nothing of which of them act."""
+    catalogued = [each for each in weighed if UNKNOWN not in each.effects]
+    return _probability(effects, catalogued) / max(sum(each.probability for each in catalogued), 1e-300)
 
 
 def _parts(

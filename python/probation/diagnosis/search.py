@@ -85,7 +85,7 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            chosen = leading[: SEARCH.extended_explanations if left and size == 1 else 1]
+            chosen = leading[: SEARCH.extended_explanations if left else 1]
             for each in [*chosen, *self._once_each(size)]:
                 if _keys(each.refit) not in extended:
                     self._additions(each)
