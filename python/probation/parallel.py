@@ -7,13 +7,32 @@ diagnosis takes longer than with one.
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+from threadpoolctl import threadpool_limits
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+Arguments = ParamSpec("Arguments")
+
+
+def without_blas_threads(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """Let numpy's products and factorisations run in the caller's thread while the function does.
+
+    Those of a diagnosis are of some thousand numbers. Threads that share one and wait for each other double its
+    processor time, and on a machine that has other work they make it several times as long.
+    """
+
+    @wraps(function)
+    def alone(*arguments: Arguments.args, **options: Arguments.kwargs) -> Result:
+        with threadpool_limits(limits=1, user_api="blas"):
+            return function(*arguments, **options)
+
+    return alone
 
 
 def in_parallel(

@@ -19,6 +19,7 @@ from probation.identify.fit import gap_of
 from probation.inference.gap import as_tolerance
 from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
+from probation.parallel import without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excitations_of
@@ -39,6 +40,7 @@ ByRecord: TypeAlias = "dict[str, dict[str, Estimate]]"
 
 
 @shows_progress
+@without_blas_threads
 def certify(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "be2",

@@ -24,6 +24,7 @@ from probation.effects.visible import visible
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
+from probation.parallel import without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.comparison import COMPARISON
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 
 
 @shows_progress
+@without_blas_threads
 def compare(
     campaign: Campaign,
     against: Campaign | Reference,

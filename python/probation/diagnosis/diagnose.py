@@ -36,6 +36,7 @@ from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
+from probation.parallel import without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
@@ -60,6 +61,7 @@ if TYPE_CHECKING:
 
 
 @shows_progress
+@without_blas_threads
 def diagnose(
     campaign: Campaign,
     scheme: Scheme | SchemeName = "sa3",

@@ -76,7 +76,8 @@ class Search:
             self._scatter_around_the_best()
         self._try_with_unknown()
         self._begin(0.5, 0.65)
-        size, extended = 1, set[frozenset[Key]]()
+        first, extended = self.ranked()[:1], set[frozenset[Key]]()
+        size = len(first[0].effects) if first and not self._something_left(first[0]) else 1
         while True:
             leading = self.ranked(size)
             if not leading:
@@ -108,22 +109,24 @@ class Search:
         leading = self.ranked(1)
         if leading:
             self.base = with_joint_noise(self.base, leading[0].refit)
-            self.found = self.reconsidered(self.base, SEARCH.reconsidered, np.inf)
+            self.found = self._on_top_of(self.base, np.inf).found
 
-    def reconsidered(
-        self, base: BaseFit, count: int = SEARCH.reconsidered, hopeless: float = SEARCH.hopeless
-    ) -> list[Hypothesis]:
+    def reconsidered(self, base: BaseFit) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
+        again = self._on_top_of(base, SEARCH.hopeless)
+        again._parts_of_the_leader()
+        again._begun_anew()
+        return again.found
+
+    def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
         again = Search(base, self.effects, self.threads, self._moved, self.skipping)
-        leading = sorted(self.found[1:], key=_standing, reverse=True)[:count]
+        leading = sorted(self.found[1:], key=_standing, reverse=True)[: SEARCH.reconsidered]
         leading = [each for each in leading if _standing(each) > _standing(leading[0]) - hopeless]
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
-        again._parts_of_the_leader()
-        again._begun_anew()
-        return again.found
+        return again
 
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
         """Hypotheses with causes, most evidence first, the best of each set of effects; of so many effects only."""
@@ -325,13 +328,18 @@ class Search:
     def _begun_anew(self) -> None:
         """What leaves more than a part that was found after it, from that part; without what still does.
 
-        Where specimens differ a refit may end above its start, not to leave the gap to them. It is no optimum.
+        Where specimens differ a refit may end above its start, not to leave the gap to them. It is no optimum. What is
+        far behind the leader, as its parts are, is not worth the time: it goes at once.
         """
-        before = [each.refit for each in self.found[1:]]
+        leading = self.ranked()[:1]
+        least_standing = _standing(leading[0]) - SEARCH.hopeless if leading else -np.inf
+        near = [_keys(each.refit) for each in self.found[1:] if _standing(each) > least_standing]
+        hopeful = [any(keys <= _keys(each.refit) for keys in near) for each in self.found[1:]]
+        before = [each.refit for each in compress(self.found[1:], hopeful)]
         after = self._not_above_their_parts(before)
-        moved = [new for old, new in zip(before, after, strict=True) if new is not old]
-        kept = [each for each, old, new in zip(self.found[1:], before, after, strict=True) if new is old]
-        found = [*kept, *self._judged(moved)]
+        moved = {id(old): new for old, new in zip(before, after, strict=True) if new is not old}
+        kept = [each for each in self.found[1:] if id(each.refit) not in moved]
+        found = [*kept, *self._judged(moved.values())]
         least = _least_of_each(each.refit for each in found)
         self.found = self.found[:1]
         for each in found:
