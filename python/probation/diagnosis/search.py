@@ -65,6 +65,7 @@ class Search:
     found: list[Hypothesis] = field(default_factory=list)
     _phase: tuple[float, float] = (0.0, 0.5)
     _refits: int = 0
+    _taken_apart: set[frozenset[Key]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.found.append(self._weighed(self.base.refit, unknown=True))
@@ -86,14 +87,15 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            chosen = leading[: SEARCH.extended_explanations if left else 1]
-            for each in [*chosen, *self._once_each(size)]:
+            for each in [*self._worth_extending(leading, left), *self._once_each(size)]:
                 if _keys(each.refit) not in extended:
                     self._additions(each)
                 extended.add(_keys(each.refit))
             if size == 1 and left:
                 self._swaps()
             self._try_with_unknown()
+            if self._something_left(self.ranked()[0]):
+                self._parts_of_the_leader()
             best = self.ranked()[0]
             if best in leading:
                 break
@@ -138,6 +140,15 @@ class Search:
             if known is None or _standing(each) > _standing(known):
                 best[each.effects] = each
         return sorted(best.values(), key=_standing, reverse=True)
+
+    def _worth_extending(self, leading: Sequence[Hypothesis], left: bool) -> Sequence[Hypothesis]:
+        """The best, and where it leaves something the next; of several effects those that are not far behind it."""
+        if not left:
+            return leading[:1]
+        chosen = leading[: SEARCH.extended_explanations]
+        if len(chosen[0].effects) == 1:
+            return chosen
+        return [each for each in chosen if _standing(each) > _standing(chosen[0]) - SEARCH.hopeless]
 
     def _once_each(self, size: int) -> list[Hypothesis]:
         """The best of so many effects that act once each: one that acts in several records may stand in for two."""
@@ -303,14 +314,13 @@ class Search:
         And every cause of it in its other forms: a cause that had to explain what two of them do may take another form
         jointly with the second one.
         """
-        tried: set[frozenset[Key]] = set()
         while leading := self.ranked()[:1]:
             found = leading[0].refit
             causes = found.model.causes
             key = _keys(found)
-            if len(causes) < 2 or key in tried or self.budget.spent():
+            if len(causes) < 2 or key in self._taken_apart or self.budget.spent():
                 return
-            tried.add(key)
+            self._taken_apart.add(key)
             base, values = found.model.split(found.parameters)
             jobs = []
             for kept in _parts(causes):
