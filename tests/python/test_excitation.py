@@ -58,6 +58,44 @@ def test_a_jump_in_much_noise_is_found_in_wider_windows():
         assert abs(time[jump] - 40.02) <= 4.0 * time[1]
 
 
+def of_rates(time, starts, rates):
+    """Strain of a rate that is constant between instants."""
+    ends = np.append(starts[1:], time[-1])
+    return sum(
+        rate * np.clip(time - start, 0.0, end - start) for start, end, rate in zip(starts, ends, rates, strict=True)
+    )
+
+
+@pytest.mark.parametrize("noise", [8e-6, 1e-4])
+def test_a_ramp_of_fewer_samples_than_a_window_has_both_its_ends(noise):
+    """At rest, strained by 0.05 within six samples of 29 s, then on at a tenth of the rate."""
+    time = 29.0 * np.arange(312)
+    strain = of_rates(time, 29.0 * np.array([0.0, 17.6, 23.1]), [0.0, 3.1e-4, 3.1e-5])
+    for seed in range(10):
+        noisy = strain + noise * np.random.default_rng(seed).standard_normal(312)
+        assert find_jumps(time, noisy, noise) == [18, 23]
+
+
+def test_the_turning_points_of_short_unloadings_are_found():
+    """Three unloadings of five samples between loadings of fifty: without them the record seems to load throughout."""
+    time, turns = np.arange(200.0), np.array([0.0, 50.3, 55.4, 105.2, 110.3, 160.1, 165.4])
+    strain = of_rates(time, turns, [1e-3, -2e-3, 1e-3, -2e-3, 1e-3, -2e-3, 1e-3])
+    for seed in range(10):
+        found = find_jumps(time, strain + 1e-4 * np.random.default_rng(seed).standard_normal(200), 1e-4)
+        assert len(found) == 6
+        assert np.all(np.abs(np.array(found) - turns[1:]) <= 1.0)
+
+
+@pytest.mark.parametrize("lag", [2.0, 5.0])
+def test_a_machine_that_lags_behind_one_jump_makes_no_second_one(lag):
+    """The rate follows by a time constant of two or five samples."""
+    time = np.arange(400.0)
+    since = np.maximum(time - 200.0, 0.0)
+    strain = 1e-4 * time + 9e-4 * (since + lag * np.expm1(-since / lag))
+    for seed in range(10):
+        assert len(find_jumps(time, strain + 1e-5 * np.random.default_rng(seed).standard_normal(400), 1e-5)) == 1
+
+
 LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=30.0, hardening_modulus=1.0)
 
 

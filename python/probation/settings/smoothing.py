@@ -85,6 +85,9 @@ class SmoothingSettings:
     placed_scatter: float = chosen(
         1.2, "noise", "Scatter around two lines that meet up to which a larger window places a rate discontinuity."
     )
+    left_by_two: float = chosen(
+        0.1, "of what one leaves", "What two rate discontinuities that are closer than a window may leave."
+    )
     clean: float = chosen(1e-9, "true strain", "Strain noise below which the samples are taken as they are.")
     most_sines: int = chosen(8, "sines", "Sines that are tried at most.")
     fastest_sine: float = chosen(30.0, "cycles per record", "Highest frequency of a sine.")

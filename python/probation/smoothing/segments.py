@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,8 +37,9 @@ def find_jumps(
     through a window on each side: their slopes must differ by `least_jump` of the steeper one and by
     `jump_significance` standard errors (of the samples around, where they scatter more), most so within a window, and
     the corner between them must describe the samples better than a cubic by `jump_evidence`. It is put where it
-    leaves least. Where the stress has a corner, the strain needs to confirm no more than that (`_with_stress`). What is
-    a machine's lag behind its command is none (`_without_lags`).
+    leaves least. Two that are closer than a window show as one (`_as_two`). Where the stress has a corner, the
+    strain needs to confirm no more than that (`_with_stress`). What is a machine's lag behind its command is none
+    (`_without_lags`).
 
     Parameters
     ----------
@@ -55,7 +56,14 @@ def find_jumps(
     """
     if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
-    jumps = _jumps_in_noise(time, true_strain, noise)
+    seen = _jumps_in_noise(time, true_strain, noise)
+    jumps = sorted(
+        {
+            each
+            for at, jump, to in _between(seen, len(time))
+            for each in _as_two(time, true_strain, noise, jump, (at, to))
+        }
+    )
     stress_noise = 0.0 if true_stress is None else noise_level(time, true_stress)
     corners: list[int] = []
     if true_stress is not None and stress_noise > 0.0:
@@ -80,6 +88,55 @@ def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[
         for before, jump, after in _between(jumps, len(time))
     }
     return sorted(placed)
+
+
+def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, between: tuple[int, int]) -> list[int]:
+    """A jump, or two in its place: where two corners describe the samples around it, and one does not.
+
+    A ramp that takes fewer samples than a window has a corner at its start and one at its end, and a window shows one
+    somewhere between. Corners lie between samples, too. A machine that lags bends over many samples: two corners count
+    only where they leave less than a lag does, and no more than the noise, or a small part of what one leaves.
+    """
+    most = 2 * _smallest_window(time)
+    part = slice(max(between[0], jump - most), min(between[1], jump + most) + 1)
+    t, y = (time[part] - time[jump]) / (time[part][-1] - time[part][0]), values[part]
+    interval = float(np.median(np.diff(t)))
+    bent = np.column_stack([np.ones_like(t), t, t**2])
+    behind = [np.maximum(t - at, 0.0) for at in t]
+    inner = range(1, len(t) - 3)
+
+    def around(*corners: int) -> tuple[float, list[int]]:
+        """What corners leave, each between a sample and the next, and the samples nearest to them.
+
+        A hinge at both samples is one anywhere between, if both bend the same way; the slopes must differ enough.
+        """
+        basis = np.column_stack([bent, *(behind[at + own] for at in corners for own in (0, 1))])
+        solution = np.linalg.lstsq(basis, y, rcond=None)[0]
+        here, beyond = solution[3::2], solution[4::2]
+        change = here + beyond
+        after = solution[1] + 2.0 * solution[2] * t[[*corners]] + np.cumsum(change)
+        steepest = np.maximum(np.abs(after), np.abs(after - change))
+        if np.any(here * beyond < 0.0) or np.any(np.abs(change) < SMOOTHING.least_jump * steepest):
+            return np.inf, []
+        nearest = [
+            part.start + at + int(later) for at, later in zip(corners, np.abs(beyond) > np.abs(here), strict=True)
+        ]
+        return float(np.sum((y - basis @ solution) ** 2)), nearest
+
+    def left_lagging(since: FloatArray, lag: float) -> float:
+        return _left_by(np.column_stack([bent, since + lag * np.expm1(-since / lag)]), y)
+
+    described = len(t) * (SMOOTHING.placed_scatter * noise) ** 2
+    one = min((around(at)[0] for at in inner), default=0.0)
+    if one <= described:
+        return [jump]
+    two, corners = min(
+        (around(at, other) for at, other in combinations(inner, 2) if other > at + 1), default=(np.inf, [])
+    )
+    lagging = min(left_lagging(since, lag * interval) for since in behind[1:-1] for lag in SMOOTHING.lag_times)
+    scale = max(noise, float(np.sqrt(two / len(t))))
+    found = two <= max(described, SMOOTHING.left_by_two * one) and two < lagging - SMOOTHING.jump_evidence * scale**2
+    return corners if found else [jump]
 
 
 def _smallest_window(time: FloatArray) -> int:
