@@ -10,16 +10,16 @@ import argparse
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from probation.diagnosis.calibration_check import Extent, extent_of
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
+from probation.inference.calibration_check import Extent, extent_of
 from probation.records.campaign import Campaign
 
 
 def extent(folder: Path) -> Extent:
     """Of one campaign."""
     campaign = Campaign.load(folder)
-    return extent_of(campaign, base_fit(campaign, plain_fit(campaign)))
+    return extent_of(base_fit(campaign, plain_fit(campaign)))
 
 
 def main() -> None:

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import pytest
 
 import probation
-from campaigns.few_records import few_records
-from probation.diagnosis import calibration_check
-from probation.diagnosis.calibration_check import CalibrationCheck, Extent
-from probation.diagnosis.probabilities import Trust
+from campaigns.few_records import damage, few_records
+from probation.inference import calibration_check
+from probation.inference.calibration_check import CalibrationCheck, Extent, Trust
 from probation.settings.calibrated import CALIBRATED
+from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind import laboratory
 
@@ -45,6 +45,24 @@ def test_forms_are_doubted_where_nothing_was_calibrated():
     assert outside.left_by_forms > inside.left_by_forms
 
 
+def test_a_small_gap_must_be_more_certain_where_nothing_was_calibrated():
+    inside, outside = CalibrationCheck(inside=True), CalibrationCheck(inside=False, why=("another law",))
+    assert inside.gap_level(1.1) == inside.gap_level(3.1) == outside.gap_level(3.1) == DETECTION.gap_level == 0.005
+    assert outside.gap_level(1.1) == CALIBRATED.gap_level_outside == 1e-5
+
+
+def test_a_fit_and_a_diagnosis_call_the_same_gap_uncertain():
+    """Records of 80 samples, damage of a fraction of the noise: 0.5 % of chance, but such noise was not tried."""
+    campaign = few_records(damage(0.004), names=("slow", "middle"), count=80)
+    found = _diagnosed(campaign, effects=["damage", "force_gain", "volume_change"])
+    fitted = probation.fit(campaign)
+    assert CALIBRATED.gap_level_outside < found.gap.p_value < DETECTION.gap_level
+    assert found.verdict == "no_gap"
+    assert not fitted.gap.exists
+    assert found.headline.startswith("No gap that is certain: ")
+    assert "where 1e-05 is asked for: such noise was not among what was tried" in found.headline
+
+
 def test_what_lies_outside_is_named_and_the_answer_set_grows(folder):
     """The same records, whose specimens may now differ: the set holds 98 % of the probability."""
     text = folder / "campaign.toml"
@@ -72,5 +90,5 @@ def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):
     extent = Extent(records=4, samples=(300.0, 300.0), noise=(0.001, 0.001), strain_noise=(0.0, 0.0), gap=184.3)
     monkeypatch.setattr(calibration_check, "extent_of", lambda *_: extent)
     base = SimpleNamespace(scatter=SimpleNamespace(any=False))
-    told = calibration_check.check_calibration(None, base, own_law=True).why[-1]
+    told = calibration_check.check_calibration(base, own_law=True).why[-1]
     assert told == f"a misfit over the noise of 184, where 0 to {CALIBRATED.gap[1]:.2g} are covered"

@@ -11,7 +11,7 @@ from probation import diagnose
 @pytest.fixture(scope="module")
 def ambiguous():
     """A weak damage in two short records, which other effects describe as well."""
-    campaign = few_records(damage(0.004), names=("slow", "middle"), count=80)
+    campaign = few_records(damage(0.005), names=("slow", "middle"), count=80)
     return diagnose(campaign, effects=["damage", "force_gain", "volume_change", "machine_compliance"], threads=1)
 
 

@@ -9,7 +9,6 @@ import pytest
 from campaigns import linear_problem as problem
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
-    Trust,
     Weighed,
     answer_set,
     effect_count,
@@ -20,6 +19,7 @@ from probation.diagnosis.probabilities import (
     with_unseen,
 )
 from probation.effects.cause import Cause
+from probation.inference.calibration_check import Trust
 from probation.inference.evidence import Evidence
 from probation.settings.evidence import EVIDENCE
 

@@ -167,7 +167,7 @@ IN_FUNCTIONS = {
     "calibration/direct.py": {1.01, 200.0},
     "calibration/record_fits.py": {50.0},  # the median; rounds
     "calibration/result.py": {0.975},
-    "diagnosis/calibration_check.py": {10.0},  # digits
+    "inference/calibration_check.py": {10.0},  # digits
     "field/identify.py": {157, 160},  # words
     "field/maps.py": {0.05, 0.95},  # the percentiles that the key of the answer names
     "field/smoothing.py": {10.0, 64},  # the base of the exponents; a cache

@@ -16,11 +16,11 @@ from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.detection.gap_test import GapTester
 from probation.diagnosis.budget import Budget
-from probation.diagnosis.calibration_check import check_calibration
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.probabilities import leading
 from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
+from probation.inference.calibration_check import check_calibration
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
@@ -110,7 +110,7 @@ def compare(
     advance(Part(0.2, "testing for a change"))
     # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
     test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
-    calibration = check_calibration(kept, base, own_law=True)
+    calibration = check_calibration(base, own_law=True)
     causes = causes_of(
         base,
         changes,

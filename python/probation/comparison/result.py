@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from probation.diagnosis.calibration_check import CalibrationCheck
 from probation.diagnosis.result import EffectSize
+from probation.inference.calibration_check import CalibrationCheck
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.rendering import Result
 

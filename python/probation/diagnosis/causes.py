@@ -33,13 +33,13 @@ if TYPE_CHECKING:
 
     from probation.detection.where import Located
     from probation.diagnosis.budget import Budget
-    from probation.diagnosis.calibration_check import CalibrationCheck
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.diagnosis.probabilities import Trust, Weighed
+    from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
     from probation.diagnosis.skipped import Skipping
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
+    from probation.inference.calibration_check import CalibrationCheck, Trust
 
 
 @dataclass(frozen=True, eq=False)

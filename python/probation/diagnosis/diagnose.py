@@ -13,7 +13,6 @@ from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import Budget
-from probation.diagnosis.calibration_check import check_calibration
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline, with_remainder
@@ -31,6 +30,7 @@ from probation.errors import InputError
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
+from probation.inference.calibration_check import check_calibration
 from probation.inference.gap import as_tolerance, find_gap, predictions
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
@@ -149,7 +149,7 @@ def diagnose(
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
-    calibration = check_calibration(campaign, base, own_law=law is None)
+    calibration = check_calibration(base, own_law=law is None)
     done(0.15, "trying causes")
     causes = causes_of(
         base,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from probation.diagnosis.remainder_words import function_name
 from probation.effects.registry import effect
 from probation.inference.unknown import UNKNOWN
+from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
 from probation.wording import chance, listed, percent, percentage, signed_percent
@@ -73,9 +74,13 @@ def headline(
     records = "the one record" if fitted == 1 else f"all {fitted} records"
     if verdict == "no_gap":
         also = " and predicts those held out" if gap.held_out else ""
+        p_value = min(gap.test.p_value, gap.held_out_p_value)
+        doubtful = p_value < DETECTION.gap_level
+        asked = f", where {CALIBRATED.gap_level_outside:.0g} is asked for: such noise was not among what was tried"
         return (
-            f"No gap: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {min(gap.test.p_value, gap.held_out_p_value):.2g}){_scatter_clause(gap)}."
+            f"No gap{' that is certain' if doubtful else ''}: the law describes {records}{also} to within the noise of "
+            f"{identify.noise_MPa:.2g} MPa (p = {p_value:.2g}{asked if doubtful else ''})"
+            f"{_scatter_clause(gap)}."
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 from scipy.special import logsumexp, softmax
 
+from probation.inference.calibration_check import EXACT
 from probation.inference.candidate import Key, cause_key
 from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.effect import Effect
+    from probation.inference.calibration_check import Trust
 
 
 class HasProbability(Protocol):
@@ -47,32 +49,6 @@ class Weighed:
     effects: tuple[str, ...]
     probability: float
     hypothesis: Hypothesis
-
-
-@dataclass(frozen=True)
-class Trust:
-    """How far the evidence of forms counts.
-
-    Attributes
-    ----------
-    power : float
-        To which it counts: below 1 it is trusted less.
-    left_by_forms : float
-        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
-        beyond that.
-    doubt : float
-        Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
-    power_in_doubt : float
-    """
-
-    power: float = 1.0
-    left_by_forms: float = 0.0
-    doubt: float = 0.0
-    power_in_doubt: float = 1.0
-
-
-EXACT = Trust()
-"""Forms are taken at their word."""
 
 
 def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust = EXACT) -> list[Weighed]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from probation._arrays import one_of
-from probation.diagnosis.calibration_check import CalibrationCheck
+from probation.inference.calibration_check import CalibrationCheck
 from probation.results.data import CURVE, Stored, WithCurves
 from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.rendering import Result

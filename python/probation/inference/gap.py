@@ -14,12 +14,15 @@ from probation._arrays import as_number
 from probation.detection.gap_test import GapTest, GapTester
 from probation.detection.sharp_gap import with_sharp
 from probation.errors import InputError
+from probation.inference.calibration_check import check_calibration
 from probation.inference.candidate import WhitenedColumns
+from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.normal import TWO_SIDED_95
+from probation.records.noise import noise_level
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
+    from probation.inference.calibration_check import CalibrationCheck
     from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
     from probation.noise.model import NoiseModel
@@ -47,11 +51,14 @@ class HeldOutGap:
         Of what the noise and the uncertainty of the parameters make.
     p_value : float
         Of the gap test, both allowed for.
+    level : float
+        Below which it is a gap, if it is the only one.
     """
 
     rms_MPa: float  # noqa: N815 - as it leaves the program
     expected_MPa: float  # noqa: N815
     p_value: float
+    level: float = DETECTION.gap_level
 
     def to_dict(self) -> dict[str, float]:
         """As in `held_out_gap` of docs/formats.md."""
@@ -146,7 +153,7 @@ class Gap:
     @property
     def in_held_out(self) -> bool:
         """Whether a predicted record holds more than noise and the uncertainty of the parameters."""
-        return self.held_out_p_value < self.test.level
+        return bool(self.missed)
 
     @property
     def exists(self) -> bool:
@@ -156,9 +163,9 @@ class Gap:
     @property
     def missed(self) -> tuple[str, ...]:
         """Ids of the predicted records that hold a gap, the least probable first."""
-        limit = self.test.level / max(len(self.held_out), 1)
+        count = len(self.held_out)
         ranked = sorted(self.held_out, key=lambda name: (self.held_out[name].p_value, -self.sizes[name].relative))
-        return tuple(name for name in ranked if self.held_out[name].p_value < limit)
+        return tuple(name for name in ranked if count * self.held_out[name].p_value < self.held_out[name].level)
 
     @property
     def size(self) -> GapSize:
@@ -225,7 +232,8 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter)
+    calibration = check_calibration(base, own_law=isinstance(base.law, DnlrLaw))
+    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter, calibration)
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
@@ -235,8 +243,8 @@ def find_gap(
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise))
-        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value)
+        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
+        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value, found.level)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 
@@ -246,36 +254,42 @@ def _survivor(
     sizes: Mapping[str, GapSize],
     seed: int,
     scatter: UncertainScatter | None,
+    calibration: CalibrationCheck,
 ) -> GapTest:
     """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
     Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
     level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
-    test = _tested(whitened, signals, seed, scatter)
-    noises = whitened.noises
+    over_rough = max(
+        _rms(whitened.clean(index)) / max(noise_level(record.time, record.residual), 1e-300)
+        for index, record in enumerate(whitened.records)
+    )
+    level, noises = calibration.gap_level(over_rough), whitened.noises
+    test = _tested(whitened, signals, seed, level, scatter)
     if not test.rejected or any(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
-    other = _tested(Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises)), signals, seed, scatter)
+    drifting = Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises))
+    other = _tested(drifting, signals, seed, level, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
 
 
 def _if_alike(base: BaseFit, test: GapTest, seed: int) -> GapTest:
     """The test if specimens were alike; of records that hold a gap it mostly needs no more than smooth curves."""
     if test.rejected:
-        along_curves = GapTester(base.alike, seed=seed)()
+        along_curves = GapTester(base.alike, seed=seed)(level=test.level)
         if along_curves.rejected:
             return along_curves
-    return _tested(base.alike, base.signals, seed)
+    return _tested(base.alike, base.signals, seed, test.level)
 
 
 def _tested(
-    whitened: Whitened, signals: Sequence[Column], seed: int, scatter: UncertainScatter | None = None
+    whitened: Whitened, signals: Sequence[Column], seed: int, level: float, scatter: UncertainScatter | None = None
 ) -> GapTest:
     columns = WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
-    return with_sharp(GapTester(whitened, columns.by_effect(), scatter=scatter, seed=seed)(), whitened)
+    return with_sharp(GapTester(whitened, columns.by_effect(), scatter=scatter, seed=seed)(level=level), whitened)
 
 
 def _drifting(noise: NoiseModel) -> NoiseModel:

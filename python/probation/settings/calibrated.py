@@ -22,6 +22,16 @@ class CalibratedRanges:
         (0.0, 3e-5), "-", "Noise of the recorded strain from sample to sample.", source=_SOURCE
     )
     gap: tuple[float, float] = calibrated((0.0, 4.8), "-", "Misfit of the base law, over the noise.", source=_SOURCE)
+    gap_level_outside: float = calibrated(
+        1e-5,
+        "-",
+        "A gap is declared below this p-value in a campaign outside these ranges, if no record is missed by "
+        "`large_misfit_outside`: noise may be unlike any that was tried.",
+        source="docs/tried.md: university, seed 71001; industry, seed 71002",
+    )
+    large_misfit_outside: float = chosen(
+        3.0, "noise", "Misfit, over the noise from sample to sample, of which that is not asked."
+    )
     evidence_power_outside: float = calibrated(
         0.2,
         "-",

@@ -1,4 +1,4 @@
-"""Whether the probabilities of a diagnosis were calibrated on campaigns such as this one."""
+"""Whether levels and probabilities were calibrated on campaigns such as this one, and how far to trust them if not."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.diagnosis.probabilities import Trust
 from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
+from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
 from probation.wording import percentage
 
@@ -17,7 +17,32 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.inference.base_fit import BaseFit
-    from probation.records.campaign import Campaign
+
+
+@dataclass(frozen=True)
+class Trust:
+    """How far the evidence of forms counts.
+
+    Attributes
+    ----------
+    power : float
+        To which it counts: below 1 it is trusted less.
+    left_by_forms : float
+        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
+        beyond that.
+    doubt : float
+        Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
+    power_in_doubt : float
+    """
+
+    power: float = 1.0
+    left_by_forms: float = 0.0
+    doubt: float = 0.0
+    power_in_doubt: float = 1.0
+
+
+EXACT = Trust()
+"""Forms are taken at their word."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +63,17 @@ class CalibrationCheck:
     def covered(self) -> float:
         """Probability that the answer set holds: more where the probabilities are less sure."""
         return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
+
+    def gap_level(self, over_rough: float) -> float:
+        """p-value below which a gap is declared: less of a small one where the noise may be unlike any that was tried.
+
+        Parameters
+        ----------
+        over_rough : float
+            Misfit over the noise from sample to sample, in the record where that is most.
+        """
+        doubtful = not self.inside and over_rough < CALIBRATED.large_misfit_outside
+        return CALIBRATED.gap_level_outside if doubtful else DETECTION.gap_level
 
     @property
     def trust(self) -> Trust:
@@ -91,9 +127,9 @@ class Extent:
     gap: float
 
 
-def extent_of(campaign: Campaign, base: BaseFit) -> Extent:
-    """What a campaign has, as far as probabilities may depend on it."""
-    fitted = [record for record in campaign.records if record.id in {view.id for view in base.model.views}]
+def extent_of(base: BaseFit) -> Extent:
+    """What the fitted records have, as far as probabilities may depend on it."""
+    fitted = [view.record for view in base.model.views]
     noises = base.whitened.noises
     relative = [
         noise.sigma / float(np.max(np.abs(record.true_stress))) for noise, record in zip(noises, fitted, strict=True)
@@ -112,18 +148,17 @@ def extent_of(campaign: Campaign, base: BaseFit) -> Extent:
     )
 
 
-def check_calibration(campaign: Campaign, base: BaseFit, *, own_law: bool) -> CalibrationCheck:
+def check_calibration(base: BaseFit, *, own_law: bool) -> CalibrationCheck:
     """Hold a campaign against the ranges of `CALIBRATED`.
 
     Parameters
     ----------
-    campaign : Campaign
     base : BaseFit
         On the records that causes are fitted to.
     own_law : bool
         Whether the base law is the modal law.
     """
-    found, why = extent_of(campaign, base), []
+    found, why = extent_of(base), []
     compared = (
         ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}".format),
         ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}".format),
