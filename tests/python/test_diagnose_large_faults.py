@@ -104,7 +104,7 @@ def test_a_frame_that_takes_much_of_the_travel_is_found_alone_with_its_complianc
     best = found.explanations[0]
     assert found.verdict == "explained"
     assert best.effects == ("machine_compliance",)
-    assert best.probability > 0.6
+    assert best.probability > 0.8
     assert set(best.records) == faulty
     (compliance,) = best.parameters
     assert abs(compliance.value - size) < 1.96 * compliance.se
@@ -122,7 +122,7 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     best = found.explanations[0]
     assert found.verdict == "explained"
     assert best.effects == ("machine_compliance", "strain_offset")
-    assert best.probability > 0.6
+    assert best.probability > 0.8
     assert found.headline.startswith("Compliance of the machine and offset of the strain explain the gap")
     compliance, offset = best.parameters
     assert compliance.value == pytest.approx(size, rel=0.01)
@@ -145,7 +145,7 @@ def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(monkeyp
     best = found.explanations[0]
     assert found.verdict == "explained"
     assert best.effects == ("damage", "machine_compliance")
-    assert best.probability > 0.6
+    assert best.probability > 0.8
     assert found.headline.startswith("Compliance of the machine and damage explain the gap")
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
 

@@ -6,9 +6,10 @@ from types import SimpleNamespace
 import pytest
 
 import probation
-from campaigns.few_records import damage, few_records
+from campaigns.few_records import LAW, damage, few_records
 from probation.inference import calibration_check
 from probation.inference.calibration_check import CalibrationCheck, Extent, Trust
+from probation.inference.modal_law import DnlrLaw
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
@@ -52,7 +53,7 @@ def test_a_small_gap_must_be_more_certain_where_nothing_was_calibrated():
 
 
 def test_a_fit_and_a_diagnosis_call_the_same_gap_uncertain():
-    """Records of 80 samples, damage of a fraction of the noise: 0.5 % of chance, but such noise was not tried."""
+    """Records of 80 samples, damage of a fraction of the noise: p is below 0.5 %, but not below 1e-5."""
     campaign = few_records(damage(0.004), names=("slow", "middle"), count=80)
     found = _diagnosed(campaign, effects=["damage", "force_gain", "volume_change"])
     fitted = probation.fit(campaign)
@@ -89,6 +90,6 @@ def test_a_campaign_outside_says_so_though_there_is_no_gap():
 def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):
     extent = Extent(records=4, samples=(300.0, 300.0), noise=(0.001, 0.001), strain_noise=(0.0, 0.0), gap=184.3)
     monkeypatch.setattr(calibration_check, "extent_of", lambda *_: extent)
-    base = SimpleNamespace(scatter=SimpleNamespace(any=False))
-    told = calibration_check.check_calibration(base, own_law=True).why[-1]
+    base = SimpleNamespace(scatter=SimpleNamespace(any=False), law=DnlrLaw(LAW))
+    told = calibration_check.check_calibration(base).why[-1]
     assert told == f"a misfit over the noise of 184, where 0 to {CALIBRATED.gap[1]:.2g} are covered"

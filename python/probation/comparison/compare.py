@@ -110,7 +110,7 @@ def compare(
     advance(Part(0.2, "testing for a change"))
     # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
     test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
-    calibration = check_calibration(base, own_law=True)
+    calibration = check_calibration(base)
     causes = causes_of(
         base,
         changes,

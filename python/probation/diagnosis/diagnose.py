@@ -149,7 +149,7 @@ def diagnose(
     case = _case(campaign, fitted, gap, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
-    calibration = check_calibration(base, own_law=law is None)
+    calibration = check_calibration(base)
     done(0.15, "trying causes")
     causes = causes_of(
         base,

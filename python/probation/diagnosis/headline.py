@@ -75,12 +75,13 @@ def headline(
     if verdict == "no_gap":
         also = " and predicts those held out" if gap.held_out else ""
         p_value = min(gap.test.p_value, gap.held_out_p_value)
-        doubtful = p_value < DETECTION.gap_level
-        asked = f", where {CALIBRATED.gap_level_outside:.0g} is asked for: such noise was not among what was tried"
+        certain = asked = ""
+        if p_value < DETECTION.gap_level:
+            certain = " that is certain"
+            asked = f", where {CALIBRATED.gap_level_outside:.0g} is asked for: such noise was not among what was tried"
         return (
-            f"No gap{' that is certain' if doubtful else ''}: the law describes {records}{also} to within the noise of "
-            f"{identify.noise_MPa:.2g} MPa (p = {p_value:.2g}{asked if doubtful else ''})"
-            f"{_scatter_clause(gap)}."
+            f"No gap{certain}: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
+            f"(p = {p_value:.2g}{asked}){_scatter_clause(gap)}."
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)

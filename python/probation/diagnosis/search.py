@@ -121,6 +121,7 @@ class Search:
         return again.found
 
     def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
+        """A search on another base fit that begins with the leading hypotheses, none further behind than `hopeless`."""
         again = Search(base, self.effects, self.threads, self._moved, self.skipping)
         leading = sorted(self.found[1:], key=_standing, reverse=True)[: SEARCH.reconsidered]
         leading = [each for each in leading if _standing(each) > _standing(leading[0]) - hopeless]

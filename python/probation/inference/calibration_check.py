@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.inference.modal_law import DnlrLaw
+from probation.inference.wrapped_law import WrappedLaw
 from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
@@ -64,15 +66,15 @@ class CalibrationCheck:
         """Probability that the answer set holds: more where the probabilities are less sure."""
         return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
 
-    def gap_level(self, over_rough: float) -> float:
-        """p-value below which a gap is declared: less of a small one where the noise may be unlike any that was tried.
+    def gap_level(self, misfit_over_noise: float) -> float:
+        """p-value below which a gap is declared; lower for a small gap where noise may be unlike any that was tried.
 
         Parameters
         ----------
-        over_rough : float
-            Misfit over the noise from sample to sample, in the record where that is most.
+        misfit_over_noise : float
+            Misfit over the noise from sample to sample, in the record where this ratio is largest.
         """
-        doubtful = not self.inside and over_rough < CALIBRATED.large_misfit_outside
+        doubtful = not self.inside and misfit_over_noise < CALIBRATED.large_misfit_outside
         return CALIBRATED.gap_level_outside if doubtful else DETECTION.gap_level
 
     @property
@@ -148,15 +150,13 @@ def extent_of(base: BaseFit) -> Extent:
     )
 
 
-def check_calibration(base: BaseFit, *, own_law: bool) -> CalibrationCheck:
+def check_calibration(base: BaseFit) -> CalibrationCheck:
     """Hold a campaign against the ranges of `CALIBRATED`.
 
     Parameters
     ----------
     base : BaseFit
         On the records that causes are fitted to.
-    own_law : bool
-        Whether the base law is the modal law.
     """
     found, why = extent_of(base), []
     compared = (
@@ -172,7 +172,7 @@ def check_calibration(base: BaseFit, *, own_law: bool) -> CalibrationCheck:
             why.append(f"{name} of {form(outside)}, where {form(least)} to {form(most)} are covered")
     if base.scatter.any:
         why.append("specimens that differ, where they are alike in those covered")
-    if not own_law:
+    if not isinstance(base.law.law if isinstance(base.law, WrappedLaw) else base.law, DnlrLaw):
         why.append("another law than the modal one")
     return CalibrationCheck(not why, tuple(why))
 

@@ -16,7 +16,6 @@ from probation.detection.sharp_gap import with_sharp
 from probation.errors import InputError
 from probation.inference.calibration_check import check_calibration
 from probation.inference.candidate import WhitenedColumns
-from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.noise.whitener import Whitener
@@ -232,7 +231,7 @@ def find_gap(
         record.name: _size(base.errors[index], noise, stress[record.name])
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
-    calibration = check_calibration(base, own_law=isinstance(base.law, DnlrLaw))
+    calibration = check_calibration(base)
     test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter, calibration)
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
@@ -261,11 +260,11 @@ def _survivor(
     Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
     level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
-    over_rough = max(
+    misfit_over_noise = max(
         _rms(whitened.clean(index)) / max(noise_level(record.time, record.residual), 1e-300)
         for index, record in enumerate(whitened.records)
     )
-    level, noises = calibration.gap_level(over_rough), whitened.noises
+    level, noises = calibration.gap_level(misfit_over_noise), whitened.noises
     test = _tested(whitened, signals, seed, level, scatter)
     if not test.rejected or any(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises

@@ -30,7 +30,7 @@ class CalibratedRanges:
         source="docs/tried.md: university, seed 71001; industry, seed 71002",
     )
     large_misfit_outside: float = chosen(
-        3.0, "noise", "Misfit, over the noise from sample to sample, of which that is not asked."
+        3.0, "noise", "Misfit, over the noise from sample to sample, from which on `gap_level` is enough."
     )
     evidence_power_outside: float = calibrated(
         0.2,

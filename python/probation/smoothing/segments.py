@@ -124,7 +124,7 @@ def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, betwe
         return float(np.sum((y - basis @ solution) ** 2)), nearest
 
     def left_lagging(since: FloatArray, lag: float) -> float:
-        return _left_by(np.column_stack([bent, since + lag * np.expm1(-since / lag)]), y)
+        return _left_by(np.column_stack([bent, _turned(since, lag)]), y)
 
     described = len(t) * (SMOOTHING.placed_scatter * noise) ** 2
     one = min((around(at)[0] for at in inner), default=0.0)
@@ -214,8 +214,7 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     interval = float(np.median(np.diff(time[jump : jump + SMOOTHING.border_samples + 1])))
 
     def left(begin: float, lag: float) -> float:
-        since = np.maximum(t - begin, 0.0)
-        turned = since + lag * np.expm1(-since / lag) if lag > 0.0 else since
+        turned = _turned(np.maximum(t - begin, 0.0), lag)
         return _left_by(np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned]), y)
 
     near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
@@ -226,6 +225,11 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     )
     scale = max(noise, float(np.sqrt(lagging / len(t))))
     return begun if lagging < sharp - SMOOTHING.jump_evidence * scale**2 else jump
+
+
+def _turned(since: FloatArray, lag: float) -> FloatArray:
+    """What a rate that changes by one makes of the strain, so long since; behind a first-order lag, if there is one."""
+    return since + lag * np.expm1(-since / lag) if lag > 0.0 else since
 
 
 def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, int, int], *, bends: bool) -> bool:
