@@ -133,19 +133,22 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
 
 
 def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(monkeypatch):
-    """A screen that sees nothing behind the frame leaves the damage to something outside the catalogue."""
+    """A screen that sees nothing behind the frame leaves the damage to something outside the catalogue.
+
+    Two fifths of the section: of a quarter, another course of relaxation times behind the frame does nearly as well.
+    """
     monkeypatch.setitem(globals(), "SAMPLES", 200)
     size = compliance_taking(0.5, set(TESTS))
 
     def fault(time, elongation, nominal):
-        weaker = nominal * (1.0 - 0.25 * -np.expm1(-elongation / 0.15))
+        weaker = nominal * (1.0 - 0.4 * -np.expm1(-elongation / 0.15))
         return time, elongation + size * weaker, weaker
 
     found = probation.diagnose(campaign(set(TESTS), fault), design=False)
     best = found.explanations[0]
     assert found.verdict == "explained"
     assert best.effects == ("damage", "machine_compliance")
-    assert best.probability > 0.8
+    assert best.probability > 0.75  # outside what was calibrated forms are doubted
     assert found.headline.startswith("Compliance of the machine and damage explain the gap")
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
 

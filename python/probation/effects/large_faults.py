@@ -40,12 +40,13 @@ def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) ->
 
 
 class _Size(NamedTuple):
-    """Largest nominal stress [MPa], elongation [-], and elongation over nominal stress [1/MPa] of any record.
+    """Largest nominal stress [MPa], true strain [-], elongation [-], and elongation over nominal stress [1/MPa].
 
-    And the mean elongation from sample to sample [-].
+    Of any record. And the mean elongation from sample to sample [-].
     """
 
     force: float
+    strain: float
     elongation: float
     per_force: float
     per_sample: float
@@ -53,10 +54,11 @@ class _Size(NamedTuple):
     @classmethod
     def of(cls, views: Sequence[RecordView]) -> _Size:
         forces = [float(np.max(np.abs(view.data / view.sampled(view.stretch)))) for view in views]
+        strains = [float(np.max(np.abs(view.true_strain))) for view in views]
         elongations = [float(np.max(np.abs(np.expm1(view.true_strain)))) for view in views]
         ratios = [own / force for own, force in zip(elongations, forces, strict=True) if force > 0.0]
         steps = [float(np.mean(np.abs(np.diff(np.expm1(view.sampled(view.true_strain)))))) for view in views]
-        return cls(max(forces), max(elongations), max(ratios, default=0.0), max(steps))
+        return cls(max(forces), max(strains), max(elongations), max(ratios, default=0.0), max(steps))
 
 
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
@@ -114,7 +116,14 @@ def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
     return (
         replace(large, parameters=(replace(large.amplitude, resolution=size.per_sample),), starts=starts),
         *(_taken_up(effect.form(name), size) for name in ("straightening", "seating")),
+        *(_zeroed_elsewhere(effect.form(name), size) for name in ("shift", "settling")),
     )
+
+
+def _zeroed_elsewhere(form: Form, size: _Size) -> Form:
+    """A zero of the strain that is wrong by a good part of it."""
+    wide = _widened(replace(form, starts=None), EFFECTS.large_zero * size.strain, -size.strain, size.strain)
+    return replace(wide, starts=form.starts, variant=True)
 
 
 def _taken_up(form: Form, size: _Size) -> Form:
@@ -163,10 +172,11 @@ def _hysteresis(effect: Effect, size: _Size) -> tuple[Form, ...]:
 def _lag(effect: Effect, size: _Size) -> tuple[Form, ...]:
     del size
     both_ways = (*(-start for start in EFFECTS.lag_starts), *EFFECTS.lag_starts)
-    delay, filtered = effect.form("delay"), effect.form("filter")
+    delay = effect.form("delay")
+    filtered = (effect.form(name) for name in ("filter", "strain_filter"))
     return (
         _widened(delay, EFFECTS.large_lag, delay.amplitude.lower, delay.amplitude.upper, both_ways),
-        _widened(filtered, EFFECTS.large_lag, 0.0, filtered.amplitude.upper, EFFECTS.lag_starts),
+        *(_widened(each, EFFECTS.large_lag, 0.0, each.amplitude.upper, EFFECTS.lag_starts) for each in filtered),
     )
 
 

@@ -133,16 +133,20 @@ class RecordView:
         return float(self.time[-1] - self.time[0])
 
     @cached_property
+    def signed_rate(self) -> FloatArray:
+        """Strain rate, shape (n,) [1/s]; at a jump it is the one before it."""
+        if self.strain_rate is not None:
+            return self.strain_rate
+        begin, end = self.history.rates(_core.Differentiator.three_point)
+        return np.append(begin[:1], end)
+
+    @cached_property
     def rate(self) -> FloatArray:
         """Modulus of the strain rate that relaxation times follow, not below the floor; shape (n,) [1/s].
 
-        A rate against the commanded direction is noise and counts as none. At a jump it is the one before it.
+        A rate against the commanded direction is noise and counts as none.
         """
-        if self.strain_rate is not None:
-            rate = self.strain_rate.copy()
-        else:
-            rates = self.history.rates(_core.Differentiator.three_point)
-            rate = np.append(rates[0][:1], rates[1])
+        rate = self.signed_rate.copy()
         step = np.append(self.direction[:1], self.direction)
         rate[step * rate < 0.0] = 0.0
         return np.maximum(np.abs(rate), RATE_FLOOR)

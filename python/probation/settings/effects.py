@@ -17,6 +17,9 @@ class EffectsSettings:
         "Standard deviation of a gross relative error of the force or the section: a wrong range, a wrong width.",
     )
     large_force: float = chosen(0.2, "largest force", "Standard deviation of a gross error of the force.")
+    large_zero: float = chosen(
+        0.1, "largest true strain", "Standard deviation of a strain that was zeroed at quite another length."
+    )
     large_travel: float = chosen(
         0.3,
         "largest elongation",
@@ -91,6 +94,9 @@ class EffectsSettings:
     )
     necking_rate_ratio: float = chosen(
         2.0, "-", "Largest over median strain rate, under grips at one speed, from which on a section necks."
+    )
+    necking_strain: float = chosen(
+        0.1, "true strain", "Largest strain from which on a section whose own strain is kept may be one that necks."
     )
     fewest_slack: int = chosen(5, "samples", "Samples without force in a row that are more than a crossing of zero.")
     crystallising_strain: float = chosen(

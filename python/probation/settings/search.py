@@ -38,6 +38,12 @@ class SearchSettings:
         "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
         "shows whether their deviations hold a strong gap.",
     )
+    unusual_specimens: float = chosen(
+        2.5,
+        "standard deviations",
+        "Root mean square of the specimens' deviations beyond which they hold a gap: 5 to 14 where a strong one is "
+        "left to them, 1 to 2 where the cause is known but for its form.",
+    )
     line_or_step_level: float = chosen(
         0.01,
         "-",

@@ -29,6 +29,12 @@ def _logarithmic(view: RecordView, values: Values, stress: FloatArray) -> FloatA
     return np.asarray(stress + values[0] * part * view.stretch)
 
 
+def _settling(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """As 1 - e^(-t / T), T a fraction of the record: from nothing to a at the end, in nominal stress."""
+    part = np.expm1(-view.elapsed / (values[1] * view.duration)) / np.expm1(-1.0 / values[1])
+    return np.asarray(stress + values[0] * part * view.stretch)
+
+
 EFFECT = Effect(
     name="force_drift",
     title="drift of the force",
@@ -74,6 +80,25 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_logarithmic,
+            variant=True,
+        ),
+        Form(
+            "settling",
+            (
+                EffectParameter("drift_MPa", "MPa", -20.0, 20.0, 0.3, "about 1 % of a yield stress"),
+                EffectParameter(
+                    name="time_constant_of_record",
+                    unit="",
+                    lower=0.01,
+                    upper=3.0,
+                    centre=0.3,
+                    scale=0.8,
+                    log=True,
+                    starts=(0.1, 0.4),
+                    reason="a cell comes to a temperature by one time constant; with much more it is steady",
+                ),
+            ),
+            recorded_stress=_settling,
             variant=True,
         ),
     ),

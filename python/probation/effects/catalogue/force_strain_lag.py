@@ -51,12 +51,17 @@ def _filter(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     return np.asarray(force * view.stretch)
 
 
+def _strain_filter(view: RecordView, values: Values) -> FloatArray:
+    """The strain came through a filter of first order, of time constant a: it was ahead by a times its rate."""
+    return view.true_strain + values[0] * view.signed_rate
+
+
 EFFECT = Effect(
     name="force_strain_lag",
     title="lag between force and strain",
     physics=(
         "Filters or separate clocks delay one channel against the other.\n"
-        "Amplitude: by how much the force comes late (negative: the strain does)."
+        "Amplitude: by how much the force comes late (negative: the strain does, as it does by a filter of its own)."
     ),
     source="ASTM E1942 (data acquisition in mechanical testing: delays and filters); Thomson 1949, Proc. IEE 96, 487",
     shows_in="fast records, rate jumps and reversals, where the stress changes quickly",
@@ -84,6 +89,12 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_filter,
+            variant=True,
+        ),
+        Form(
+            "strain_filter",
+            (EffectParameter("strain_lag_s", "s", 0.0, 20.0, 0.3, "video extensometers average over 0.1 to 1 s"),),
+            driving_strain=_strain_filter,
             variant=True,
         ),
     ),

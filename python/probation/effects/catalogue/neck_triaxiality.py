@@ -45,12 +45,18 @@ def _passing(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
 
 
 def _necks(views: Sequence[RecordView]) -> bool:
-    """Whether the strain rate surges anywhere under grips at one speed."""
+    """Whether the strain rate surges anywhere under grips at one speed, or a section was strained beyond yield.
+
+    A machine that keeps the strain rate does so in the section that is measured, and that one is in a neck where the
+    specimen necks (G'Sell et al. 1992): its rate tells nothing of it.
+    """
     for view in views:
         if view.control == "displacement-rate":
             rate = view.rate
             if float(np.max(rate)) > EFFECTS.necking_rate_ratio * float(np.median(rate)):
                 return True
+        elif float(np.max(view.largest_strain)) > EFFECTS.necking_strain:
+            return True
     return False
 
 
@@ -65,7 +71,7 @@ EFFECT = Effect(
         "Bridgman 1952, Studies in Large Plastic Flow and Fracture; Le Roy, Embury, Edwards & Ashby 1981, Acta Metall. "
         "29, 1509; G'Sell, Hiver, Dahoun & Souahi 1992, J. Mater. Sci. 27, 5031"
     ),
-    shows_in="records of a necking section under grips",
+    shows_in="records of a section that necks",
     kind="rig",
     forms=(
         Form(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,6 +29,7 @@ _HARMONICS = 12
 _NEWTON_STEPS = 3
 """Steps by which the best phase on the grid is refined: each doubles its digits."""
 _GRID = np.arange(256) / 256.0
+_WAVES = np.exp(2j * np.pi * np.outer(_GRID, np.arange(1, _HARMONICS + 1)))
 """Phases [periods] that are tried first: twenty to a wave of the highest harmonic."""
 
 _PERIOD = EffectParameter(
@@ -143,7 +145,7 @@ def _coefficients(
 def _best_phase(orders: NDArray[np.intp], answers: NDArray[np.complex128]) -> float:
     """Where sum Re c_k e^(2 pi i k x) is largest: on a grid, then by Newton's method."""
     turn = 2j * np.pi * orders
-    phase = float(_GRID[int(np.argmax((np.exp(np.outer(_GRID, turn)) @ answers).real))])
+    phase = float(_GRID[int(np.argmax((_WAVES[:, : len(orders)] @ answers).real))])
     for _ in range(_NEWTON_STEPS):
         here = answers * np.exp(turn * phase)
         slope, bend = float(np.sum(turn * here).real), float(np.sum(turn**2 * here).real)
@@ -154,9 +156,15 @@ def _best_phase(orders: NDArray[np.intp], answers: NDArray[np.complex128]) -> fl
 
 def _dropping(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """True stress falls by a(1 - e^(-x / w)) e^(n e), x the strain beyond the onset, e the strain."""
+    return np.asarray(stress + _drops(view, tuple(map(float, values))))
+
+
+@lru_cache(maxsize=256)
+def _drops(view: RecordView, values: tuple[float, ...]) -> FloatArray:
+    """The teeth of one record, shape (n,) [MPa]: kept, since all slopes along other parameters ask for the same."""
     drop, period, recovery, onset, growth, power = values
     grown = -np.expm1(-np.maximum(view.largest_strain - onset, 0.0) / growth)
-    return stress + _teeth(view, period, recovery, drop * grown * np.exp(power * view.largest_strain))
+    return _teeth(view, period, recovery, drop * grown * np.exp(power * view.largest_strain))
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:

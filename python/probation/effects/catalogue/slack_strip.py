@@ -26,15 +26,19 @@ The second is above the zero error of a load cell and below what a strip that ha
 _SIZE = EffectParameter("slack_part", "", 0.0, 1.0, 1.0, "a thin strip buckles at once (1), a stout bar never (0)")
 
 
+def _back_to_no_force(view: RecordView) -> NDArray[np.bool_]:
+    """Samples without a pull after a loading, while the strain is below its largest; shape (n_samples,)."""
+    force = view.data / view.sampled(view.stretch)
+    largest = float(np.max(force))
+    loaded = (np.maximum.accumulate(force) > _LOADED * largest) & (largest > 0.0)
+    back = view.sampled(view.true_strain) < view.sampled(view.largest_strain)
+    return np.asarray(loaded & back & (force < _NONE * largest))
+
+
 def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
     """First and last sample of each segment without force after a loading, while the strain is below its largest."""
     force = view.data / view.sampled(view.stretch)
-    largest = float(np.max(force))
-    if largest <= 0.0:
-        return []
-    loaded = np.maximum.accumulate(force) > _LOADED * largest
-    back = view.sampled(view.true_strain) < view.sampled(view.largest_strain)
-    slack = loaded & back & (np.abs(force) < _NONE * largest)
+    slack = _back_to_no_force(view) & (force > -_NONE * float(np.max(force)))
     edges = np.flatnonzero(np.diff(np.concatenate([[0], slack.astype(np.int8), [0]])))
     return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a >= EFFECTS.fewest_slack]
 
@@ -72,6 +76,11 @@ def _goes_slack(views: Sequence[RecordView]) -> bool:
     return any(slack_intervals(view) for view in views)
 
 
+def _is_pressed(views: Sequence[RecordView]) -> bool:
+    """Whether any record comes to no force or below it after a loading: a stout strip still carries a part of it."""
+    return any(bool(np.any(_back_to_no_force(view))) for view in views)
+
+
 EFFECT = Effect(
     name="slack_strip",
     title="a strip that goes slack",
@@ -80,7 +89,7 @@ EFFECT = Effect(
         "Amplitude: part of the compression that is missing; it keeps a strain of its own, or follows."
     ),
     source="Euler 1744 (buckling); ASTM D412 and ISO 37 (strips of elastomer pull only)",
-    shows_in="unloading down to zero force, where the force stays",
+    shows_in="unloading down to zero force, where the force stays, or falls less than it would",
     kind="rig",
     forms=(
         Form(
@@ -91,6 +100,6 @@ EFFECT = Effect(
             converts=False,
             needs=_goes_slack,
         ),
-        Form("no_compression", (_SIZE,), recorded_stress=_no_compression, needs=_goes_slack),
+        Form("no_compression", (_SIZE,), recorded_stress=_no_compression, needs=_is_pressed),
     ),
 )

@@ -29,6 +29,17 @@ _PULL = EffectParameter(
 
 _SEAT = replace(_PULL, name="seating_stress_MPa", reason="joints are tight at some per cent of the largest force")
 
+_TIME = EffectParameter(
+    name="settling_time_s",
+    unit="s",
+    lower=0.1,
+    upper=1e5,
+    centre=300.0,
+    scale=1.5,
+    log=True,
+    reason="cameras and clips warm up within minutes to hours",
+)
+
 LEAST_STRETCH = 0.1
 """Of a specimen, where more travel than there was is taken off."""
 
@@ -47,6 +58,11 @@ def _toe(view: RecordView, values: Values) -> FloatArray:
 def _shift(view: RecordView, values: Values) -> FloatArray:
     """The zero of the strain is wrong: the specimen, relaxed at the start, saw a less than was recorded."""
     return view.true_strain - values[0]
+
+
+def _settling(view: RecordView, values: Values) -> FloatArray:
+    """The zero of the strain creeps while a test runs: by a (1 - e^(-t/T))."""
+    return view.true_strain + values[0] * np.expm1(-view.elapsed / values[1])
 
 
 def _straightening(view: RecordView, values: Values) -> FloatArray:
@@ -70,17 +86,24 @@ def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) 
     return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in EFFECTS.take_up_starts]
 
 
+def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Time constants [s]: a tenth of the shortest record, half the longest."""
+    durations = [view.duration for view in views]
+    return [(float(np.clip(time, _TIME.lower, _TIME.upper)),) for time in (0.1 * min(durations), 0.5 * max(durations))]
+
+
 EFFECT = Effect(
     name="strain_offset",
     title="offset of the strain",
     physics=(
-        "Slack in the load train is recorded as strain (toe), the strain was zeroed at the wrong length, or one face "
-        "of a bent or misaligned strip was measured while it was pulled straight.\n"
+        "Slack in the load train is recorded as strain (toe), the strain was zeroed at the wrong length or its zero "
+        "creeps while a camera warms up, or one face of a bent or misaligned strip was measured while it was pulled "
+        "straight.\n"
         "Amplitude: recorded strain that the specimen did not see."
     ),
     source=(
         "ASTM D638, annex A1 (toe compensation); Timoshenko & Gere 1961, Theory of Elastic Stability, section 1.12 "
-        "(initial curvature); ASTM E1012 (bending)"
+        "(initial curvature); ASTM E1012 (bending); Ma, Pang & Ma 2012, Meas. Sci. Technol. 23, 025403 (cameras)"
     ),
     shows_in="the onset of a record and, at zero load, its unloading; a wrong zero only bends the hardening",
     kind="rig",
@@ -112,6 +135,13 @@ EFFECT = Effect(
             "shift",
             (EffectParameter("strain_zero_error", "", -0.2, 0.2, 0.005, "some tenths of a per cent"),),
             driving_strain=_shift,
+        ),
+        Form(
+            "settling",
+            (EffectParameter("settled_strain", "", -0.2, 0.2, 0.005, "some tenths of a per cent"), _TIME),
+            driving_strain=_settling,
+            starts=_durations,
+            variant=True,
         ),
         Form(
             "straightening",
