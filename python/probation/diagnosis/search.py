@@ -288,7 +288,8 @@ class Search:
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left)}
         periodic = self._periodic_in_strain(left)
-        smooth = max((each.gain for each in candidates if each.cause.form.sharp is None), default=0.0)
+        best_smooth = next((each for each in candidates if each.cause.form.sharp is None), None)
+        smooth = 0.0 if best_smooth is None else best_smooth.gain
 
         def credible(each: Candidate) -> bool:
             sharp = each.cause.form.sharp
@@ -297,6 +298,8 @@ class Search:
                 sharp == "step" and each.gain > SEARCH.soft_step_ratio * (smooth + SEARCH.soft_step_lead)
             ):
                 return True
+            if sharp == "step" and best_smooth is not None and each.cause.effect is best_smooth.cause.effect:
+                return True  # a slip that creeps may be one that takes some samples
             if sharp == "line":
                 return bool(places & lines)
             if sharp == "strain_period":
@@ -603,22 +606,23 @@ def _alone(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
 def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
     """Of each effect its starts in all records where it gains: what acts in several is not quite alike in them.
 
-    Specimens have sections of their own, and a slip its own instant. So each record has its own best start; and once
-    more all have the same form from the same shapes, those that gain most together: a start that is best in one record
-    by itself may be far from what acts there.
+    Specimens have sections of their own, and a slip its own instant. So each record has its own best start, and its own
+    best smooth one: a step is far from what takes its time. And once more all have the same form from the same shapes,
+    those that gain most together: a start that is best in one record by itself may be far from what acts there.
     """
-    best: dict[str, dict[tuple[str, ...], Candidate]] = {}
+    best: dict[tuple[str, bool], dict[tuple[str, ...], Candidate]] = {}
     alike: dict[tuple[str, str, tuple[float, ...]], dict[tuple[str, ...], Candidate]] = {}
     for each in candidates:
         cause = each.cause
         if each.base is None and cause.records is not None and each.gain > SEARCH.worth_refitting:
-            best.setdefault(cause.effect.name, {}).setdefault(cause.records, each)
+            for smooth in {False, cause.form.sharp is None}:
+                best.setdefault((cause.effect.name, smooth), {}).setdefault(cause.records, each)
             start = cause.effect.name, cause.form.name, each.values[1:]
             alike.setdefault(start, {}).setdefault(cause.records, each)
-    found = []
-    for name, own in best.items():
+    found: list[tuple[Candidate, ...]] = []
+    for (name, smooth), own in best.items():
         starts = [tuple(places.values()) for (effect, *_), places in alike.items() if effect == name]
-        for together in (tuple(own.values()), max(starts, key=_gain)):
+        for together in (tuple(own.values()), *([] if smooth else [max(starts, key=_gain)])):
             if len(together) > 1 and together not in found:
                 found.append(together)
     return found

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
-_DURATION = 0.004
-"""Duration of a slip over that of its record [-] from which a search begins: half a usual one, some samples."""
+_DURATIONS = (0.004, 0.016)
+"""Durations of a slip over that of its record [-] from which searches begin: half a usual one, and two of them."""
 
 _PULL = EffectParameter(
     name="holding_stress_MPa",
@@ -43,7 +43,7 @@ _PARAMETERS = (
         upper=0.04,
         centre=0.0,
         scale=0.008,
-        starts=(_DURATION,),
+        starts=_DURATIONS,
         reason="jaws let go at once, but the channels follow within some samples",
     ),
 )
@@ -76,7 +76,7 @@ def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) 
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    return [(instant, _DURATION) for instant in likely_instants(views, residuals)]
+    return [(instant, duration) for instant in likely_instants(views, residuals) for duration in _DURATIONS]
 
 
 EFFECT = Effect(

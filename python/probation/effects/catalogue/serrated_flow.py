@@ -29,8 +29,9 @@ _HARMONICS = 12
 _NEWTON_STEPS = 3
 """Steps by which the best phase on the grid is refined: each doubles its digits."""
 _GRID = np.arange(256) / 256.0
-_WAVES = np.exp(2j * np.pi * np.outer(_GRID, np.arange(1, _HARMONICS + 1)))
 """Phases [periods] that are tried first: twenty to a wave of the highest harmonic."""
+_WAVES = np.exp(2j * np.pi * np.outer(_GRID, np.arange(1, _HARMONICS + 1)))
+"""Of all harmonics, at these phases."""
 
 _PERIOD = EffectParameter(
     name="period_strain",
