@@ -43,6 +43,7 @@ def test_forms_are_doubted_where_nothing_was_calibrated():
     assert inside.doubt == 0.0
     assert outside.doubt > 0.0
     assert outside.power_in_doubt < outside.power < inside.power
+    assert outside.most_unknown < inside.most_unknown == 1.0
     assert outside.left_by_forms > inside.left_by_forms
 
 

@@ -225,6 +225,21 @@ def test_forms_in_doubt_leave_what_was_probable_beforehand():
             assert chance == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(("lead", "kept"), [(8.0, True), (3.0, False)])
+def test_an_unknown_effect_does_not_lead_by_its_prior_alone(lead, kept):
+    """Where evidence counts to the power of 0.1, eight log units do not outweigh the prior: the limit does."""
+    found = [hypothesis(unknown=50.0 - lead), alone(NAMES[0], log_evidence=50.0)]
+    free = {each.effects: each.probability for each in probabilities_of(found, 60, Trust(power=0.1))}
+    cut = {each.effects: each.probability for each in probabilities_of(found, 60, Trust(power=0.1, most_unknown=0.2))}
+    assert free[("unknown",)] > free[(NAMES[0],)]
+    if not kept:
+        assert cut == pytest.approx(free)
+        return
+    assert cut[("unknown",)] == pytest.approx(0.2)
+    assert sum(cut.values()) == pytest.approx(1.0)
+    assert cut[(NAMES[0],)] / cut[()] == pytest.approx(free[(NAMES[0],)] / free[()])
+
+
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():
     rig = made("rig_fault", kind="rig")
     best = hypothesis(Cause(rig, rig.forms[0], ("r2",)), log_evidence=5.0)

@@ -12,11 +12,13 @@ from scipy.special import logsumexp, softmax
 from probation.inference.calibration_check import EXACT
 from probation.inference.candidate import Key, cause_key
 from probation.inference.unknown import UNKNOWN
+from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.effect import Effect
     from probation.inference.calibration_check import Trust
@@ -79,11 +81,27 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
     chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
     chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
+    chances = _unknown_cut(chances, evidence, trust.most_unknown)
     found = [
         Weighed(effects, chance, _standing_for(entries))
         for (effects, entries), chance in zip(together.items(), chances.tolist(), strict=True)
     ]
     return sorted(found, key=lambda each: -each.probability)
+
+
+def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float], most: float) -> FloatArray:
+    """An unknown effect alone keeps no more than `most` where an explanation without one has plainly more evidence.
+
+    It stands for all smooth functions, and its prior is that of several effects. Where evidence counts to a low power
+    the prior decides, whatever a known effect gains.
+    """
+    alone = (UNKNOWN,)
+    known = max((value for effects, value in evidence.items() if effects and UNKNOWN not in effects), default=-np.inf)
+    at = list(evidence).index(alone) if alone in evidence else -1
+    if at < 0 or known - evidence[alone] < CALIBRATED.plain_lead or chances[at] <= most:
+        return chances
+    others = (1.0 - most) / (1.0 - chances[at])
+    return np.where(np.arange(len(chances)) == at, most, others * chances)
 
 
 def _beyond_forms(evidence: Mapping[tuple[str, ...], float], part: float) -> dict[tuple[str, ...], float]:

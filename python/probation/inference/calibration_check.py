@@ -35,12 +35,15 @@ class Trust:
     doubt : float
         Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
     power_in_doubt : float
+    most_unknown : float
+        Most that an unknown effect keeps where a known explanation has plainly more evidence.
     """
 
     power: float = 1.0
     left_by_forms: float = 0.0
     doubt: float = 0.0
     power_in_doubt: float = 1.0
+    most_unknown: float = 1.0
 
 
 EXACT = Trust()
@@ -87,6 +90,7 @@ class CalibrationCheck:
             CALIBRATED.left_by_forms_outside,
             CALIBRATED.doubt_outside,
             CALIBRATED.power_in_doubt,
+            CALIBRATED.most_unknown_outside,
         )
 
     @property

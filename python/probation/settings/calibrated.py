@@ -58,6 +58,19 @@ class CalibratedRanges:
         "Power of the evidence where its forms are in doubt.",
         source="docs/tried.md: university, seed 51001; industry, seed 51002",
     )
+    most_unknown_outside: float = calibrated(
+        0.2,
+        "probability",
+        "Most that an effect outside the catalogue keeps outside these ranges where a known explanation leads it by "
+        "`plain_lead`: evidence that counts to a low power leaves it ahead by its prior alone.",
+        source="docs/tried.md: single effects of university, industry, institute, seeds 19001 to 19003",
+    )
+    plain_lead: float = calibrated(
+        5.0,
+        "log evidence",
+        "Lead of the best known explanation over an effect outside the catalogue from which on that holds.",
+        source="docs/tried.md: single effects of university, industry, institute, seeds 19001 to 19003",
+    )
     said_elsewhere: float = calibrated(
         0.66,
         "probability",
