@@ -37,14 +37,14 @@ def diagnosed(*records, hold=None):
 
 def nothing_else_is_named(found):
     """Relaxation alone leads by far. The set may hold it "and something unknown", of which no data are quite free, and
-    pairs with a second effect that does not show, by less than one in a hundred.
+    pairs with a second effect that does not show, by less than one in fifty.
     """
     others = [each for each in found.explanations if each.effects not in {(MISSING,), (MISSING, UNKNOWN)}]
     return (
         found.best.effects == (MISSING,)
         and found.best.probability > 0.8
         and all(
-            each.probability < 0.01 and MISSING in each.effects for each in others if each.effects in found.answer_set
+            each.probability < 0.02 and MISSING in each.effects for each in others if each.effects in found.answer_set
         )
     )
 

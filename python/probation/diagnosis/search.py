@@ -13,14 +13,13 @@ from probation.detection.strain_periodic import find_strain_periodic
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
-from probation.inference.base_fit import with_joint_noise
+from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
 from probation.inference.refit import MOST_STEPS, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.own_deviations import usual_deviation
 from probation.noise.span import span_of, without
 from probation.parallel import in_parallel
 from probation.settings.search import SEARCH
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
-    from probation.inference.problem import Problem
     from probation.noise.whitening import Whitened
 
 
@@ -318,8 +316,8 @@ class Search:
         """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead.
 
         And every cause of it in its other forms: a cause that had to explain what two of them do may take another form
-        jointly with the second one. Not those of an effect that acts in several records: they were begun in all forms
-        together, and there are as many as records.
+        jointly with the second one. Of many causes only those of effects that act once: where one acts in several
+        records it was begun in them together, and there are as many causes as records.
         """
         while leading := self.ranked()[:1]:
             found = leading[0].refit
@@ -337,7 +335,7 @@ class Search:
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             once = [cause for cause in causes if sum(other.effect is cause.effect for other in causes) == 1]
-            for cause in once:
+            for cause in causes if len(causes) <= SEARCH.in_other_forms else once:
                 without_it = [each for each in parts if _keys(each.refit) == key - {cause_key(cause)}]
                 if without_it:
                     self._additions(without_it[0], cause)
@@ -432,41 +430,37 @@ class Search:
 
         With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
         they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
-        of specimens that differ would leave more to them. Specimens that are alike are no way to a cause where they are
-        missed by more than at the start, or than without a cause: their own scatter, or a fault in one record, pulls
-        the law. There, and where the start leaves little, a refit of specimens that differ comes first.
+        of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
+        record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
         """
         problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         if not self.base.scatter.any:
             return refit(problem, start, most_steps=steps)
-        misfit = self._misfit(problem, start)
+        with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+            misfit = float(np.sum(problem.residual(start) ** 2))
         if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
             found = refit(problem, start, most_steps=steps)
-            if self._specimens_are_usual(found):
+            if not specimens_hold_the_gap(model, noises, start, found.parameters):
                 return found
         alike = refit(problem.with_noises(noises), start, most_steps=steps).parameters
         begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
-        if self._specimens_are_usual(begun):
+        if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return begun
             found = refit(problem, begun.parameters, most_steps=steps)
-            if self._specimens_are_usual(found):
+            if not specimens_hold_the_gap(model, noises, alike, found.parameters):
                 return found
-        if self._misfit(problem, alike) > min(misfit, self.base.refit.chi_square):
-            found = refit(problem, start, most_steps=steps)
-            if self._specimens_are_usual(found):
-                return found
-        return refit(problem, alike, most_steps=0)
+        there = refit(problem, alike, most_steps=0)
+        if there.chi_square <= self.base.refit.chi_square:
+            return there
+        found = refit(problem, begun.parameters, most_steps=steps)
+        held = specimens_hold_the_gap(model, noises, self._without_effect(model), found.parameters)
+        return there if held else found
 
-    def _misfit(self, problem: Problem, parameters: FloatArray) -> float:
-        with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-            return float(np.sum(problem.residual(parameters) ** 2))
-
-    def _specimens_are_usual(self, found: Refit) -> bool:
-        """Whether their deviations are such as their scatter makes them: beyond that they hold a gap."""
-        model, residual = found.model, found.model.residual(found.parameters)
-        parts = [residual[model.rows(view.id)] for view in model.views]
-        return usual_deviation(parts, self.base.problem.whitener.noises) <= SEARCH.unusual_specimens
+    def _without_effect(self, model: CampaignModel) -> FloatArray:
+        """The base fit as parameters of a model whose causes are absent."""
+        law = self.base.model.split(self.base.refit.parameters)[0]
+        return np.append(law, model.start[model.base_count :])
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""

@@ -30,28 +30,6 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
         With the specimens' scatter.
     """
     parts = [np.zeros(len(residual)) for residual in residuals]
-    for members, size in _likeliest(residuals, noises):
-        most = float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
-        shortened = size * min(1.0, most / max(float(np.linalg.norm(size)), 1e-300))
-        for index in members:
-            columns = noises[index].specimen
-            assert columns is not None
-            parts[index] = columns @ shortened
-    return parts
-
-
-def usual_deviation(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> float:
-    """Root mean square of the specimens' most probable deviations [standard deviations of their scatter].
-
-    About 1 where specimens differ as they are said to, and less where the records tell little of them.
-    """
-    sizes = [size for _, size in _likeliest(residuals, noises)]
-    return float(np.sqrt(np.mean(np.concatenate(sizes) ** 2))) if sizes else 0.0
-
-
-def _likeliest(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> list[tuple[list[int], FloatArray]]:
-    """Each specimen's records, by number, and its most probable deviations [standard deviations of their scatter]."""
-    found = []
     for members in specimens_of(noises):
         normal, pull = np.zeros(()), np.zeros(())
         for index in members:
@@ -62,9 +40,16 @@ def _likeliest(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) ->
             white = noise.whiten(np.column_stack([columns, residuals[index]]))
             normal = normal + white[:, :-1].T @ white[:, :-1]
             pull = pull + white[:, :-1].T @ white[:, -1]
-        if normal.ndim:
-            found.append((members, np.asarray(np.linalg.solve(np.eye(len(normal)) + normal, pull), dtype=np.float64)))
-    return found
+        if not normal.ndim:
+            continue
+        size = np.linalg.solve(np.eye(len(normal)) + normal, pull)
+        most = float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
+        size *= min(1.0, most / max(float(np.linalg.norm(size)), 1e-300))
+        for index in members:
+            columns = noises[index].specimen
+            assert columns is not None
+            parts[index] = columns @ size
+    return parts
 
 
 def specimen_columns(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> list[FloatArray]:

@@ -38,12 +38,6 @@ class SearchSettings:
         "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
         "shows whether their deviations hold a strong gap.",
     )
-    unusual_specimens: float = chosen(
-        2.5,
-        "standard deviations",
-        "Root mean square of the specimens' deviations beyond which they hold a gap: 5 to 14 where a strong one is "
-        "left to them, 1 to 2 where the cause is known but for its form.",
-    )
     line_or_step_level: float = chosen(
         0.01,
         "-",
@@ -65,6 +59,11 @@ class SearchSettings:
     places: int = chosen(2, "records", "Records in which a rig's fault is tried alone, those with the best score.")
     extended_explanations: int = chosen(3, "explanations", "Best explanations that are added to.")
     additions: int = chosen(6, "effects", "Additions that each of them is given.")
+    in_other_forms: int = chosen(
+        6,
+        "causes",
+        "Causes of an explanation up to which each is tried in its other forms; beyond, effects that act once.",
+    )
     with_unknown: int = chosen(
         5, "hypotheses", "Leading hypotheses with which an unknown effect is looked for jointly."
     )
