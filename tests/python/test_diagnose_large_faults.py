@@ -132,26 +132,32 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert "cannot" not in found.headline
 
 
-@pytest.mark.xfail(reason="since a further effect is judged with the unknown uncut first; to be found out")
-def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(monkeypatch):
-    """A screen that sees nothing behind the frame leaves the damage to something outside the catalogue.
-
-    Two fifths of the section: of a quarter, another course of relaxation times behind the frame does nearly as well.
-    """
-    monkeypatch.setitem(globals(), "SAMPLES", 200)
-    size = compliance_taking(0.5, set(TESTS))
+@pytest.fixture(scope="module")
+def damage_behind_a_soft_frame():
+    """Two fifths of the section: of a quarter, another course of relaxation times does nearly as well."""
 
     def fault(time, elongation, nominal):
         weaker = nominal * (1.0 - 0.4 * -np.expm1(-elongation / 0.15))
         return time, elongation + size * weaker, weaker
 
-    found = probation.diagnose(campaign(set(TESTS), fault), design=False)
-    best = found.explanations[0]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setitem(globals(), "SAMPLES", 200)
+        size = compliance_taking(0.5, set(TESTS))
+        return probation.diagnose(campaign(set(TESTS), fault), design=False)
+
+
+def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(damage_behind_a_soft_frame):
+    """A screen that sees nothing behind the frame leaves the damage to something outside the catalogue."""
+    found = damage_behind_a_soft_frame
     assert found.verdict == "explained"
-    assert best.effects == ("damage", "machine_compliance")
-    assert best.probability > 0.75  # outside what was calibrated forms are doubted
+    assert found.best.effects == ("damage", "machine_compliance")
     assert found.headline.startswith("Compliance of the machine and damage explain the gap")
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
+@pytest.mark.xfail(reason="0.71: an unknown keeps 0.20, a third effect 0.07")
+def test_damage_behind_a_soft_frame_is_probable(damage_behind_a_soft_frame):
+    assert damage_behind_a_soft_frame.best.probability > 0.75  # outside what was calibrated forms are doubted
 
 
 @pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])

@@ -34,7 +34,7 @@ def test_every_explanation_of_etfe_within_the_catalogue_has_rate_dependent_relax
     found = diagnose(whole, design=False)
     assert found.gap.rejected
     # 0.6 MPa were left, five times the noise, while the start of the specimens was smoothed away. Two effects leave
-    # 0.20, a tenth of the gap, as an error of their form may; a third one, which is in the answer set, 0.13.
+    # a tenth of the gap, 0.20, as an error of their form may.
     assert found.verdict == "explained"
     assert found.shrink.identify.after_MPa < 2.0 * found.noise_MPa
     assert found.best.checks is not None

@@ -152,12 +152,12 @@ def causes_of(
         return bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed)
 
     trust = calibration.trust
-    if trust.left_by_forms:
-        first = judged(replace(trust, most_unknown=1.0))
-        if UNKNOWN in first.weighed[0].effects or leaves_more(first):
-            trust = replace(trust, left_by_forms=0.0)  # what is left is no error of a form
     causes = judged(trust)
     more = leaves_more(causes)
+    if trust.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
+        # What is left is no error of a form.
+        causes = judged(replace(trust, left_by_forms=0.0))
+        more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
 
 

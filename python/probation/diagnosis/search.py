@@ -286,7 +286,8 @@ class Search:
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left)}
         periodic = self._periodic_in_strain(left)
-        best_smooth = next((each for each in candidates if each.cause.form.sharp is None), None)
+        smooth_ones = [each for each in candidates if each.cause.form.sharp is None]
+        best_smooth = max(smooth_ones, key=lambda each: each.gain, default=None)
         smooth = 0.0 if best_smooth is None else best_smooth.gain
 
         def credible(each: Candidate) -> bool:
@@ -315,9 +316,8 @@ class Search:
     def _parts_of_the_leader(self) -> None:
         """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead.
 
-        And every cause of it in its other forms: a cause that had to explain what two of them do may take another form
-        jointly with the second one. Of many causes only those of effects that act once: where one acts in several
-        records it was begun in them together, and there are as many causes as records.
+        And every effect of it that acts once in its other forms: one that had to explain what two of them do may take
+        another form jointly with the second one. An effect that acts in several records was begun in them together.
         """
         while leading := self.ranked()[:1]:
             found = leading[0].refit
@@ -335,7 +335,7 @@ class Search:
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             once = [cause for cause in causes if sum(other.effect is cause.effect for other in causes) == 1]
-            for cause in causes if len(causes) <= SEARCH.in_other_forms else once:
+            for cause in once:
                 without_it = [each for each in parts if _keys(each.refit) == key - {cause_key(cause)}]
                 if without_it:
                     self._additions(without_it[0], cause)

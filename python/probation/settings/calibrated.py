@@ -63,13 +63,13 @@ class CalibratedRanges:
         "probability",
         "Most that an effect outside the catalogue keeps outside these ranges where a known explanation leads it by "
         "`plain_lead`: evidence that counts to a low power leaves it ahead by its prior alone.",
-        source="docs/tried.md: single effects of university, industry, institute, seeds 19001 to 19003",
+        source="docs/laboratories.md, plain single effects: seeds 19001 to 19003",
     )
     plain_lead: float = calibrated(
         5.0,
         "log evidence",
         "Lead of the best known explanation over an effect outside the catalogue from which on that holds.",
-        source="docs/tried.md: single effects of university, industry, institute, seeds 19001 to 19003",
+        source="docs/laboratories.md, plain single effects: seeds 19001 to 19003",
     )
     said_elsewhere: float = calibrated(
         0.66,

@@ -59,11 +59,6 @@ class SearchSettings:
     places: int = chosen(2, "records", "Records in which a rig's fault is tried alone, those with the best score.")
     extended_explanations: int = chosen(3, "explanations", "Best explanations that are added to.")
     additions: int = chosen(6, "effects", "Additions that each of them is given.")
-    in_other_forms: int = chosen(
-        6,
-        "causes",
-        "Causes of an explanation up to which each is tried in its other forms; beyond, effects that act once.",
-    )
     with_unknown: int = chosen(
         5, "hypotheses", "Leading hypotheses with which an unknown effect is looked for jointly."
     )

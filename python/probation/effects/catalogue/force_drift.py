@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 
+_DRIFT = EffectParameter("drift_MPa", "MPa", -20.0, 20.0, 0.3, "about 1 % of a yield stress")
+
+
 def _over_record(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """From nothing at the start to a at the end, in nominal stress."""
     return stress + values[0] * (view.elapsed / view.duration) * view.stretch
@@ -50,7 +53,7 @@ EFFECT = Effect(
     forms=(
         Form(
             "over_record",
-            (EffectParameter("drift_MPa", "MPa", -20.0, 20.0, 0.3, "about 1 % of a yield stress"),),
+            (_DRIFT,),
             recorded_stress=_over_record,
         ),
         Form(
@@ -66,7 +69,7 @@ EFFECT = Effect(
         Form(
             "logarithmic",
             (
-                EffectParameter("drift_MPa", "MPa", -20.0, 20.0, 0.3, "about 1 % of a yield stress"),
+                _DRIFT,
                 EffectParameter(
                     name="time_of_record",
                     unit="",
@@ -85,7 +88,7 @@ EFFECT = Effect(
         Form(
             "settling",
             (
-                EffectParameter("drift_MPa", "MPa", -20.0, 20.0, 0.3, "about 1 % of a yield stress"),
+                _DRIFT,
                 EffectParameter(
                     name="time_constant_of_record",
                     unit="",
