@@ -192,18 +192,34 @@ class RecordView:
         return self.temperature is not None and float(np.ptp(self.temperature)) > 0.0
 
     @cached_property
+    def smooth_temperature(self) -> FloatArray | None:
+        """Temperature without the noise of its readings, shape (n_samples,) [°C]: by a penalised spline, if measured.
+
+        A law that it drives would take its noise for warming and cooling.
+        """
+        if self.same_data is not None:
+            return self.same_data.smooth_temperature
+        if self.temperature is None or not self.temperature_is_measured:
+            return self.temperature
+        from probation.smoothing.penalised_spline import smooth_cubic  # noqa: PLC0415 - few need scipy.interpolate
+
+        return smooth_cubic(self.sampled(self.time), self.temperature).true_strain
+
+    @cached_property
     def warmer_than_reference(self) -> FloatArray | None:
         """Temperature above the reference temperature, shape (n,) [°C]; None where either is not known."""
-        if self.temperature is None or self.reference_temperature is None:
+        smooth = self.smooth_temperature
+        if smooth is None or self.reference_temperature is None:
             return None
-        return np.asarray(np.interp(self.time, self.sampled(self.time), self.temperature) - self.reference_temperature)
+        return np.asarray(np.interp(self.time, self.sampled(self.time), smooth) - self.reference_temperature)
 
     @cached_property
     def measured_rise(self) -> FloatArray | None:
-        """Measured temperature above that of the first sample, shape (n,) [°C]; None where it was not measured."""
-        if self.temperature is None or not self.temperature_is_measured:
+        """Measured temperature above that of the start, shape (n,) [°C]; None where it was not measured."""
+        smooth = self.smooth_temperature
+        if smooth is None or not self.temperature_is_measured:
             return None
-        return np.asarray(np.interp(self.time, self.sampled(self.time), self.temperature - self.temperature[0]))
+        return np.asarray(np.interp(self.time, self.sampled(self.time), smooth - smooth[0]))
 
     @cached_property
     def volume_strain(self) -> FloatArray | None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.noise import noise_level
 from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
@@ -64,12 +65,17 @@ def measured_against_work(view: RecordView) -> str:
 
 def warms_by_work(views: Sequence[RecordView]) -> bool:
     """Whether every record has a temperature, some rise while they are strained, and work can do it."""
-    rises = [float(np.max(view.measured_rise)) for view in views if view.measured_rise is not None]
-    return (
-        all_known(views)
-        and max(rises, default=0.0) > EFFECTS.different_temperature
-        and all(work_can_warm(view) for view in views)
-    )
+    return all_known(views) and any(_rises(view) for view in views) and all(work_can_warm(view) for view in views)
+
+
+def _rises(view: RecordView) -> bool:
+    """Whether the measured temperature rises further than it may by what its readings scatter."""
+    rise = view.measured_rise
+    if rise is None or view.temperature is None:
+        return False
+    scatter = noise_level(view.sampled(view.time), view.temperature)
+    seen = EFFECTS.rise_over_scatter * scatter / np.sqrt(len(view.temperature))
+    return bool(np.max(rise) > max(seen, EFFECTS.least_rise))
 
 
 def changes_without_work(views: Sequence[RecordView]) -> bool:

@@ -70,6 +70,14 @@ class EffectsSettings:
         "Difference of temperatures that is more than their scatter: a laboratory keeps its room to 2 °C.",
         source="ISO 291",
     )
+    least_rise: float = chosen(
+        0.1, "°C", "Measured rise of a specimen's temperature that changes a stress by more than half a per cent."
+    )
+    rise_over_scatter: float = chosen(
+        22.0,
+        "scatter of a reading over the root of their number",
+        "Such a rise, too: five standard errors of the difference of two means, each over a tenth of a record.",
+    )
     different_volume: float = chosen(
         0.01, "-", "Volume strain that is more than the errors of the two measured strains it is made of."
     )
