@@ -23,16 +23,23 @@ def _drifting(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     return np.asarray((1.0 + values[0] * part) * stress)
 
 
+def _bending(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """In proportion to a power of the force: nothing at rest, a at the largest one that was recorded."""
+    used = np.abs(stress) / view.stretch / max(float(np.max(np.abs(view.nominal_data))), 1e-300)
+    return np.asarray((1.0 + values[0] * used ** values[1]) * stress)
+
+
 EFFECT = Effect(
     name="force_gain",
     title="gain of the force",
     physics=(
         "The load cell's sensitivity, or the measured initial section, is wrong by a factor; or the bridge of the cell "
-        "warms up, and its sensitivity drifts while the test runs, ever more slowly.\n"
-        "Amplitude: relative excess of the recorded stress, or by the end of a record. In all records alike a factor "
-        "hides in E_u and G."
+        "warms up, and its sensitivity drifts while the test runs, ever more slowly; or its characteristic bends.\n"
+        "Amplitude: relative excess of the recorded stress, or by the end of a record, or at its largest force. In all "
+        "records alike a factor hides in E_u and G."
     ),
-    source="ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell)",
+    source="ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell); "
+    "ISO 376 (a cell's characteristic is a polynomial of the force, to the third degree)",
     shows_in="one record compared with others; a factor never in all of them, unless E_u or G is held",
     kind="rig",
     coordinate="force",
@@ -61,6 +68,26 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_drifting,
+            variant=True,
+        ),
+        Form(
+            "bending",
+            (
+                EffectParameter("gain_bend", "", -0.5, 0.5, 0.02, "class 1 cells to 1 %, one that was overloaded more"),
+                EffectParameter(
+                    name="power",
+                    unit="",
+                    lower=0.3,
+                    upper=4.0,
+                    centre=1.4,
+                    scale=0.5,
+                    log=True,
+                    starts=(1.0, 2.0),
+                    reason="1 for the square, 2 for the cube of the force in a characteristic",
+                ),
+            ),
+            recorded_stress=_bending,
+            placements=("one",),
             variant=True,
         ),
     ),

@@ -20,6 +20,8 @@ _ROUNDING = 0.02
 """Usual width of the bend over the limit [-]: some per cent of a cell's range."""
 _ROUNDINGS = (_ROUNDING, 0.2)
 """Widths from which searches begin."""
+_SHARPNESSES = (5.0, 12.0)
+"""Powers from which searches begin."""
 
 
 def _saturate(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
@@ -45,6 +47,16 @@ def _bend(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     return np.asarray(np.sign(stress) * bent * view.stretch / values[0])
 
 
+def _compress(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The reading is L u / (1 + |u|^p)^(1/p), u the force over its limit L (Rapp 1991)."""
+    if values[0] <= 0.0:
+        return stress
+    used = np.abs(stress) * values[0] / view.stretch
+    # In terms of the smaller one of u and 1/u: no power overflows.
+    less, more = np.minimum(used, 1.0), np.maximum(used, 1.0)
+    return np.asarray(stress / more * (1.0 + (less / more) ** values[1]) ** (-1.0 / values[1]))
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Limits at 99.5 and at 90 % of the largest nominal stress that was recorded: hard, and bent into."""
     largest = max(float(np.max(np.abs(view.nominal_data))) for view in views)
@@ -56,6 +68,11 @@ def _bent_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | 
     return [(*start, rounding) for start in _starts(views, residuals) for rounding in _ROUNDINGS]
 
 
+def _compressed_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """The same limits, sharply and softly."""
+    return [(*start, sharpness) for start in _starts(views, residuals) for sharpness in _SHARPNESSES]
+
+
 EFFECT = Effect(
     name="force_saturation",
     title="saturation of the force",
@@ -63,7 +80,10 @@ EFFECT = Effect(
         "The load cell or its amplifier ends at a largest force: beyond it the reading stands still.\n"
         "Amplitude: one over that force per initial section; 0 means no limit."
     ),
-    source="ASTM E1942 (data acquisition in mechanical testing)",
+    source=(
+        "ASTM E1942 (data acquisition in mechanical testing); Rapp 1991, Proc. 2nd European Conf. Satellite Comm., 179 "
+        "(amplifiers that saturate softly)"
+    ),
     shows_in="records whose force reaches a plateau, the same in all of them but for their sections",
     kind="rig",
     coordinate="force",
@@ -94,6 +114,27 @@ EFFECT = Effect(
             recorded_stress=_bend,
             starts=_bent_starts,
             threshold=True,
+        ),
+        Form(
+            "compression",
+            (
+                _LIMIT,
+                EffectParameter(
+                    name="sharpness",
+                    unit="",
+                    lower=4.0,
+                    upper=60.0,
+                    centre=8.0,
+                    scale=0.6,
+                    log=True,
+                    starts=_SHARPNESSES,
+                    reason="an amplifier that is linear up to a half of its range has 6; a limiter has many",
+                ),
+            ),
+            recorded_stress=_compress,
+            starts=_compressed_starts,
+            threshold=True,
+            variant=True,
         ),
     ),
 )
