@@ -1,6 +1,7 @@
 """What a search must never do: leave more with a further effect, or lead with what a part of it beats."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -171,6 +172,29 @@ def test_the_same_effect_in_another_record_is_not_the_end_of_the_search():
     leader = search.ranked()[0]
     assert leader.effects == ("damage", "force_offset")
     assert {cause.records for cause in leader.causes} == {None, ("b",), ("d",)}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_as_good_as_the_first_effect_by_itself_is_tried_with_the_second(seed):
+    """A twin of damage, under another name: without the offset there is nothing to choose, nor is there with it."""
+    chosen = (*effects(CONSIDERED), replace(effect("damage"), name="twin"))
+    made = campaign(seed)
+    base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
+    search = Search(base, chosen)
+    search.run(base.columns_with_starts(chosen))
+    standing = {each.effects: each.evidence.log_evidence for each in search.ranked()}
+    assert {"damage", "twin"} & {*search.ranked()[0].effects}
+    assert standing[("damage", "force_offset")] == pytest.approx(standing[("force_offset", "twin")], abs=2.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_best_of_every_number_of_effects_is_judged_again(seed):
+    """However far behind: what a second effect gains may be an error of the first one's form, and not count."""
+    search, _ = searched(seed)
+    first, second = search.ranked(2)[0], search.ranked(1)[0]
+    assert first.evidence.log_evidence > second.evidence.log_evidence + SEARCH.hopeless
+    again = search._near_the_best_of_as_many(SEARCH.hopeless)
+    assert {first.effects, second.effects} <= {each.effects for each in again}
 
 
 def test_specimens_do_not_hold_what_a_strong_gap_leaves():

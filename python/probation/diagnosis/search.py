@@ -13,6 +13,7 @@ from probation.detection.strain_periodic import find_strain_periodic
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
+from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.model import CampaignModel
@@ -87,12 +87,14 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            for each in [*self._worth_extending(leading, left), *self._once_each(size)]:
-                if _keys(each.refit) not in extended:
-                    self._additions(each)
+            for each in self._worth_extending(size, left):
+                if _keys(each.refit) in extended:
+                    continue
+                self._additions(each)
                 extended.add(_keys(each.refit))
             if size == 1 and left:
-                self._swaps()
+                self._swaps(extended)
+            self._rivals_jointly()
             self._try_with_unknown()
             if self._something_left(self.ranked()[0]):
                 self._parts_of_the_leader()
@@ -107,8 +109,11 @@ class Search:
         return self.found
 
     def _scatter_around_the_best(self) -> None:
-        """What specimens do, around the best single effect: a law that lacks one may be far from what they are."""
-        leading = self.ranked(1)
+        """What specimens do, around the best single effect: a law that lacks one may be far from what they are.
+
+        Around one that acts once: a size of its own in every record would be taken for what the specimen is.
+        """
+        leading = sorted((each for each in self.found[1:] if len(each.causes) == 1), key=_standing, reverse=True)
         if leading:
             self.base = with_joint_noise(self.base, leading[0].refit)
             self.found = self._on_top_of(self.base, np.inf).found
@@ -121,15 +126,30 @@ class Search:
         return again.found
 
     def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
-        """A search on another base fit that begins with the leading hypotheses, none further behind than `hopeless`."""
+        """A search on another base fit that begins with the leading hypotheses of every number of effects."""
         again = Search(base, self.effects, self.threads, self._moved, self.skipping)
-        leading = sorted(self.found[1:], key=_standing, reverse=True)[: SEARCH.reconsidered]
-        leading = [each for each in leading if _standing(each) > _standing(leading[0]) - hopeless]
+        leading = self._near_the_best_of_as_many(hopeless)
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(each.refit.model, each.refit.parameters) for each in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
         return again
+
+    def _near_the_best_of_as_many(self, hopeless: float) -> list[Hypothesis]:
+        """Hypotheses no further than `hopeless` behind the best one of as many effects.
+
+        What the last effects of an explanation gain may be an error of the first one's form, and count for nothing in
+        the end (`probabilities`): then what is as good as the first one by itself is as probable.
+        """
+        best: dict[int, list[Hypothesis]] = {}
+        seen: set[frozenset[Key]] = set()
+        for each in sorted(self.found[1:], key=_standing, reverse=True):
+            near = best.setdefault(len(each.effects), [])
+            close = not near or _standing(each) > _standing(near[0]) - hopeless
+            if close and len(near) < SEARCH.reconsidered and _keys(each.refit) not in seen:
+                near.append(each)
+                seen.add(_keys(each.refit))
+        return [each for near in best.values() for each in near]
 
     def ranked(self, size: int | None = None) -> list[Hypothesis]:
         """Hypotheses with causes, most evidence first, the best of each set of effects; of so many effects only."""
@@ -142,19 +162,20 @@ class Search:
                 best[each.effects] = each
         return sorted(best.values(), key=_standing, reverse=True)
 
-    def _worth_extending(self, leading: Sequence[Hypothesis], left: bool) -> Sequence[Hypothesis]:
-        """The best, and where it leaves something the next; of several effects those that are not far behind it."""
-        if not left:
-            return leading[:1]
-        chosen = leading[: SEARCH.extended_explanations]
-        if len(chosen[0].effects) == 1:
-            return chosen
-        return [each for each in chosen if _standing(each) > _standing(chosen[0]) - SEARCH.hopeless]
+    def _worth_extending(self, size: int, left: bool) -> list[Hypothesis]:
+        """The best of so many effects, and where it leaves something the next; of several those not far behind it.
 
-    def _once_each(self, size: int) -> list[Hypothesis]:
-        """The best of so many effects that act once each: one that acts in several records may stand in for two."""
-        once = [each for each in self.found[1:] if len(each.causes) == len(each.effects) == size]
-        return [max(once, key=_standing)] if once else []
+        Those that act once each come first, and are as many: one that acts in several records may stand in for two.
+        """
+        most = SEARCH.extended_explanations if left else 1
+        leading = self.ranked(size)
+        once: dict[tuple[str, ...], Hypothesis] = {}
+        for each in sorted(self.found[1:], key=_standing, reverse=True):
+            if len(each.effects) == size and not _acts_in_several(each):
+                once.setdefault(each.effects, each)
+        least = -np.inf if size == 1 else _standing(leading[0]) - SEARCH.hopeless
+        first, *others = [*[*once.values()][:most], *filter(_acts_in_several, leading[:most])]
+        return [first, *(each for each in others if _standing(each) > least)]
 
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
@@ -167,6 +188,7 @@ class Search:
         first = _promising(_first_of_each(candidates))
         begun = self._refitted(self.base.refit, _alone(first), self.base.other_starts, SEARCH.first_steps)
         begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
+        begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         polished = self._further(running, MOST_STEPS)
@@ -262,7 +284,9 @@ class Search:
         effects = self.effects if only is None else [each for each in self.effects if each.name == only.effect.name]
         columns = screen(model, at, effects, residual=raw, threads=self.threads, unsolved=unsolved)
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
+        once = {cause.effect.name for cause in leading.causes if not cause.form.several}
         columns = [each for each in columns if (each.cause.effect.name, each.cause.records) not in taken]
+        columns = [each for each in columns if each.cause.form.several or each.cause.effect.name not in once]
         if only is not None:
             columns = [each for each in columns if each.cause.records == only.records]
         elif len(leading.effects) >= SEARCH.most_effects:
@@ -294,7 +318,7 @@ class Search:
             sharp = each.cause.form.sharp
             places = {*steps} if each.cause.records is None else {*each.cause.records}
             if sharp is None or (
-                sharp == "step" and each.gain > SEARCH.soft_step_ratio * (smooth + SEARCH.soft_step_lead)
+                sharp == "step" and each.gain > max(SEARCH.soft_step_ratio * smooth, SEARCH.strong_gap)
             ):
                 return True
             if sharp == "step" and best_smooth is not None and each.cause.effect is best_smooth.cause.effect:
@@ -366,16 +390,59 @@ class Search:
                 self.skipping.hypothesis(each.causes, "its refits leave more than a part of it does alone")
         self._try_with_unknown()
 
-    def _swaps(self) -> None:
-        """The best pair with one of its causes given up for another: the first may have stood in for both."""
-        pairs = self.ranked(2)
-        if not pairs:
-            return
-        begun = {each.effects for each in self.ranked(1)[: SEARCH.extended_explanations]}
-        for name in pairs[0].effects:
+    def _swaps(self, extended: set[frozenset[Key]]) -> None:
+        """The best pair with one of its causes given up for another: the first may have stood in for both.
+
+        Not from a cause that was `extended` already.
+        """
+        for name in self.ranked(2)[0].effects if self.ranked(2) else ():
             alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
-            if alone is not None and alone.effects not in begun:
+            if alone is not None and _keys(alone.refit) not in extended:
                 self._additions(alone)
+                extended.add(_keys(alone.refit))
+
+    def _each_by_itself(self, singles: Sequence[Refit]) -> list[Refit]:
+        """Faults of the force that leave something if they are alike in all records, with sizes of their own in each.
+
+        A limit is a force, and specimens have sections of their own. Of each effect the form that leaves least.
+        """
+        views, jobs = self.base.model.views, []
+        for each in _least_of_each_effect([each for each in singles if len(each.model.causes) == 1], 0):
+            cause = each.model.causes[0]
+            of_the_force = cause.form.recorded_stress is not None and "one" in cause.effect.placements(cause.form)
+            alike = cause.records is None and len(views) > 1
+            if of_the_force and alike and self._gap_left([each]) > SEARCH.strong_gap:
+                base, ((_, values),) = each.model.split(each.parameters)
+                apart = self.base.model.with_causes(Cause(cause.effect, cause.form, (view.id,)) for view in views)
+                jobs.append((apart, apart.parameters(base, *[values] * len(views))))
+        return self._solved(jobs, SEARCH.first_steps)
+
+    def _rivals_jointly(self) -> None:
+        """The leader of several effects with its first one given up for what is about as good as that by itself."""
+        leading = self.ranked()[0]
+        alone = {each.effects[0]: each for each in self.ranked(1)}
+        known = [name for name in leading.effects if name in alone]
+        if len(leading.effects) < 2 or not known:
+            return
+        first = max(known, key=lambda name: _standing(alone[name]))
+        least = _standing(alone[first]) - SEARCH.hopeless
+        near = [each for each in self.found[1:] if len(each.effects) == 1 and _standing(each) > least]
+        rivals = [each for each in near if each.effects[0] not in leading.effects]
+        base, values = leading.refit.model.split(leading.refit.parameters)
+        rest = [(cause, own) for cause, own in values if cause.effect.name != first]
+        tried, jobs = {_keys(each.refit) for each in self.found}, []
+        for rival in _least_of_each(each.refit for each in rivals).values():
+            together = [*rival.model.split(rival.parameters)[1], *rest]
+            causes = [cause for cause, _ in together]
+            if frozenset(cause_key(cause) for cause in causes) in tried:
+                continue
+            try:
+                model = leading.refit.model.with_causes(causes)
+            except UNSOLVABLE as error:
+                self.skipping.hypothesis(causes, error)
+                continue
+            jobs.append((model, model.parameters(base, *(own for _, own in together))))
+        self.found += self._judged(self._solved(jobs, MOST_STEPS))
 
     def _refitted(
         self,
@@ -543,6 +610,11 @@ def _standing(hypothesis: Hypothesis) -> float:
     return hypothesis.evidence.log_evidence + hypothesis.log_share
 
 
+def _acts_in_several(hypothesis: Hypothesis) -> bool:
+    """Whether an effect of it acts in several records, in each by itself."""
+    return len(hypothesis.causes) > len(hypothesis.effects)
+
+
 def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
     """Which causes parts of an explanation keep: any of its effects, or all causes but one."""
     names = list(dict.fromkeys(cause.effect.name for cause in causes))
@@ -608,6 +680,8 @@ def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
     alike: dict[tuple[str, str, tuple[float, ...]], dict[tuple[str, ...], Candidate]] = {}
     for each in candidates:
         cause = each.cause
+        if not cause.form.several:
+            continue
         if each.base is None and cause.records is not None and each.gain > SEARCH.worth_refitting:
             for smooth in {False, cause.form.sharp is None}:
                 best.setdefault((cause.effect.name, smooth), {}).setdefault(cause.records, each)

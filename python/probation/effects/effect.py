@@ -162,6 +162,8 @@ class Form:
     needs : callable, optional
         ``needs(views)``: whether records like these could show it at all, such as an unloading; left out: any could.
         Where none of an effect's forms could be seen, the effect is not considered, and costs no probability.
+    several : bool
+        Whether it may act in several records, in each with shapes of its own; not where a shape is the material's.
     variant : bool
         A further form, tried where there is a gap. The test for one goes without it: what it looks for is found along
         the effect's other forms and along smooth waves, and more directions would be found in more noise.
@@ -180,6 +182,7 @@ class Form:
     threshold: bool = False
     sharp: Sharp | None = None
     needs: NeedsHook | None = None
+    several: bool = True
     variant: bool = False
 
     def __post_init__(self) -> None:

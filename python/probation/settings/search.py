@@ -50,10 +50,10 @@ class SearchSettings:
         30.0, "log evidence", "Linearised gain above that of the best smooth effect that a soft step needs."
     )
     soft_step_ratio: float = chosen(
-        2.0,
+        0.5,
         "-",
-        "Ratio of that gain to the best smooth effect's at which a step effect is tried whatever the tests on steps "
-        "say.",
+        "Ratio of the linearised gain of a step effect, of a strong gap, to the best smooth effect's at which it is "
+        "tried whatever the tests on steps say: they see a step, not one that relaxes.",
     )
     starts: int = chosen(3, "starts", "Starts per form and place that a cause in the running is given.")
     places: int = chosen(2, "records", "Records in which a rig's fault is tried alone, those with the best score.")

@@ -106,6 +106,7 @@ EFFECT = Effect(
             modification=_other_temperature,
             needs=_not_known,
             placements=("one",),
+            several=False,
         ),
     ),
 )
