@@ -39,6 +39,8 @@ def test_every_explanation_of_etfe_within_the_catalogue_has_rate_dependent_relax
     assert found.shrink.identify.after_MPa < 2.0 * found.noise_MPa
     assert found.best.checks is not None
     assert all(RATE in effects for effects in found.answer_set if "unknown" not in effects)
+    others = [each for each in found.explanations if RATE not in each.effects and each.effects != ("unknown",)]
+    assert sum(each.probability for each in others) < 0.05
     assert found.best.probability < 0.9
     assert found.shrink.identify.after_MPa < 0.7 * found.shrink.identify.before_MPa
     assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)

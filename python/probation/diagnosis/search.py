@@ -88,9 +88,8 @@ class Search:
                 break
             left = self._something_left(self.ranked()[0])
             for each in self._worth_extending(size, left):
-                if _keys(each.refit) in extended:
-                    continue
-                self._additions(each)
+                if _keys(each.refit) not in extended:
+                    self._additions(each)
                 extended.add(_keys(each.refit))
             if size == 1 and left:
                 self._swaps(extended)
@@ -113,7 +112,7 @@ class Search:
 
         Around one that acts once: a size of its own in every record would be taken for what the specimen is.
         """
-        leading = sorted((each for each in self.found[1:] if len(each.causes) == 1), key=_standing, reverse=True)
+        leading = self.ranked(1, acting_once=True)
         if leading:
             self.base = with_joint_noise(self.base, leading[0].refit)
             self.found = self._on_top_of(self.base, np.inf).found
@@ -151,11 +150,14 @@ class Search:
                 seen.add(_keys(each.refit))
         return [each for near in best.values() for each in near]
 
-    def ranked(self, size: int | None = None) -> list[Hypothesis]:
-        """Hypotheses with causes, most evidence first, the best of each set of effects; of so many effects only."""
+    def ranked(self, size: int | None = None, *, acting_once: bool = False) -> list[Hypothesis]:
+        """Hypotheses with causes, most evidence first, the best of each set of effects.
+
+        Of so many effects only; of those only whose effects act once each.
+        """
         best: dict[tuple[str, ...], Hypothesis] = {}
         for each in self.found[1:]:
-            if size is not None and len(each.effects) != size:
+            if (size is not None and len(each.effects) != size) or (acting_once and _acts_in_several(each)):
                 continue
             known = best.get(each.effects)
             if known is None or _standing(each) > _standing(known):
@@ -168,13 +170,9 @@ class Search:
         Those that act once each come first, and are as many: one that acts in several records may stand in for two.
         """
         most = SEARCH.extended_explanations if left else 1
-        leading = self.ranked(size)
-        once: dict[tuple[str, ...], Hypothesis] = {}
-        for each in sorted(self.found[1:], key=_standing, reverse=True):
-            if len(each.effects) == size and not _acts_in_several(each):
-                once.setdefault(each.effects, each)
+        leading, once = self.ranked(size), self.ranked(size, acting_once=True)
         least = -np.inf if size == 1 else _standing(leading[0]) - SEARCH.hopeless
-        first, *others = [*[*once.values()][:most], *filter(_acts_in_several, leading[:most])]
+        first, *others = [*once[:most], *filter(_acts_in_several, leading[:most])]
         return [first, *(each for each in others if _standing(each) > least)]
 
     def _something_left(self, best: Hypothesis) -> bool:
@@ -395,7 +393,7 @@ class Search:
 
         Not from a cause that was `extended` already.
         """
-        for name in self.ranked(2)[0].effects if self.ranked(2) else ():
+        for name in pairs[0].effects if (pairs := self.ranked(2)) else ():
             alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
             if alone is not None and _keys(alone.refit) not in extended:
                 self._additions(alone)
@@ -436,12 +434,8 @@ class Search:
             causes = [cause for cause, _ in together]
             if frozenset(cause_key(cause) for cause in causes) in tried:
                 continue
-            try:
-                model = leading.refit.model.with_causes(causes)
-            except UNSOLVABLE as error:
-                self.skipping.hypothesis(causes, error)
-                continue
-            jobs.append((model, model.parameters(base, *(own for _, own in together))))
+            if (model := self._with_causes(leading.refit.model, causes)) is not None:
+                jobs.append((model, model.parameters(base, *(own for _, own in together))))
         self.found += self._judged(self._solved(jobs, MOST_STEPS))
 
     def _refitted(
@@ -458,15 +452,20 @@ class Search:
         jobs = []
         for together in added:
             causes = [*before.model.causes, *(each.cause for each in together)]
-            try:
-                model = before.model.with_causes(causes)
-            except UNSOLVABLE as error:
-                self.skipping.hypothesis(causes, error)
+            if (model := self._with_causes(before.model, causes)) is None:
                 continue
             own = together[0].base
             begun = (before.parameters, *other_starts) if own is None else (own,)
             jobs += [(model, np.concatenate([start, *(each.values for each in together)])) for start in begun]
         return self._solved(jobs, steps)
+
+    def _with_causes(self, model: CampaignModel, causes: Sequence[Cause]) -> CampaignModel | None:
+        """A model with these causes instead of its own; None, and noted, where it cannot hold them together."""
+        try:
+            return model.with_causes(causes)
+        except UNSOLVABLE as error:
+            self.skipping.hypothesis(causes, error)
+            return None
 
     def _further(self, refits: Sequence[Refit], steps: int) -> list[Refit]:
         """Unfinished refits taken further; left as they are once the budget is spent."""

@@ -69,7 +69,10 @@ class SearchSettings:
         15.0, "log evidence", "Log evidence behind the best one from which on a hypothesis is not looked at again."
     )
     reconsidered: int = chosen(
-        16, "hypotheses", "Hypotheses that are judged again once the noise is estimated jointly with the best one."
+        16,
+        "hypotheses",
+        "Hypotheses, of every number of effects, that are judged again once the noise is estimated jointly with the "
+        "best one.",
     )
     worth_refitting: float = chosen(10.0, "log evidence", "Linearised gain from which on an addition is refitted.")
     most_effects: int = chosen(3, "effects", "Effects of one explanation at most.")

@@ -38,8 +38,10 @@ EFFECT = Effect(
         "Amplitude: relative excess of the recorded stress, or by the end of a record, or at its largest force. In all "
         "records alike a factor hides in E_u and G."
     ),
-    source="ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell); "
-    "ISO 376 (a cell's characteristic is a polynomial of the force, to the third degree)",
+    source=(
+        "ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell); "
+        "ISO 376 (a cell's characteristic is a polynomial of the force, to the third degree)"
+    ),
     shows_in="one record compared with others; a factor never in all of them, unless E_u or G is held",
     kind="rig",
     coordinate="force",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.effect import StartsHook
     from probation.effects.record_view import RecordView
 
 
@@ -63,14 +64,13 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(1.0 / (part * largest),) for part in (0.995, 0.9)] if largest > 0.0 else []
 
 
-def _bent_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """The same, bent narrowly and widely."""
-    return [(*start, rounding) for start in _starts(views, residuals) for rounding in _ROUNDINGS]
+def _soft_starts(shapes: tuple[float, ...]) -> StartsHook:
+    """The same limits, each with every one of these shapes."""
 
+    def starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+        return [(*start, shape) for start in _starts(views, residuals) for shape in shapes]
 
-def _compressed_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """The same limits, sharply and softly."""
-    return [(*start, sharpness) for start in _starts(views, residuals) for sharpness in _SHARPNESSES]
+    return starts
 
 
 EFFECT = Effect(
@@ -112,7 +112,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_bend,
-            starts=_bent_starts,
+            starts=_soft_starts(_ROUNDINGS),
             threshold=True,
         ),
         Form(
@@ -132,7 +132,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_compress,
-            starts=_compressed_starts,
+            starts=_soft_starts(_SHARPNESSES),
             threshold=True,
             variant=True,
         ),
