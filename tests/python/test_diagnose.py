@@ -52,6 +52,12 @@ def unexplained():
     return diagnosed(few_records(twisted, names=("slow", "middle", "fast")), effects=["force_offset", "damage"])
 
 
+def test_the_answer_does_not_depend_on_how_many_refits_are_made_at_once():
+    campaign = few_records(damage(0.05), held_out=("unloading",))
+    alone, together = (diagnose(campaign, effects=EFFECTS, threads=threads) for threads in (1, 3))
+    assert together.to_json() == alone.to_json()
+
+
 def assert_sound(found):
     """What holds of every answer."""
     chances = [each.probability for each in found.explanations]

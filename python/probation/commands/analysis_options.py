@@ -30,7 +30,12 @@ def add_seed(parser: argparse._ActionsContainer) -> None:
 
 def add_threads(parser: argparse._ActionsContainer) -> None:
     """Add ``--threads``."""
-    parser.add_argument("--threads", metavar="N", type=whole_number(1), help="at most so many at once (1)")
+    parser.add_argument(
+        "--threads",
+        metavar="N",
+        type=whole_number(1),
+        help="so many processes at once (one a processor, eight at most)",
+    )
 
 
 def effects_from_options(options: argparse.Namespace) -> list[str] | None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation._arrays import as_threads
 from probation.comparison.base import measured_base
 from probation.comparison.faults import considered
 from probation.comparison.headline import headline
@@ -24,7 +23,7 @@ from probation.inference.calibration_check import check_calibration
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
-from probation.parallel import without_blas_threads
+from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.comparison import COMPARISON
@@ -76,7 +75,7 @@ def compare(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        Refits at once; by default one. More are of use only for a law that lets others run while it solves, for long.
+        Refits at once, in copies of this process, on Linux; by default one a processor, eight at most.
     budget : float, optional [s]
         Time after which the best answer so far is given; `skipped` says what was not tried.
     progress : callable, optional
@@ -95,7 +94,7 @@ def compare(
     deadline, skipping = Budget(budget), Skipping()
     advance = progress or (lambda part: None)
     advance(Part(0.0, "identifying the reference"))
-    workers = as_threads(threads) or 1
+    workers = at_once(threads)
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
     campaign, thinned = thin(campaign)

@@ -110,15 +110,19 @@ def effect_signals(
     base, active = model.split(parameters)
     still = {view.id: model.at_rest(view, base, active) for view in model.views}
 
-    def work(item: tuple[Cause, tuple[float, ...], bool]) -> EffectSignal | str:
-        cause, values, usual = item
+    def work(item: tuple[Cause, tuple[float, ...], bool]) -> FloatArray | str:
+        cause, values, _ = item
         try:
-            return EffectSignal(cause, values, signal(model, parameters, cause, values, still), usual)
+            return signal(model, parameters, cause, values, still)
         except InputError as unsolved:
             return str(unsolved)
 
     worked = in_parallel(work, wanted, threads, progress)
-    signals = [result for result in worked if isinstance(result, EffectSignal)]
+    signals = [
+        EffectSignal(cause, values, stress, usual)
+        for (cause, values, usual), stress in zip(wanted, worked, strict=True)
+        if not isinstance(stress, str)
+    ]
     shown = {signal.cause.effect.name for signal in signals if signal.usual}
     left_out = {}
     for effect in effects:

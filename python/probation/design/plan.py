@@ -23,6 +23,7 @@ from probation.inference.parameter import UNITS, by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
+from probation.parallel import at_once
 from probation.progress import Part, shows_progress
 from probation.records.campaign import Campaign
 from probation.results.data import Stored
@@ -184,7 +185,7 @@ def plan(
     seed : int
         Of the noise on which it is found how strongly a noisy strain will be smoothed.
     threads : int, optional
-        At most so many at once (1).
+        Effects worked on at once, in copies of this process, on Linux; by default one a processor, eight at most.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -239,7 +240,7 @@ def plan(
         model.start,
         noises,
         chosen,
-        threads=threads or 1,
+        threads=at_once(threads),
         progress=lambda part: advance(Part(0.5 + 0.5 * part, "comparing effects")),
     )
     advance(1.0)

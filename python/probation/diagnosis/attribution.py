@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from probation.inference.candidate import cause_key
-from probation.inference.refit import refit
+from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.outliers import without_outliers
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.inference.base_fit import BaseFit
-    from probation.inference.refit import Refit
+    from probation.inference.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -183,21 +183,28 @@ def _parts(
     solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
-    def fitted(part: tuple[str, ...]) -> Refit | None:
+    def begun(part: tuple[str, ...]) -> tuple[Problem, FloatArray, Refit | None]:
         causes = [cause for cause in best.causes if cause.effect.name in part]
         there = solved.get(frozenset(cause_key(cause) for cause in causes))
         if there is not None:  # its causes may stand in another order
-            model, start = there.model, there.parameters
-        else:
-            model = best.refit.model.with_causes(causes)
-            law, values = best.refit.model.split(best.refit.parameters)
-            start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
-        try:
-            return refit(base.problem.with_model(model), start)
-        except UNSOLVABLE:
-            return there
+            return base.problem.with_model(there.model), there.parameters, there
+        model = best.refit.model.with_causes(causes)
+        law, values = best.refit.model.split(best.refit.parameters)
+        start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
+        return base.problem.with_model(model), start, None
 
-    refits = dict(zip(parts, in_parallel(fitted, parts, threads), strict=True))
+    def fitted(start: tuple[Problem, FloatArray, Refit | None]) -> Ended | None:
+        problem, parameters, _ = start
+        try:
+            return refit(problem, parameters).ended
+        except UNSOLVABLE:
+            return None
+
+    starts = [begun(part) for part in parts]
+    refits = {
+        part: there if ended is None else Refit.of(problem, ended)
+        for part, (problem, _, there), ended in zip(parts, starts, in_parallel(fitted, starts, threads), strict=True)
+    }
     return {(): base.refit, **refits, known: best.refit if known else base.refit}
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation._arrays import as_threads
 from probation.design.isolability import isolability
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
@@ -36,7 +35,7 @@ from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
-from probation.parallel import without_blas_threads
+from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
@@ -94,7 +93,8 @@ def diagnose(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        Refits at once; by default one. More are of use only for a law that lets others run while it solves, for long.
+        Refits at once, in copies of this process, on Linux; by default one a processor, eight at most. One by default
+        with `law=`: a law that runs threads of its own cannot be copied.
     design : bool
         Whether to say, too, what these tests could discriminate at all, and which test to do next.
     budget : float, optional [s]
@@ -125,7 +125,7 @@ def diagnose(
         )
     scheme_name = identifying(scheme)[0].name
     known = catalogue(effects)
-    workers = as_threads(threads) or 1
+    workers = at_once(threads) if law is None else at_once(threads, usual=1)
 
     for record in campaign.records:
         require_signal(record)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from probation._arrays import as_threads
 from probation.design.isolability import isolability
 from probation.effects.registry import effects as known_effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
+from probation.parallel import at_once
 from probation.progress import Part
 from probation.results.data import Stored
 from probation.results.rendering import Result
@@ -88,7 +88,7 @@ def campaign_isolability(
         base.parameters,
         base.whitened.noises,
         known_effects(effects),
-        threads=as_threads(threads) or 1,
+        threads=at_once(threads),
         progress=lambda part: advance(Part(0.3 + 0.7 * part, "comparing effects")),
     )
     return CampaignIsolability(campaign.name, scheme, found, campaign.data_hash)

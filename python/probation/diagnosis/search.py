@@ -18,7 +18,7 @@ from probation.inference.base_fit import specimens_hold_the_gap, with_joint_nois
 from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
-from probation.inference.refit import MOST_STEPS, Refit, refit
+from probation.inference.refit import MOST_STEPS, Ended, Refit, refit
 from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of, without
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
+    from probation.inference.evidence import Evidence
     from probation.inference.model import CampaignModel
     from probation.noise.whitening import Whitened
 
@@ -238,7 +239,8 @@ class Search:
         limit = self._limit(refits)
         near = {id(each) for each in refits if each.chi_square <= limit}
         if self._gap_left(refits) > SEARCH.strong_gap:
-            scores = {id(each): self._score(each) for each in refits if id(each) in near}
+            close = [each for each in refits if id(each) in near]
+            scores = {id(each): _score(known) for each, known in zip(close, self._evidences(close), strict=True)}
             count = len(self.base.whitened)
             best = max((score for score in scores.values() if np.isfinite(score)), default=0.0)
             left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
@@ -246,12 +248,6 @@ class Search:
             effects = {_placed(each) for each in refits if scores.get(id(each), -np.inf) >= least}
             near = {id(each) for each in refits if id(each) in near and _placed(each) in effects}
         return [each for each in refits if id(each) in near], [each for each in refits if id(each) not in near]
-
-    def _score(self, unfinished: Refit) -> float:
-        try:
-            return self._weighed(unfinished).evidence.log_evidence
-        except UNSOLVABLE:
-            return np.inf  # said where it is judged
 
     def _gap_left(self, refits: Sequence[Refit]) -> float:
         """What the best refit leaves of the gap, above the noise for certain; the noise itself is the same for all."""
@@ -471,27 +467,32 @@ class Search:
         """Unfinished refits taken further; left as they are once the budget is spent."""
         if self.budget.spent():
             return list(refits)
-        return self._solved([(each.model, each.parameters) for each in refits], steps)
+        return self._solved([(each.model, each) for each in refits], steps)
 
-    def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray]], steps: int) -> list[Refit]:
+    def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray | Refit]], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""
         nothing_yet = len(self.found) == 1
 
-        def one(numbered: tuple[int, tuple[CampaignModel, FloatArray]]) -> Refit | None:
+        def one(numbered: tuple[int, tuple[CampaignModel, FloatArray | Refit]]) -> Ended | str:
             number, (model, start) = numbered
             if self.budget.spent() and not (nothing_yet and number == 0):
-                self.skipping.hypothesis(model.causes, self.budget.why)
-                return None
+                return self.budget.why
             try:
-                return self._refit(model, start, steps)
+                return self._refit(model, start, steps).ended
             except UNSOLVABLE as error:
-                self.skipping.hypothesis(model.causes, error)
-                return None
+                return str(error)
 
-        solved = in_parallel(one, list(enumerate(jobs)), self.threads, self._moved)
-        return [each for each in solved if each is not None]
+        solved = []
+        for (model, _), ended in zip(
+            jobs, in_parallel(one, list(enumerate(jobs)), self.threads, self._moved), strict=True
+        ):
+            if isinstance(ended, str):
+                self.skipping.hypothesis(model.causes, ended)
+            else:
+                solved.append(Refit.of(self.base.problem.with_model(model), ended))
+        return solved
 
-    def _refit(self, model: CampaignModel, start: FloatArray, steps: int) -> Refit:
+    def _refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
         With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
@@ -502,24 +503,25 @@ class Search:
         problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         if not self.base.scatter.any:
             return refit(problem, start, most_steps=steps)
+        first = start.parameters if isinstance(start, Refit) else start
         with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-            misfit = float(np.sum(problem.residual(start) ** 2))
+            misfit = float(np.sum(problem.residual(first) ** 2))
         if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
             found = refit(problem, start, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, start, found.parameters):
+            if not specimens_hold_the_gap(model, noises, first, found.parameters):
                 return found
-        alike = refit(problem.with_noises(noises), start, most_steps=steps).parameters
+        alike = refit(problem.with_noises(noises), first, most_steps=steps).parameters
         begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return begun
-            found = refit(problem, begun.parameters, most_steps=steps)
+            found = refit(problem, begun, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, alike, found.parameters):
                 return found
         there = refit(problem, alike, most_steps=0)
         if there.chi_square <= self.base.refit.chi_square:
             return there
-        found = refit(problem, begun.parameters, most_steps=steps)
+        found = refit(problem, begun, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), found.parameters)
         return there if held else found
 
@@ -559,18 +561,27 @@ class Search:
 
     def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
         """Refits with their evidence; without those of which it cannot be worked out."""
+        final = self._not_above_their_parts(list(refits))
         judged = []
-        for each in self._not_above_their_parts(list(refits)):
-            try:
-                hypothesis = self._weighed(each)
-            except UNSOLVABLE as error:
-                self.skipping.hypothesis(each.model.causes, error)
-                continue
-            if np.isfinite(hypothesis.evidence.log_evidence):
-                judged.append(hypothesis)
+        for each, known in zip(final, self._evidences(final), strict=True):
+            if isinstance(known, str):
+                self.skipping.hypothesis(each.model.causes, known)
+            elif np.isfinite(known.log_evidence):
+                judged.append(Hypothesis(each, known))
             else:
                 self.skipping.hypothesis(each.model.causes, "its evidence is not finite")
         return judged
+
+    def _evidences(self, refits: Sequence[Refit]) -> list[Evidence | str]:
+        """The evidence of each refit; why, where it cannot be worked out."""
+
+        def one(found: Refit) -> Evidence | str:
+            try:
+                return self._weighed(found).evidence
+            except UNSOLVABLE as error:
+                return str(error)
+
+        return in_parallel(one, refits, self.threads)
 
     def _weighed(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
         forms = form_freedom(found, self.base.whitener)
@@ -602,6 +613,11 @@ class Search:
         if self.progress:
             low, high = self._phase
             self.progress(low + (high - low) * self._refits / (self._refits + _USUAL))
+
+
+def _score(known: Evidence | str) -> float:
+    """Of an unfinished refit; without an answer it stays in the race, and that is said where it is judged."""
+    return np.inf if isinstance(known, str) else known.log_evidence
 
 
 def _standing(hypothesis: Hypothesis) -> float:

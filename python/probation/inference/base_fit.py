@@ -190,7 +190,7 @@ class BaseFit:
     def screened(
         self,
         effects: Sequence[Effect],
-        threads: int = 2,
+        threads: int = 1,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> BaseFit:
         """The same with the signals of these effects, without their variants; `unsolved` as in `screen`."""
@@ -207,7 +207,7 @@ class BaseFit:
     def columns_with_starts(
         self,
         effects: Sequence[Effect],
-        threads: int = 2,
+        threads: int = 1,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> WhitenedColumns:
         """The signals, variants, and those whose shapes begin where the residual says; `unsolved` as in `screen`.

@@ -212,7 +212,7 @@ def as_tolerance(tolerance: float) -> float:
 
 
 def find_gap(
-    base: BaseFit, effects: Sequence[Effect], *, predicted: bool = True, threads: int = 2, seed: int = 0
+    base: BaseFit, effects: Sequence[Effect], *, predicted: bool = True, threads: int = 1, seed: int = 0
 ) -> Gap:
     """Test a base fit on its records, and its predictions of those that were held out.
 

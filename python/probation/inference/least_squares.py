@@ -121,6 +121,7 @@ def minimise(
     objective: Objective,
     start: FloatArray,
     *,
+    tangent: tuple[FloatArray, FloatArray] | None = None,
     bounds: Bounds | None = None,
     prior: NormalPrior | None = None,
     held: NDArray[np.bool_] | None = None,
@@ -140,6 +141,8 @@ def minimise(
     objective : Objective
     start : ndarray, shape (p,)
         Moved into the bounds.
+    tangent : (ndarray, ndarray), optional
+        The objective's there, where it is known.
     bounds : Bounds, optional
     prior : NormalPrior, optional
     held : ndarray of bool, shape (p,), optional
@@ -164,7 +167,7 @@ def minimise(
     prior = NormalPrior.flat(len(start)) if prior is None else prior
     movable = np.ones(len(start), dtype=bool) if held is None else ~held
     x = bounds.clip(np.asarray(start, dtype=np.float64))
-    residual, jacobian = objective.tangent(x)
+    residual, jacobian = objective.tangent(x) if tangent is None else tangent
     if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
         raise ConvergenceError("the model is not finite at the start")
     here = _Point(x, float(residual @ residual) + prior.penalty(x), residual, jacobian)

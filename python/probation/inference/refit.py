@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,15 @@ if TYPE_CHECKING:
     from probation.inference.problem import Problem
 
 MOST_STEPS = 15
+
+
+class Ended(NamedTuple):
+    """Where a refit ended: its data, without the problem, as another process hands it back. As in `Refit`."""
+
+    parameters: FloatArray
+    residual: FloatArray
+    jacobian: FloatArray
+    steps: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +54,17 @@ class Refit:
     jacobian: FloatArray
     coordinates: Coordinates
     steps: int
+
+    @classmethod
+    def of(cls, problem: Problem, ended: Ended) -> Refit:
+        """A problem, and where its refit ended."""
+        coordinates = Coordinates.of_model(problem.model)
+        return cls(problem, ended.parameters, ended.residual, ended.jacobian, coordinates, ended.steps)
+
+    @property
+    def ended(self) -> Ended:
+        """Its data."""
+        return Ended(self.parameters, self.residual, self.jacobian, self.steps)
 
     @property
     def model(self) -> CampaignModel:
@@ -132,7 +152,7 @@ class Coordinates:
 
 def refit(
     problem: Problem,
-    start: FloatArray,
+    start: FloatArray | Refit,
     *,
     most_steps: int = MOST_STEPS,
     settled: float = SEARCH.settled,
@@ -143,7 +163,8 @@ def refit(
     Parameters
     ----------
     problem : Problem
-    start : ndarray, shape (p,)
+    start : ndarray, shape (p,), or Refit
+        Where another one ended; of the same problem, its derivatives there are known.
     most_steps : int
         The search ends there, wherever it is: a race's early rounds.
     settled : float
@@ -156,10 +177,16 @@ def refit(
     ConvergenceError
         If the law cannot be solved at the start.
     """
-    coordinates = Coordinates.of_model(problem.model)
+    coordinates, tangent = Coordinates.of_model(problem.model), None
+    if isinstance(start, Refit):
+        same_noise = start.problem.whitener is problem.whitener and start.problem.moving is problem.moving
+        if start.problem.model is problem.model and same_noise:
+            tangent = start.residual, start.jacobian
+        start = start.parameters
     found = minimise(
         SearchResidual(problem, coordinates),
         coordinates.of(np.asarray(start, dtype=np.float64)),
+        tangent=tangent,
         bounds=coordinates.bounds,
         prior=coordinates.prior,
         held=held,
