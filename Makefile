@@ -41,7 +41,7 @@ demo: $(VENV)/.engine  ## install what is missing, build, and identify the law o
 test: $(VENV)/.engine-tests  ## install what is missing, build, run the C++ and the Python tests
 	@$(BIN)/ctest --test-dir build/editable --output-on-failure --no-tests=error
 	@# A process per core, files kept together: what a file computes once, it computes once.
-	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile \
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder \
 	    --cov=probation --cov=probation_studies --cov-report=term:skip-covered --cov-fail-under=90
 
 docs: $(VENV)/.engine $(VENV)/.docs  ## build the site into build/docs/html, open it in a browser; fails at a warning
