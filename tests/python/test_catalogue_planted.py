@@ -118,6 +118,23 @@ def test_back_stress():
     assert value(found, "back_stress_MPa") == pytest.approx(1.2, rel=0.3)
 
 
+def test_back_stress_of_the_plastic_strain():
+    """Two of Chaboche's terms along the strain less stress over modulus, the stress being the law's own."""
+
+    def stressed(law, time, strain):
+        plastic = strain - law.stress(time, strain) / law.unrelaxed_modulus
+        back = np.zeros(len(time))
+        for size, reach in ((2.0, 0.02), (2.0, 0.1)):
+            held = 0.0
+            for index, step in enumerate(np.diff(plastic), start=1):
+                held = np.sign(step) * size + (held - np.sign(step) * size) * np.exp(-abs(step) / reach)
+                back[index] += held
+        return law.stress(time, strain, modification=Modification(added_relaxed_stress=back))
+
+    found = named(loops(stressed), "back_stress")
+    assert value(found, "back_stress_MPa") == pytest.approx(4.0, rel=0.4)
+
+
 def test_hysteresis_of_the_load_cell():
     """On the way down an arch over the force, 2 % of the largest one high."""
 

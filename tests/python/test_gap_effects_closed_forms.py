@@ -789,3 +789,26 @@ def test_contacts_that_stick_and_slide_open_a_loop_of_the_given_width():
     read_down = np.interp(-level, -force[down], reading[down])
     assert read_down - read_up == pytest.approx(0.03 * largest, rel=1e-3)
     assert np.interp(0.4, force[up], reading[up]) == pytest.approx(0.4 * (1.0 - 0.5 * 0.03 / 0.1), rel=1e-6)
+
+
+def test_surfaces_of_back_stress_follow_the_plastic_strain_exponential_by_exponential():
+    """Up, down and up again: the plastic strain is the strain less or plus its elastic part, held between."""
+    size, reach, elastic, spread = 1.2, 0.05, 0.02, 0.4
+    strain = np.interp(np.arange(361), [0, 120, 200, 360], [0.0, 0.6, 0.4, 0.7])
+    record = replace(ramp(samples=361), time=np.arange(361.0), true_strain=strain)
+    found, _ = predicted(QUICK, record, "back_stress", "several_surfaces", (size, reach, elastic, spread))
+    still, _ = predicted(QUICK, record, "back_stress", "several_surfaces", (0.0, reach, elastic, spread))
+    plastic = np.concatenate(
+        [
+            np.maximum(0.0, strain[:121] - elastic),
+            np.minimum(0.6 - elastic, strain[121:201] + elastic),
+            np.maximum(0.4 + elastic, strain[201:] - elastic),
+        ]
+    )
+    expected = np.zeros(361)
+    for factor in (10.0**-spread, 1.0, 10.0**spread):
+        first = -np.expm1(-plastic / (reach * factor))
+        second = -1.0 + (first[120] + 1.0) * np.exp((plastic - plastic[120]) / (reach * factor))
+        third = 1.0 + (second[200] - 1.0) * np.exp(-(plastic - plastic[200]) / (reach * factor))
+        expected += np.concatenate([first[:121], second[121:201], third[201:]]) * size / 3.0
+    assert found - still == pytest.approx(expected, abs=0.02 * size)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from probation import _core
+from probation.effects.backlash import behind
 from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
@@ -164,12 +165,7 @@ class RecordView:
     @cached_property
     def strain_behind_backlash(self) -> FloatArray:
         """The strain behind a backlash of `backlash` of its range, shape (n,): noise does not lengthen its path."""
-        width = EFFECTS.backlash * float(np.ptp(self.true_strain))
-        behind, path = float(self.true_strain[0]), []
-        for strain in self.true_strain.tolist():
-            behind = min(max(behind, strain - width), strain + width)
-            path.append(behind)
-        return np.array(path)
+        return behind(self.true_strain, EFFECTS.backlash * float(np.ptp(self.true_strain)))
 
     @cached_property
     def haward_thackray_strain(self) -> FloatArray:

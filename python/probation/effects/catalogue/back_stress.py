@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.backlash import behind
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible import unloads
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
+    from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
 _SIZE = EffectParameter(
@@ -35,14 +37,51 @@ _REACH = EffectParameter(
 )
 
 
+_YIELD = EffectParameter(
+    name="yield_strain",
+    unit="",
+    lower=1e-4,
+    upper=0.2,
+    centre=0.02,
+    scale=1.0,
+    log=True,
+    starts=(0.02,),
+    reason="half of the elastic range: yield stress over modulus, some hundredths for polymers, thousandths for metals",
+)
+_SPREAD = EffectParameter(
+    name="spread_decades",
+    unit="",
+    lower=0.0,
+    upper=1.5,
+    centre=0.4,
+    scale=0.4,
+    starts=(0.4,),
+    reason="two or three surfaces, each some times as far as the one before",
+)
+
+
+def _saturating(strain: FloatArray, reach: float) -> FloatArray:
+    """X / a, dX = (a / r) de - (X / r) |de|, along a strain (n,)."""
+    # Along the length of the path a Maxwell element; the path must grow, if only by a trifle.
+    path = np.append(0.0, np.cumsum(np.abs(np.diff(strain)) + 1e-12 * reach))
+    return np.asarray(maxwell_element(path, strain, reach) / reach)
+
+
 def _armstrong_frederick(view: RecordView, values: Values) -> Modification:
     """Back stress X, dX = (a / r) de - (X / r) |de|, added to the relaxed stress."""
     size, reach = values
-    strain = view.strain_behind_backlash
-    # Along the length of the path a Maxwell element; the path must grow, if only by a trifle.
-    path = np.append(0.0, np.cumsum(np.abs(np.diff(strain)) + 1e-12 * reach))
-    stress = size / reach * maxwell_element(path, strain, reach)
-    return Modification(added_relaxed_stress=stress)
+    return Modification(added_relaxed_stress=size * _saturating(view.strain_behind_backlash, reach))
+
+
+def _several_surfaces(view: RecordView, values: Values) -> Modification:
+    """Three such stresses of a third each, along the plastic strain: that behind an elastic range (Prandtl's slider).
+
+    Their reaches are r, and r times and over 10^spread (Chaboche 1986).
+    """
+    size, reach, elastic, spread = values
+    plastic = behind(view.true_strain, elastic)
+    surfaces = [_saturating(plastic, reach * factor) for factor in (10.0**-spread, 1.0, 10.0**spread)]
+    return Modification(added_relaxed_stress=size * np.mean(surfaces, axis=0))
 
 
 def _slip_element(view: RecordView, values: Values) -> Modification:
@@ -70,6 +109,13 @@ EFFECT = Effect(
     kind="material",
     forms=(
         Form("armstrong_frederick", (_SIZE, _REACH), modification=_armstrong_frederick, needs=unloads),
+        Form(
+            "several_surfaces",
+            (_SIZE, _REACH, _YIELD, _SPREAD),
+            modification=_several_surfaces,
+            needs=unloads,
+            variant=True,
+        ),
         Form("slip_element", (_SIZE, _REACH), modification=_slip_element, needs=unloads),
     ),
     odds=0.3,
