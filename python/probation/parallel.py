@@ -1,21 +1,26 @@
-"""The same work on many things, several at once in copies of this process.
+"""The same work on many things, several at once in copies of this process where that is asked for.
 
 Threads would not do: a solve of one record is too short, and two threads that take turns at Python between solves take
 longer than one. A copy (`fork`) knows all that this process knows. So it is handed nothing, and gives back what the
-work returns. Where processes cannot be copied safely, on other systems than Linux, one thing comes after the other.
+work returns. It is made where processes can be copied, on Linux; elsewhere one thing comes after the other.
+
+A copy may wait for ever: for a lock that another thread of this process had when it was made, for instance. So what a
+copy does not hand back in good time is worked out here.
 """
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import sys
+import threading
+import time
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import wraps
+from multiprocessing import Pipe, parent_process
 from multiprocessing.connection import Connection, wait
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
 
@@ -23,17 +28,23 @@ from probation._arrays import as_threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from multiprocessing.context import ForkProcess
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Arguments = ParamSpec("Arguments")
 
-MOST_COPIES = 8
-"""Processes at work where nobody says how many: starting more takes as long as their work."""
+BEFORE_EACH: list[Callable[[], None]] = []
+"""Called before every item and after the last one: what is kept from solve to solve, if only in the last digit of
+numbers, must not depend on which process had which item."""
+
+PATIENCE = 2.0
+"""Seconds without any news of the copies after which this process takes an item of theirs, or three times the longest
+item that it had itself."""
 
 _NUMBER = 4
 """Bytes of the number of an item."""
+
+_is_copy = False
 
 
 def without_blas_threads(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
@@ -56,15 +67,15 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def at_once(threads: int | None, usual: int = MOST_COPIES) -> int:
-    """How many things are worked on at once: what was asked for, or as many as there are processors and `usual` says.
+def at_once(threads: int | None) -> int:
+    """How many things are worked on at once: as many as are asked for, or one.
 
     Raises
     ------
     InputError
         If it is neither None nor a whole number of at least 1.
     """
-    return as_threads(threads) or min(processors(), usual)
+    return as_threads(threads) or 1
 
 
 def in_parallel(
@@ -80,7 +91,7 @@ def in_parallel(
     work : callable
         What it changes in a copy is lost. What it returns is data, without objects that are known by their identity.
     processes : int
-        Processes at work; with one, this one.
+        At work, this one among them.
     progress : callable, optional
         Called here with the part of the items that is done, 0 to 1.
 
@@ -90,99 +101,164 @@ def in_parallel(
         What `work` raises here: an item that fails in a copy, or is lost with it, is worked out here once more.
     """
     done: dict[int, Result] = {}
+    longest = 0.0
 
     def finish(number: int, result: Result) -> None:
-        done[number] = result
-        if progress is not None:
-            progress(len(done) / len(items))
+        if number not in done:
+            done[number] = result
+            if progress is not None:
+                progress(len(done) / len(items))
+
+    def here(number: int) -> None:
+        nonlocal longest
+        begun = time.monotonic()
+        finish(number, _fresh(work, items[number]))
+        longest = max(longest, time.monotonic() - begun)
 
     copies = min(processes, len(items)) - 1
-    if copies > 0 and sys.platform == "linux" and multiprocessing.parent_process() is None:
-        with _numbers(len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
-            while number := _next(numbers):
-                finish(number - 1, work(items[number - 1]))
-                _received(connections, finish, seconds=0.0)
-            while connections:
-                _received(connections, finish, seconds=None)
-    for number, item in enumerate(items):
-        if number not in done:
-            finish(number, work(item))
+    try:
+        if copies > 0 and sys.platform == "linux" and not _is_copy and parent_process() is None:
+            with _numbers(len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
+                while connections and (number := _next(numbers)):
+                    here(number - 1)
+                    _receive(connections, finish, 0.0)
+                while connections and len(done) < len(items):
+                    if not _receive(connections, finish, max(PATIENCE, 3.0 * longest)):
+                        here(next(number for number in range(len(items)) if number not in done))
+        for number in range(len(items)):
+            if number not in done:
+                here(number)
+    finally:
+        for forget in BEFORE_EACH:
+            forget()
     return [done[number] for number in range(len(items))]
+
+
+def _fresh(work: Callable[[Item], Result], item: Item) -> Result:
+    for forget in BEFORE_EACH:
+        forget()
+    return work(item)
 
 
 @contextmanager
 def _numbers(count: int) -> Iterator[int]:
-    """A pipe that holds the numbers 1 to `count`: whoever is free takes the next one."""
+    """A pipe with the numbers from 1 to `count`, as many as it holds: whoever is free takes the next one."""
     reading, writing = os.pipe()
     try:
-        with os.fdopen(writing, "wb") as numbers:
-            for number in range(1, min(count, _IN_A_PIPE) + 1):
-                numbers.write(number.to_bytes(_NUMBER, "little"))
+        os.set_blocking(reading, False)
+        os.set_blocking(writing, False)
+        with suppress(BlockingIOError):
+            for number in range(1, count + 1):
+                os.write(writing, number.to_bytes(_NUMBER, "little"))
+        os.close(writing)
         yield reading
     finally:
         os.close(reading)
 
 
-_IN_A_PIPE = 65536 // _NUMBER
-"""Numbers that a pipe holds; further items are worked out here."""
-
-
 def _next(numbers: int) -> int:
     """The next number; 0 when all are taken."""
-    return int.from_bytes(os.read(numbers, _NUMBER), "little")
+    try:
+        return int.from_bytes(os.read(numbers, _NUMBER), "little")
+    except BlockingIOError:  # a process that has nothing to do with this one holds the end for writing
+        return 0
 
 
 @contextmanager
 def _copies(
     work: Callable[[Item], Result], items: Sequence[Item], numbers: int, count: int
-) -> Iterator[list[Connection]]:
-    """Connections to copies of this process that are at work; none is left when the block ends."""
-    context = multiprocessing.get_context("fork")
-    started: list[ForkProcess] = []
-    connections: list[Connection] = []
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C goes to this process, which ends them
+) -> Iterator[list[Connection[Any, Any]]]:
+    """Connections to copies of this process that are at work, as many as can be made; none is left at the end."""
+    started: list[int] = []
+    connections: list[Connection[Any, Any]] = []
     try:
-        for _ in range(count):
-            here, there = context.Pipe(duplex=False)
-            copy = context.Process(target=_at_work, args=(work, items, numbers, there), daemon=True)
-            with warnings.catch_warnings():  # other threads of this process draw a bar: a copy takes no lock of theirs
-                warnings.filterwarnings("ignore", "This process .* is multi-threaded", DeprecationWarning)
-                copy.start()
-            there.close()
-            started.append(copy)
-            connections.append(here)
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        with _interrupts_held(), suppress(OSError):  # no further process, or no further file
+            for _ in range(count):
+                here, there = Pipe(duplex=False)
+                connections.append(here)
+                with there:
+                    process = _fork()
+                    if process == 0:
+                        _work_as_a_copy(work, items, numbers, there, connections)
+                started.append(process)
         yield connections
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        for copy in started:
-            copy.kill()
-            copy.join()
-            copy.close()
-        for connection in connections:
-            connection.close()
+        with _interrupts_held():
+            for process in started:
+                with suppress(ProcessLookupError):
+                    os.kill(process, signal.SIGKILL)
+                with suppress(ChildProcessError):  # ended, and somebody else has waited for it
+                    os.waitpid(process, 0)
+            for connection in connections:
+                connection.close()
 
 
-def _at_work(work: Callable[[Item], Result], items: Sequence[Item], numbers: int, results: Connection) -> None:
-    """What a copy does: take a number, work, hand the result back; an item that fails is left to the first process."""
+def _fork() -> int:
+    with warnings.catch_warnings():  # of other threads: what a copy does not hand back is worked out here
+        warnings.filterwarnings("ignore", "This process .* is multi-threaded", DeprecationWarning)
+        return os.fork()
+
+
+def _work_as_a_copy(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    numbers: int,
+    results: Connection[Any, Any],
+    others: Sequence[Connection[Any, Any]],
+) -> NoReturn:
+    """Take a number, work, hand the result back; an item that fails is left to the first process."""
+    global _is_copy  # noqa: PLW0603 - a copy makes no copies
     try:
+        _is_copy = True
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C goes to the first process, which ends this
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        for each in others:  # so that writing fails when the first process is gone
+            each.close()
+        # Streams without a lock that another thread may have had.
+        sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
         while number := _next(numbers):
             try:
-                results.send((number - 1, work(items[number - 1])))
+                result = _fresh(work, items[number - 1])
+            except Exception:
+                continue
+            try:
+                results.send((number - 1, result))
+            except OSError:  # the first process is gone
+                break
             except Exception:
                 continue
     finally:
         os._exit(0)  # without what this process would do at its end: that is the first one's
 
 
-def _received(connections: list[Connection], finish: Callable[[int, Result], None], seconds: float | None) -> None:
-    """Take what has come, and wait so long for something; a connection that has ended is left out from then on."""
-    for ready in wait(connections, seconds):
-        assert isinstance(ready, Connection)
+def _receive(connections: list[Connection[Any, Any]], finish: Callable[[int, Any], None], seconds: float) -> bool:
+    """Take what comes within so many seconds, and say whether anything did; connections that have ended go."""
+    ready = wait(connections, seconds)
+    for connection in [each for each in connections if each in ready]:
         try:
-            number, result = ready.recv()
+            number, result = connection.recv()
         except (EOFError, OSError):
-            connections.remove(ready)
-            ready.close()
+            connections.remove(connection)
+            connection.close()
+        except Exception:
             continue
-        finish(number, result)
+        else:
+            finish(number, result)
+    return bool(ready)
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Act on Ctrl-C at the end of the block; a mask would not do, since another thread would take the signal."""
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGINT) is None:
+        yield
+        return
+    came: list[tuple[int, Any]] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: came.append((number, frame)))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if came and callable(before):
+            before(*came[0])

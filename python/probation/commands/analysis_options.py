@@ -34,7 +34,7 @@ def add_threads(parser: argparse._ActionsContainer) -> None:
         "--threads",
         metavar="N",
         type=whole_number(1),
-        help="so many processes at once (one a processor, eight at most)",
+        help="at most so many processes at once, on Linux (1)",
     )
 
 

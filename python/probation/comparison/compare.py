@@ -20,6 +20,7 @@ from probation.diagnosis.probabilities import leading
 from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
 from probation.inference.calibration_check import check_calibration
+from probation.inference.gap import misfit_over_noise
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
@@ -75,7 +76,7 @@ def compare(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        Refits at once, in copies of this process, on Linux; by default one a processor, eight at most.
+        Refits at once, in copies of this process (`fork`), on Linux; by default one.
     budget : float, optional [s]
         Time after which the best answer so far is given; `skipped` says what was not tried.
     progress : callable, optional
@@ -108,8 +109,9 @@ def compare(
     base = base.screened(changes, workers, skipping.screened)
     advance(Part(0.2, "testing for a change"))
     # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
-    test = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)()
+    tester = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)
     calibration = check_calibration(base)
+    test = tester(level=calibration.gap_level(misfit_over_noise(base.whitened)))
     causes = causes_of(
         base,
         changes,

@@ -23,7 +23,7 @@ from probation.inference.parameter import UNITS, by_inside_name, outside_name
 from probation.law.answer import law_answer
 from probation.law.modal import engine_law
 from probation.law.schemes import SchemeName
-from probation.parallel import at_once
+from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.campaign import Campaign
 from probation.results.data import Stored
@@ -148,6 +148,7 @@ class Plan(Result, Stored):
 
 
 @shows_progress
+@without_blas_threads
 def plan(
     law: Law,
     histories: Mapping[str, History],
@@ -185,7 +186,7 @@ def plan(
     seed : int
         Of the noise on which it is found how strongly a noisy strain will be smoothed.
     threads : int, optional
-        Effects worked on at once, in copies of this process, on Linux; by default one a processor, eight at most.
+        Effects worked on at once, in copies of this process (`fork`), on Linux; by default one.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 

@@ -93,8 +93,8 @@ def diagnose(
     seed : int
         Of the bootstraps.
     threads : int, optional
-        Refits at once, in copies of this process, on Linux; by default one a processor, eight at most. One by default
-        with `law=`: a law that runs threads of its own cannot be copied.
+        Refits at once, in copies of this process (`fork`), on Linux; by default one. A law that runs threads of its own
+        must not be copied.
     design : bool
         Whether to say, too, what these tests could discriminate at all, and which test to do next.
     budget : float, optional [s]
@@ -125,7 +125,7 @@ def diagnose(
         )
     scheme_name = identifying(scheme)[0].name
     known = catalogue(effects)
-    workers = at_once(threads) if law is None else at_once(threads, usual=1)
+    workers = at_once(threads)
 
     for record in campaign.records:
         require_signal(record)

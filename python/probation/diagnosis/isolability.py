@@ -9,7 +9,7 @@ from probation.design.isolability import isolability
 from probation.effects.registry import effects as known_effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.parallel import at_once
+from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part
 from probation.results.data import Stored
 from probation.results.rendering import Result
@@ -49,6 +49,7 @@ class CampaignIsolability(Result, Stored):
         return content | self.found.to_dict()
 
 
+@without_blas_threads
 def campaign_isolability(
     campaign: Campaign,
     scheme: SchemeName = "sa3",

@@ -43,7 +43,7 @@ class Skipped:
 
 @dataclass
 class Skipping:
-    """Takes note of what is left out while a diagnosis runs; several threads may do so at once."""
+    """Takes note of what is left out while a diagnosis runs."""
 
     _hypotheses: list[tuple[frozenset[Key], str]] = field(default_factory=list)
     _parts: list[str] = field(default_factory=list)

@@ -35,8 +35,8 @@ class CallableLaw:
     Parameters
     ----------
     function : callable
-        ``function(time, true_strain, parameters, modification)``: true stress, shape (n,) [MPa]. Called from several
-        threads.
+        ``function(time, true_strain, parameters, modification)``: true stress, shape (n,) [MPa]. With `threads=N` it
+        is called in copies of the process.
     names : tuple of str
         Of its parameters, with units.
     starts, lower, upper : tuple of float

@@ -191,6 +191,7 @@ class Gap:
             "fitted": self.in_fitted,
             "held_out": self.in_held_out,
             "p_value": self.test.p_value,
+            "level": self.test.level,
             "size": self.size.to_dict(),
             "scatter": self.scatter.to_dict(),
             "if_alike": self.if_alike,
@@ -260,11 +261,7 @@ def _survivor(
     Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
     level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
-    misfit_over_noise = max(
-        _rms(whitened.clean(index)) / max(noise_level(record.time, record.residual), 1e-300)
-        for index, record in enumerate(whitened.records)
-    )
-    level, noises = calibration.gap_level(misfit_over_noise), whitened.noises
+    level, noises = calibration.gap_level(misfit_over_noise(whitened)), whitened.noises
     test = _tested(whitened, signals, seed, level, scatter)
     if not test.rejected or any(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
@@ -273,6 +270,14 @@ def _survivor(
     drifting = Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises))
     other = _tested(drifting, signals, seed, level, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
+
+
+def misfit_over_noise(whitened: Whitened) -> float:
+    """What is left of a record over its noise from sample to sample, in the record where this is largest."""
+    return max(
+        _rms(whitened.clean(index)) / max(noise_level(record.time, record.residual), 1e-300)
+        for index, record in enumerate(whitened.records)
+    )
 
 
 def _if_alike(base: BaseFit, test: GapTest, seed: int) -> GapTest:

@@ -16,6 +16,7 @@ from probation.law.modal import Law
 from probation.law.modification import CAPABILITIES
 from probation.law.modified import UNCHANGED, ModifiedLaw, engine_law_of, modified, parameter_directions
 from probation.law.schemes import make_solver
+from probation.parallel import BEFORE_EACH
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -160,6 +161,14 @@ def solver_of(view: RecordView) -> _core.Solver:
     if solver is None:
         solver = kept[view] = make_solver(view.history, view.scheme)
     return solver
+
+
+def _forget_solvers() -> None:
+    """What a solver has learned of one solve moves the last digit of the next one."""
+    _THREAD.solvers = WeakKeyDictionary()
+
+
+BEFORE_EACH.append(_forget_solvers)
 
 
 def _named(error: InputError, view: RecordView) -> InputError:

@@ -14,8 +14,8 @@ class GapLaw(Protocol):
     """A law whose gap to reality is to be diagnosed: it predicts a record, says how that depends on its parameters,
     and what it can follow (its capabilities).
 
-    `DnlrLaw` is the engine's law; `probation.CallableLaw` makes one of a Python function. Methods are called from
-    several threads at once.
+    `DnlrLaw` is the engine's law; `probation.CallableLaw` makes one of a Python function. With
+    `threads=N` methods are called in copies of the process.
     """
 
     @property
