@@ -62,11 +62,6 @@ def without_blas_threads(function: Callable[Arguments, Result]) -> Callable[Argu
     return alone
 
 
-def processors() -> int:
-    """How many this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def at_once(threads: int | None) -> int:
     """How many things are worked on at once: as many as are asked for, or one.
 
@@ -172,7 +167,7 @@ def _copies(
     started: list[int] = []
     connections: list[Connection[Any, Any]] = []
     try:
-        with _interrupts_held(), suppress(OSError):  # no further process, or no further file
+        with _interrupts_deferred(), suppress(OSError):  # no further process, or no further file
             for _ in range(count):
                 here, there = Pipe(duplex=False)
                 connections.append(here)
@@ -183,7 +178,7 @@ def _copies(
                 started.append(process)
         yield connections
     finally:
-        with _interrupts_held():
+        with _interrupts_deferred():
             for process in started:
                 with suppress(ProcessLookupError):
                     os.kill(process, signal.SIGKILL)
@@ -249,7 +244,7 @@ def _receive(connections: list[Connection[Any, Any]], finish: Callable[[int, Any
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
+def _interrupts_deferred() -> Iterator[None]:
     """Act on Ctrl-C at the end of the block; a mask would not do, since another thread would take the signal."""
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGINT) is None:
         yield

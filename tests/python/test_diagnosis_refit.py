@@ -11,6 +11,8 @@ from probation.diagnosis.explain import base_parameters
 from probation.effects.cause import Cause
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
+from probation.inference.problem import Problem
+from probation.inference.refit import refit
 
 COUNT = 120
 TIME = np.linspace(0.0, 100.0, COUNT)
@@ -80,6 +82,19 @@ def test_a_quick_search_ends_within_a_tenth_of_the_optimum():
     found = refitted(data(4.0), fading(), most_steps=15, settled=0.02)
     penalty = found.coordinates.prior.penalty(found.coordinates.of(found.parameters))
     assert objective <= found.chi_square + penalty + 1e-9 < objective + 0.1
+
+
+def test_a_search_goes_on_where_another_one_ended_with_the_derivatives_that_it_had(monkeypatch):
+    """Of the same problem; with another noise they are asked for again."""
+    begun = refitted(data(4.0), fading(), most_steps=2)
+    asked, real = [], Problem.residual_and_jacobian
+    monkeypatch.setattr(Problem, "residual_and_jacobian", lambda *given: asked.append(given) or real(*given))
+    assert refit(begun.problem, begun, most_steps=0).chi_square == begun.chi_square
+    assert not asked
+    refit(begun.problem.with_noises(begun.problem.whitener.noises), begun, most_steps=0)
+    assert len(asked) == 1
+    further = refit(begun.problem, begun, settled=0.0, most_steps=100)
+    assert_allclose(further.parameters, refitted(data(4.0), fading()).parameters, rtol=1e-3)
 
 
 def test_an_amplitude_that_wants_below_its_bound_stays_there_and_the_others_settle_beside_it():

@@ -183,28 +183,27 @@ def _parts(
     solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
-    def begun(part: tuple[str, ...]) -> tuple[Problem, FloatArray, Refit | None]:
+    def begun(part: tuple[str, ...]) -> tuple[Problem, FloatArray | Refit]:
         causes = [cause for cause in best.causes if cause.effect.name in part]
         there = solved.get(frozenset(cause_key(cause) for cause in causes))
         if there is not None:  # its causes may stand in another order
-            return base.problem.with_model(there.model), there.parameters, there
+            return base.problem.with_model(there.model), there
         model = best.refit.model.with_causes(causes)
         law, values = best.refit.model.split(best.refit.parameters)
         start = model.parameters(law, *(own for cause, own in values if cause.effect.name in part))
-        return base.problem.with_model(model), start, None
+        return base.problem.with_model(model), start
 
-    def fitted(start: tuple[Problem, FloatArray, Refit | None]) -> Ended | None:
-        problem, parameters, _ = start
+    def fitted(start: tuple[Problem, FloatArray | Refit]) -> Ended | None:
         try:
-            return refit(problem, parameters).ended
+            return refit(*start).ended
         except UNSOLVABLE:
             return None
 
     starts = [begun(part) for part in parts]
-    refits = {
-        part: there if ended is None else Refit.of(problem, ended)
-        for part, (problem, _, there), ended in zip(parts, starts, in_parallel(fitted, starts, threads), strict=True)
-    }
+    refits: dict[tuple[str, ...], Refit | None] = {}
+    for part, (problem, start), ended in zip(parts, starts, in_parallel(fitted, starts, threads), strict=True):
+        there = start if isinstance(start, Refit) else None
+        refits[part] = there if ended is None else Refit.of(problem, ended)
     return {(): base.refit, **refits, known: best.refit if known else base.refit}
 
 

@@ -87,11 +87,8 @@ def _several_surfaces(view: RecordView, values: Values) -> Modification:
 def _slip_element(view: RecordView, values: Values) -> Modification:
     """Back stress of a spring and a slider, dX = (a / r) de while |X| < a, added to the relaxed stress."""
     size, reach = values
-    carried, held = 0.0, [0.0]
-    for step in (np.diff(view.strain_behind_backlash) / reach).tolist():
-        carried = min(max(carried + step, -1.0), 1.0)
-        held.append(carried)
-    return Modification(added_relaxed_stress=size * np.array(held))
+    strain = view.strain_behind_backlash
+    return Modification(added_relaxed_stress=size / reach * (strain - behind(strain, reach)))
 
 
 EFFECT = Effect(
