@@ -11,6 +11,7 @@ from campaigns import gap_noise
 from probation import InputError
 from probation.noise.arma import Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
+from probation.noise.local_size import local_size
 from probation.noise.outliers import find_outliers
 from probation.noise.quantisation import quantisation_step
 from probation.noise.smooth_basis import waves
@@ -96,6 +97,42 @@ def test_a_burst_is_given_its_own_size():
     noise = estimate_noise([*records[:2], replace(records[2], residual=burst), *records[3:]])[2]
     assert noise.growth == "local"
     assert 2.5 < noise.profile[415:435].mean() / np.median(noise.profile) < 7
+
+
+def _loudest(noise):
+    """Largest size along the record over the usual one, 1 if it is the same all along."""
+    size = local_size(noise)
+    return 1.0 if size is None else float(np.max(size) / np.median(size))
+
+
+def test_a_burst_of_eight_samples_is_given_its_own_size():
+    """Five times the noise: a discharge, a slipping belt. A slip in the grips would explain it at a price."""
+    sizes = []
+    for seed in range(60):
+        noise = rng(seed).standard_normal(400)
+        noise[200:208] *= 5.0
+        size = local_size(noise)
+        sizes.append(1.0 if size is None else float(np.median(size[200:208])))
+    assert np.mean(np.array(sizes) > 1.9) > 0.75
+    assert 3.0 < np.median(sizes) < 7.0
+
+
+def test_white_noise_has_hardly_ever_a_burst():
+    assert np.mean([_loudest(rng(seed).standard_normal(400)) > 1.0 for seed in range(300)]) < 0.03
+
+
+@pytest.mark.parametrize("shape", ["step", "kink", "outlier", "decay"])
+def test_what_a_law_may_miss_at_an_instant_is_no_burst(shape):
+    """All of 15 standard deviations of the noise within some samples; a burst would hide it."""
+    since = np.arange(400) - 200.0
+    missed = {
+        "step": 15.0 * (since >= 0),
+        "kink": 15.0 * np.maximum(1.0 - np.abs(since) / 20.0, 0.0),
+        "outlier": 15.0 * (since == 0),
+        "decay": 15.0 * (since >= 0) * np.exp(-since / 8.0),
+    }[shape]
+    bursts = [_loudest(rng(seed).standard_normal(400) + missed) > 1.0 for seed in range(100)]
+    assert np.mean(bursts) < 0.08
 
 
 def test_rounding_is_seen_in_the_data_and_counts_as_noise():

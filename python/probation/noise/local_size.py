@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.ndimage import binary_dilation, median_filter, uniform_filter1d
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.ndimage import uniform_filter1d
 
 from probation.noise.regions import runs
 from probation.settings.noise import NOISE
@@ -25,27 +27,52 @@ def local_size(noise: FloatArray) -> FloatArray | None:
     noise : ndarray, shape (n,)
         What no smooth curve takes, over its growth.
     """
-    rough = np.abs(np.convolve(noise, [1.0, -2.0, 1.0], mode="same"))
     followed = _followed(noise)
-    bursts = _bursts(rough)
-    return bursts if followed is None else followed
+    return _bursts(noise) if followed is None else followed
 
 
-def _bursts(rough: FloatArray) -> FloatArray | None:
-    """By medians over short windows: half of a window has to be in the burst."""
-    typical = float(np.median(rough))
-    if len(rough) < 4 * NOISE.shortest_burst or typical == 0.0:
+def _bursts(noise: FloatArray) -> FloatArray | None:
+    """By what two straight lines, or a line and an outlier, leave in short windows: a step or a kink leaves nothing.
+
+    The cube root of a sum of squares is close to normal (Wilson and Hilferty 1931).
+    """
+    rough = np.abs(np.diff(noise, 2))
+    typical = float(np.median(rough)) if len(rough) else 0.0
+    if len(noise) < 4 * max(NOISE.burst_windows) or typical == 0.0:
         return None
-    ratio = np.maximum(median_filter(rough, NOISE.shortest_burst, mode="nearest") / typical, 1e-3)
-    scatter = float(np.median(np.abs(np.log(ratio)))) / MEDIAN_OF_NORMAL
-    least = max(NOISE.burst_ratio, float(np.exp(NOISE.burst_errors * scatter)))
-    if not np.any(ratio > least):
-        return None
-    size = np.ones(len(rough))
-    # The window's median falls off before the burst ends.
-    for part in runs(binary_dilation(ratio > least, iterations=NOISE.shortest_burst // 4)):
-        size[part] = max(float(np.median(rough[part])) / typical, 1.0)
-    return size
+    rough = np.pad(rough, 1, mode="edge")
+    size = np.ones(len(noise))
+    for width in NOISE.burst_windows:
+        left = np.cbrt(_left_in_windows(noise, width))
+        usual = float(np.median(left))
+        scatter = float(np.median(np.abs(left - usual))) / MEDIAN_OF_NORMAL
+        loud = left > max(usual + NOISE.burst_errors * scatter, usual * NOISE.burst_ratio ** (2.0 / 3.0))
+        for starts in runs(loud):
+            # A window is loud once a third of it lies in the burst.
+            burst = slice(starts.start + width // 3, starts.stop - 1 + width - width // 3)
+            ratio = float(np.median(rough[burst])) / typical
+            if ratio > NOISE.burst_ratio:
+                size[burst] = np.maximum(size[burst], ratio)
+    return size if np.any(size > 1.0) else None
+
+
+def _left_in_windows(noise: FloatArray, width: int) -> FloatArray:
+    """Sum of squares that the best of the fits of `_window_fits` leaves in every window, (n - width + 1,)."""
+    windows = sliding_window_view(noise, width)
+    whole = np.sum(windows**2, axis=1)
+    taken = np.max([np.sum((windows @ basis) ** 2, axis=1) for basis in _window_fits(width)], axis=0)
+    return np.asarray(np.maximum(whole - taken, 0.0), dtype=np.float64)
+
+
+@cache
+def _window_fits(width: int) -> tuple[FloatArray, ...]:
+    """Orthonormal bases of two straight lines that meet nowhere, and of a line and an outlier, at every sample."""
+    sample = np.arange(width, dtype=np.float64)
+    line = [np.ones(width), sample - sample.mean()]
+    after = [(sample >= place).astype(np.float64) for place in range(2, width - 1)]
+    lines = [[*line, step, step * (sample - place)] for place, step in enumerate(after, start=2)]
+    outliers = [[*line, np.eye(width)[place]] for place in range(width)]
+    return tuple(np.linalg.qr(np.column_stack(columns))[0] for columns in lines + outliers)
 
 
 def _followed(noise: FloatArray) -> FloatArray | None:

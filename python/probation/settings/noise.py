@@ -95,14 +95,14 @@ class NoiseSettings:
         "Autocorrelation of the noise's size, in standard errors, from which on it is followed all along.",
     )
     size_window: int = chosen(31, "samples", "Samples over which it is followed.")
-    shortest_burst: int = chosen(
-        15,
+    burst_windows: tuple[int, ...] = chosen(
+        (9, 17),
         "samples",
-        "Samples of the shortest burst that is looked for: so many median sizes say what a step or an outlier cannot.",
+        "Windows in which a burst is looked for: it shows from half a window on, above what two lines leave.",
     )
     burst_ratio: float = chosen(1.9, "-", "A burst has so many times the noise of the record.")
     burst_errors: float = chosen(
-        3.5, "standard deviations", "A burst is so many deviations above the scatter of its windows."
+        4.5, "standard deviations", "A burst is so many deviations above the usual window, by cube roots of squares."
     )
     agreement_level: float = chosen(
         0.001,
