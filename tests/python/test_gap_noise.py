@@ -142,6 +142,16 @@ def test_rounding_is_seen_in_the_data_and_counts_as_noise():
     assert np.median([noise.sigma for noise in noises]) == pytest.approx(0.0462, rel=0.12)
 
 
+def test_a_burst_shows_in_coarse_readings_that_feign_none():
+    """Readings of two standard deviations of the noise; a burst of five times the noise over twelve samples."""
+    records = gap_noise.records("digits", rng(5))
+    burst = records[2].residual.copy()
+    burst[600:612] += 5 * gap_noise.SIGMA * rng(6).standard_normal(12)
+    noises = estimate_noise([*records[:2], replace(records[2], residual=burst), *records[3:]])
+    assert [noise.growth for noise in noises] == ["constant", "constant", "local", *["constant"] * 3]
+    assert np.argmax(noises[2].profile) in range(595, 617)
+
+
 def test_no_grid_is_seen_where_there_is_none():
     assert quantisation_step(rng().standard_normal(500)) == 0.0
     assert quantisation_step(np.round(rng().standard_normal(500) * 300) * 0.025 + 7.0) == pytest.approx(0.025)

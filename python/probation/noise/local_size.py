@@ -28,13 +28,14 @@ def local_size(noise: FloatArray) -> FloatArray | None:
         What no smooth curve takes, over its growth.
     """
     followed = _followed(noise)
-    return _bursts(noise) if followed is None else followed
+    return bursts(noise) if followed is None else followed
 
 
-def _bursts(noise: FloatArray) -> FloatArray | None:
-    """By what two straight lines, or a line and an outlier, leave in short windows: a step or a kink leaves nothing.
+def bursts(noise: FloatArray) -> FloatArray | None:
+    """As `local_size`, by what two straight lines, or a line and an outlier, leave in short windows.
 
-    The cube root of a sum of squares is close to normal (Wilson and Hilferty 1931).
+    A step or a kink leaves nothing there. The cube root of a sum of squares is close to normal (Wilson and Hilferty
+    1931).
     """
     rough = np.abs(np.diff(noise, 2))
     typical = float(np.median(rough)) if len(rough) else 0.0

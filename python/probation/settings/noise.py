@@ -89,6 +89,9 @@ class NoiseSettings:
     coarse_step: float = chosen(
         1.2, "noise", "Readings whose step is this many standard deviations of the noise say nothing of how it grows."
     )
+    coarsest_step: float = chosen(
+        2.5, "noise", "Readings whose step is this many standard deviations of the noise feign bursts themselves."
+    )
     clustered_size: float = chosen(
         4.0,
         "standard errors",
