@@ -1,6 +1,6 @@
 """The ranges that campaigns cover, for `probation/settings/calibrated.py`.
 
-probation blind make --split calibrate --seed 43 --count 360 --out DIR
+probation blind make --split calibrate --seed 43 --count 60 --out DIR
 python -m bench.calibrated_ranges DIR [DIR ...]
 """
 

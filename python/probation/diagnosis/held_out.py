@@ -133,9 +133,11 @@ class HeldToAccount:
         return self._known[key]
 
     def ranked(self, weighed: Sequence[Weighed], covered: float) -> list[Weighed]:
-        """The explanations with those of the answer set put back that make a held-out record worse.
+        """The explanations, most probable first, those less probable that make a held-out record worse.
 
-        They fall only if another known explanation of the answer set does not: what is far less probable is no rival.
+        Each of these keeps `EVIDENCE.held_out_penalty` of its probability, and all are normalised. Only explanations of
+        the answer set without an unknown are judged. Where all of these make one worse, none loses: an explanation
+        outside the answer set is far less probable, and no rival.
 
         Parameters
         ----------

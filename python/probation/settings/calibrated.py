@@ -1,4 +1,4 @@
-"""The campaigns on which the probabilities of a diagnosis were calibrated: the ranges that they cover."""
+"""The campaigns on which the probabilities of a diagnosis were calibrated: the ranges that the first 60 cover."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from probation.settings.setting import calibrated, chosen
 
-_SOURCE = "60 campaigns of calibrate, seed 43: python -m bench.calibrated_ranges"
+_SOURCE = "the first 60 campaigns of calibrate, seed 43: python -m bench.calibrated_ranges"
 
 
 @dataclass(frozen=True)

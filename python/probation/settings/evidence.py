@@ -175,7 +175,11 @@ class EvidenceSettings:
     )
     negligible_form_error: float = chosen(1e-3, "-", "Mean relative error of a form below which it is taken for exact.")
     least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
-    held_out_draws: int = chosen(400, "draws", "Draws of the parameters with which a held-out record is predicted.")
+    held_out_draws: int = chosen(
+        400,
+        "draws",
+        "Draws of a held-out record's noise, by which the misfit of an explanation is known to change by chance.",
+    )
     closure_draws: int = chosen(1000, "draws", "Bootstrap draws of the interval of the explained fraction.")
     fewest_resampled: int = chosen(6, "records", "Records from which on that bootstrap resamples whole records.")
     closure_blocks: int = chosen(8, "parts", "Contiguous parts that are resampled instead where there is one record.")
