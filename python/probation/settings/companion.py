@@ -8,7 +8,7 @@ from probation.settings.setting import chosen
 
 
 @dataclass(frozen=True)
-class CompanionSettings:
+class CompanionCalibrationSettings:
     """The calibration of companion relations."""
 
     fewest_rates: int = chosen(3, "rates", "Different rates from which on one can be left out.")
@@ -43,4 +43,4 @@ class CompanionSettings:
     rate_ends: tuple[float, float] = chosen((5.0, 95.0), "%", "Percentiles of a record's rate that are its range.")
 
 
-COMPANION = CompanionSettings()
+COMPANION = CompanionCalibrationSettings()
