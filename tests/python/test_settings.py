@@ -226,6 +226,43 @@ def test_no_number_in_a_function_has_a_say_of_its_own():
     assert {path: numbers for path, numbers in found.items() if numbers} == IN_FUNCTIONS
 
 
+SPREADS = {"sd", "se", "sigma", "std", "sqrt", "deviation", "noise", "error"}
+"""Parts of the names of standard deviations, and what makes one of a variance."""
+
+
+def _is_spread(node):
+    """Whether a name, an attribute or a call is a standard deviation by its name."""
+    node = node.func if isinstance(node, ast.Call) else node
+    return bool(SPREADS & {*getattr(node, "id", getattr(node, "attr", "")).split("_")})
+
+
+def _multiples_of_spreads(tree):
+    """Comparisons and ends with a literal 2, 3 or 4 that says how many standard deviations matter."""
+    for node in ast.walk(tree):
+        called = isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", ""))
+        if isinstance(node, ast.Compare) or called in {"max", "min", "maximum", "minimum", "clip"}:
+            compared = any(
+                map(_is_spread, [node.left, *node.comparators] if isinstance(node, ast.Compare) else node.args)
+            )
+            for product in ast.walk(node):
+                if isinstance(product, ast.BinOp) and isinstance(product.op, ast.Mult):
+                    factors = [product.left, product.right]
+                    literal = any(isinstance(each, ast.Constant) and each.value in {2, 3, 4} for each in factors)
+                    if literal and (compared or any(map(_is_spread, factors))):
+                        yield ast.unparse(node)
+
+
+def test_how_many_standard_deviations_matter_stands_in_the_settings():
+    """Though 2, 3 and 4 may be factors of a formula."""
+    assert [f"{path}: {found}" for path, tree in _sources() for found in _multiples_of_spreads(tree)] == []
+
+
+@pytest.mark.parametrize("line", ["bias_MPa > 2.0 * self.noise_MPa", "se < 3 * abs(a)", "max(x - 2.0 * np.sqrt(n), 0)"])
+def test_a_number_of_standard_deviations_is_found(line):
+    assert [*_multiples_of_spreads(ast.parse(line))] == [ast.unparse(ast.parse(line))]
+    assert not [*_multiples_of_spreads(ast.parse(line.replace("2.0", "EVIDENCE.some").replace("3", "EVIDENCE.some")))]
+
+
 EXPLAINED = ("records", "schemes", "law", "effects/catalogue")
 """Rooms whose own constants stay where they are used, each with a comment or a docstring that says what it is."""
 

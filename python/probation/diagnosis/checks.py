@@ -56,7 +56,8 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
             float(np.sum(left_out_squares(base, whitened))),
             float(np.sum(left_out_squares(found, whitened))),
         )
-        left_out = 1.0 - (after - count) / (before - count) if before > count + 2.0 * np.sqrt(2.0 * count) else None
+        least = count + EVIDENCE.left_out_gap * np.sqrt(2.0 * count)
+        left_out = 1.0 - (after - count) / (before - count) if before > least else None
     p_value, scatter = amplitude_consistency(hypothesis, whitened) if shared else (None, 0.0)
     notes = []
     if p_value is not None and p_value < EVIDENCE.disagreement_level and scatter > EVIDENCE.disagreement_scatter:
@@ -107,7 +108,7 @@ def amplitude_consistency(hypothesis: Hypothesis, whitened: Whitened) -> tuple[f
     amplitude = float(found.coordinates.of(found.parameters)[column])
     deviation = np.sqrt(np.diag(covariance)[:count])
     # Records that say next to nothing of the amplitude have no vote.
-    known = np.flatnonzero(used[:count] & (deviation < 3.0 * abs(amplitude)))
+    known = np.flatnonzero(used[:count] & (deviation < EVIDENCE.voting_error * abs(amplitude)))
     if known.size < 2 or amplitude == 0.0:
         return None, 0.0
     weight = np.linalg.pinv(covariance[np.ix_(known, known)], hermitian=True)

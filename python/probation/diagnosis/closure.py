@@ -116,8 +116,10 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         float(np.sqrt(after.sum() / total)),
         float(np.sqrt(floor.sum() / total)),
     )
-    if not excess > 2.0 * error:
-        return Closure(*known, None, None, "the gap is not above two standard errors of the noise")
+    if not excess > EVIDENCE.closure_gap * error:
+        return Closure(
+            *known, None, None, f"the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
+        )
     value = 1.0 - float(after.sum() - floor.sum()) / excess
     if len(pieces) == 1 and pieces[0].inside is None:
         parts = pieces[0].blocks()

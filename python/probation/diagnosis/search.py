@@ -253,7 +253,7 @@ class Search:
         """What the best refit leaves of the gap, above the noise for certain; the noise itself is the same for all."""
         best = min((each.chi_square for each in refits), default=np.inf)
         count = len(self.base.whitened)
-        return float(max(best - count - 2.0 * np.sqrt(2.0 * count), 0.0))
+        return float(max(best - count - SEARCH.certain_gap * np.sqrt(2.0 * count), 0.0))
 
     def _limit(self, refits: Sequence[Refit]) -> float:
         """Least that a cause may leave and still be out of the race."""

@@ -20,6 +20,7 @@ from probation.results.data import Stored, from_curves
 from probation.results.frames import by_record, over_samples, rows_frame
 from probation.results.labelled import LabelledMatrix
 from probation.results.rendering import Result, rendered
+from probation.settings.certificate import CERTIFICATE
 from probation.settings.identification import IDENTIFICATION
 from probation.wording import percentage
 
@@ -354,7 +355,7 @@ class Fit(Result, Stored):
             quality = "the law describes the records to within their noise"
             if self.gap.hangs_on_scatter:
                 quality += f" and their specimens' differences ({self.gap.scatter.text})"
-        elif self.bias_MPa > 2.0 * self.noise_MPa:
+        elif self.bias_MPa > CERTIFICATE.bias_over_noise * self.noise_MPa:
             quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:
             quality = f"{bias}, comparable to the noise"

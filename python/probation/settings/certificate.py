@@ -105,6 +105,9 @@ class CertificateSettings:
         "Norm of the scheme's error over the noise, all samples together: its square is what an effect must gain at "
         "least.",
     )
+    bias_over_noise: float = chosen(
+        2.0, "noise", "Bias of a fit from which on it is reported as a multiple of the noise, not as comparable to it."
+    )
     fewest_for_bias: int = chosen(24, "samples", "Samples below which a bias is not looked for.")
     strain_draws: int = chosen(24, "draws", "Draws of the strain noise, of records too long for a matrix of it.")
     most_substeps: int = chosen(

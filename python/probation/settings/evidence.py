@@ -123,6 +123,18 @@ class EvidenceSettings:
     unknown_in_each: float = chosen(0.1, "probability", "Prior share of a size of its own in each record.")
     unknown_records_tried: int = chosen(2, "records", "Records that are tried alone, those with the most left.")
     fewest_to_leave_out: int = chosen(3, "records", "Records below which none can be left out.")
+    left_out_gap: float = chosen(
+        2.0,
+        "standard deviations",
+        "Standard deviations by which the misfit of records that the others predict by the base law must exceed its "
+        "expectation for a part of it to be reported as explained.",
+    )
+    voting_error: float = chosen(
+        3.0,
+        "amplitude",
+        "Standard error of an amplitude in one record, over the amplitude in all, from which on that record has no "
+        "vote on whether they agree.",
+    )
     disagreement_level: float = chosen(
         0.001,
         "-",
@@ -179,6 +191,11 @@ class EvidenceSettings:
         400,
         "draws",
         "Draws of a held-out record's noise, by which the misfit of an explanation is known to change by chance.",
+    )
+    closure_gap: float = chosen(
+        2.0,
+        "standard errors",
+        "Mean square of a gap over its standard error up to which no explained fraction is stated.",
     )
     closure_draws: int = chosen(1000, "draws", "Bootstrap draws of the interval of the explained fraction.")
     fewest_resampled: int = chosen(6, "records", "Records from which on that bootstrap resamples whole records.")

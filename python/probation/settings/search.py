@@ -32,6 +32,9 @@ class SearchSettings:
     strong_gap: float = chosen(
         100.0, "log evidence", "Linearised gain, or misfit beyond its expectation, from which on a gap is strong."
     )
+    certain_gap: float = chosen(
+        2.0, "standard deviations", "Misfit above its expectation that counts as noise: what is beyond it is the gap."
+    )
     steps_apart: int = chosen(
         2,
         "steps",
