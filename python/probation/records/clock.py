@@ -34,10 +34,6 @@ _KEPT = 1000
 """Means of neighbouring samples, in the shorter record, in which the strain itself is compared: for speed."""
 _MOST_PROPOSED = 8
 """Shifts that the rates propose and the strain judges, at most: for speed."""
-_FEWEST = 10
-"""Samples of an onset, at least; half of them rest before it."""
-_FEWEST_STEPS = 20
-"""Steps of the grid in the shorter record, at least: fewer do not determine a shift."""
 _FINER, _REFINEMENTS = 5, 4
 """Factor by which the step of the shift falls in each refinement, and how often: to 1/625 of a step of the grid."""
 _BY = "strain, displacement and force"
@@ -96,7 +92,7 @@ def estimate_shift(
     shorter = min(float(np.ptp(time)), float(np.ptp(strain_time)))
     apart = max(float(np.median(np.diff(time))), float(np.median(np.diff(strain_time))))
     step = max(shorter / _STEPS, apart)
-    if shorter < _FEWEST_STEPS * step or not np.ptp(strain):
+    if shorter < READING.clock_steps * step or not np.ptp(strain):
         return Shift(float(time[0] - strain_time[0]), np.inf, _BY, ())
     machine, film = (time, np.stack([displacement, -force], axis=1)), (strain_time, strain)
     lowest = float(time[0] - strain_time[-1]) + READING.clock_overlap * shorter
@@ -287,7 +283,7 @@ class _Onset(NamedTuple):
 def _onset(time: FloatArray, values: FloatArray) -> _Onset:
     """Find when a signal leaves its rest."""
     size = np.abs(values - np.median(values[: max(len(values) // 50, 3)]))
-    end = max(int(np.argmax(size > READING.clock_onset * size.max())) + 1, _FEWEST)
+    end = max(int(np.argmax(size > READING.clock_onset * size.max())) + 1, READING.clock_onset_samples)
     start, signal = time[:end], values[:end]
     step = max(float(np.ptp(start)) / _STEPS, 1e-12)
     candidates = np.arange(start[0], start[-1] - 2.0 * step, step)
@@ -302,7 +298,7 @@ def _onset(time: FloatArray, values: FloatArray) -> _Onset:
     rests = np.array([float(np.square(rest(at)).sum()) for at in candidates])
     best = float(candidates[int(np.argmin(rests))])
     se = max(_reach(candidates, rests, best, rest(best)), step, float(np.median(np.diff(start))) / 4.0)
-    rested = int((start < best).sum()) >= _FEWEST // 2
+    rested = int((start < best).sum()) >= READING.clock_onset_samples // 2
     varied = max(_square(signal - signal.mean()), 1e-300)
     return _Onset(best, se if rested else np.inf, candidates, rests / varied)
 

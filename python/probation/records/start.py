@@ -27,11 +27,6 @@ FloatArray = NDArray[np.float64]
 STARTS = ("auto", "relaxed", "loaded")
 """`auto` is loaded where no more than a trigger may lose is missing, and else relaxed."""
 
-_FEWEST = 10
-"""Samples behind the strain rate at the start, at least."""
-_FEWEST_OF_FORCE = 4
-"""Samples behind the rate of the stress, at least: it bends soon."""
-
 
 def as_started(record: Record, start: str = "auto") -> Record:
     """Copy a record as its start is to be taken: one of `STARTS`.
@@ -113,13 +108,14 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     """
     time, strain, stress = record.time - record.time[0], record.true_strain, record.true_stress
     beyond = np.flatnonzero(np.abs(stress) > READING.start_reach * abs(stress[0]))
-    straight = int(np.clip(beyond[0] if beyond.size else len(stress), _FEWEST_OF_FORCE, _FEWEST))
+    at_least, at_most = READING.start_samples_of_stress, READING.start_samples
+    straight = int(np.clip(beyond[0] if beyond.size else len(stress), at_least, at_most))
     loading, first = np.polyfit(time[:straight], stress[:straight], 1)
     force_noise = noise_level(record.time, stress)
     if min(abs(first), abs(stress[0])) <= READING.start_noise * force_noise or not loading:
         return None
-    time = time[:_FEWEST]
-    rate, reached = np.polyfit(time, strain[:_FEWEST], 1)
+    time = time[:at_most]
+    rate, reached = np.polyfit(time, strain[:at_most], 1)
     if not rate:  # steps of the extensometer may hide the first strains
         return None
     by_force, by_strain = float(first / loading), float(reached / rate)
@@ -141,7 +137,7 @@ def _line_before(record: Record) -> tuple[float, float] | None:
     """
     time, strain = record.time - record.time[0], record.true_strain
     beyond = np.flatnonzero(np.abs(strain) > READING.start_reach * abs(strain[0]))
-    count = max(int(beyond[0]) if beyond.size else len(strain), _FEWEST)
+    count = max(int(beyond[0]) if beyond.size else len(strain), READING.start_samples)
     driven = np.expm1(strain) if record.control == "displacement-rate" else strain
     rate, first = np.polyfit(time[:count], driven[:count], 1)
     noise = noise_level(record.time, driven)

@@ -18,6 +18,9 @@ class ReadingSettings:
     clock_unknown: float = chosen(
         0.25, "shorter record", "Uncertainty of a shift between clocks from which on it counts as unknown."
     )
+    clock_steps: int = chosen(
+        20, "steps", "Steps of the grid of rates in the shorter record below which no shift is determined."
+    )
     clock_rival: float = chosen(
         25.0,
         "-",
@@ -25,6 +28,9 @@ class ReadingSettings:
     )
     clock_onset: float = chosen(
         0.3, "largest value", "Part of the largest value up to which the onset of a signal is looked for."
+    )
+    clock_onset_samples: int = chosen(
+        10, "samples", "Samples of an onset, at least; half of them must rest before it for it to be known."
     )
     clock_proposed: float = chosen(
         3.0, "least rest", "Rest of the rates at a shift below which the strain decides on that shift."
@@ -38,6 +44,14 @@ class ReadingSettings:
         0.1, "duration", "Time of a record that a temperature log may leave out; the temperature is held there."
     )
     start_reach: float = chosen(4.0, "first strain", "Strain up to which the strain rate at a record's start is taken.")
+    start_samples: int = chosen(
+        10,
+        "samples",
+        "First samples behind the strain rate at a record's start; at least so many where the record was cut.",
+    )
+    start_samples_of_stress: int = chosen(
+        4, "samples", "Samples behind the rate of the stress there, at least: it bends soon."
+    )
     far_start: float = chosen(
         0.02, "largest value", "Strain or stress of the first sample from which on a record does not start at zero."
     )
