@@ -169,3 +169,22 @@ print("probation.report.fit_summary" in sys.modules, "matplotlib" in sys.modules
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "|True False\n"
+
+
+def test_a_fit_of_ramps_loads_neither_optimisers_nor_splines():
+    """They take a tenth of a second, a tenth of the command."""
+    program = """
+import sys
+import numpy as np
+import probation
+law, records = probation.Law(unrelaxed_modulus=3000.0, tau_max=5.0, hardening_modulus=2.0), []
+for name, rate in (("slow", 1e-3), ("fast", 1e-2)):
+    time = np.linspace(0.0, 0.5 / rate, 120)
+    noise = 0.05 * np.random.default_rng(1).standard_normal(120)
+    records.append(probation.Record(name, time, rate * time, probation.ramp_stress(law, rate, time) + noise))
+found = probation.fit(probation.Campaign("two", tuple(records)), gap=True)
+found.summary()
+print(found.gap.in_fitted, *(name for name in ("scipy.optimize", "scipy.interpolate") if name in sys.modules))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"

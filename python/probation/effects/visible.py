@@ -46,10 +46,13 @@ def unloads(views: Sequence[RecordView]) -> bool:
 
 def _sheds_force(view: RecordView) -> bool:
     """Whether the force falls by a good part while the strain is taken back by more than its noise."""
-    turned = np.maximum.accumulate(np.where(view.true_strain == view.largest_strain, np.arange(len(view.time)), 0))
     noise = max(
         EFFECTS.backlash * float(np.ptp(view.true_strain)), EFFECTS.return_over_noise * view.excitation.strain_noise
     )
+    back = view.largest_strain - view.true_strain > noise
+    if not back.any():
+        return False  # its smooth force, whose splines are slow to load, has no say then
+    turned = np.maximum.accumulate(np.where(view.true_strain == view.largest_strain, np.arange(len(view.time)), 0))
     force = view.smooth_nominal_data
-    fall = np.where(view.largest_strain - view.true_strain > noise, force[turned] - force, 0.0)
+    fall = np.where(back, force[turned] - force, 0.0)
     return float(np.max(fall)) > EFFECTS.least_fall * float(np.max(np.abs(force)))
